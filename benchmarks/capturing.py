@@ -115,7 +115,7 @@ def _latency(runs: int) -> Iterator[Measured]:
     late = []
     with TemporaryDirectory() as folder, _plugged_in(instrument.emulator(Scene(machine))) as (port, began):
         options = instrument.options.model_validate({"port": port})
-        with instrument.open(options) as connection, Journal.begun(Path(folder) / "j", header) as journal:
+        with instrument.open(options) as connection, Journal.begin(Path(folder) / "j", header) as journal:
             follower = Follower(journal.progress, settings)
             for event in capture(connection.readings(), follower, journal, lambda moment: moment):
                 if isinstance(event, Recorded):

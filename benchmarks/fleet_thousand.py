@@ -51,17 +51,17 @@ class _Watch:
         self.memory: list[float] = []
         self.failed: list[str] = []
 
-    def planned(self, jobs: Sequence[PlannedJob]) -> None:
+    def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
         """Nothing is noted of it."""
 
-    def learned(self, file: Path) -> None:
+    def note_priors(self, file: Path) -> None:
         """Nothing is noted of it."""
 
-    def noticed(self, notice: NightNotice) -> None:
+    def note_notice(self, notice: NightNotice) -> None:
         """Note it as a failure."""
         self.failed.append(notice.text)
 
-    def happened(self, happened: Happened) -> None:
+    def note_happened(self, happened: Happened) -> None:
         """Look at the worker."""
         if happened.what is not What.ISSUED:
             self.failed.append(f"{happened.job}: {happened.what.value}")
@@ -106,7 +106,7 @@ def _measured(folder: Path, number: int, renderer: str) -> Iterator[Measured]:
     if watch.failed:
         raise SystemExit("\n".join(watch.failed))
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
-        known = len(ledger.certificates())
+        known = len(ledger.list_certificates())
     sizes = [path.stat().st_size for path in fleet.output.rglob("*.pdf")]
     costs = [after - before for before, after in zip(watch.cpu[:-1], watch.cpu[1:], strict=True)]
     part = min(_PART, number // 4)

@@ -105,11 +105,11 @@ def _seed(folder: Path, numbers: Iterable[int]) -> None:
     """Write jobs with their certificates, and what the ledger knows of them, like the first."""
     fleet = load_fleet(folder / "fleet.yaml")
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
-        (first,) = (each for each in ledger.entries() if each.number.endswith("-000000"))
-        basis = ledger.standings()[first.job].basis
+        (first,) = (each for each in ledger.list_entries() if each.number.endswith("-000000"))
+        basis = ledger.list_standings()[first.job].basis
         assert basis
         content = (fleet.output / first.files[0]).read_bytes()
-        with ledger.night(first.night, "seed") as night:
+        with ledger.hold_night(first.night, "seed") as night:
             for each in numbers:
                 job = _write_job(folder, each)
                 number = f"B-{each:06}"

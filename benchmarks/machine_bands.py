@@ -18,7 +18,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from machines.simulated import bare_machine
-from zlmreport.machines.course import Course
+from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.curve import AxisErrorCurve, Means, make_curve_of_means, remove_alignment
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
@@ -73,7 +73,7 @@ def holds(seed: int) -> bool:
     curves.append(AxisErrorCurve("C0Y", np.zeros(1), seen, np.eye(1) * u, ErrorLine({}), "drawn"))
     truth -= square * position[0, 1] * sensing[0, 0]
     motion = np.array([[-np.sign(sensing[0, 1]), np.sign(sensing[0, 0]), 0.0]])
-    found = predict(bare_machine(curves), Course(position, sensing, motion))
+    found = predict(bare_machine(curves), ToolCourse(position, sensing, motion))
     return bool(abs(found.values[0] - truth) <= found.expanded_uncertainty[0])
 
 

@@ -70,13 +70,13 @@ def test_every_object_of_a_built_in_plugin_has_an_entry_point_of_its_own() -> No
 
 def test_the_built_in_plugins_offer_what_their_entry_points_name() -> None:
     registry = find_plugins({})
-    assert registry.offers()
+    assert registry.list_offers()
     assert registry.failed == ()
 
 
 def test_what_an_entry_point_names_is_known_before_it_is_loaded(install: Any) -> None:
     install(_BROKEN)
-    assert "my-effect" in find_plugins({}).identifiers(EFFECT)
+    assert "my-effect" in find_plugins({}).list_identifiers(EFFECT)
     assert "zlm_mine" not in sys.modules
 
 
@@ -89,7 +89,7 @@ def test_a_plugin_that_breaks_is_told_of_to_who_needs_it(install: Any) -> None:
 def test_an_entry_point_that_names_what_its_module_does_not_offer_is_told(install: Any) -> None:
     install(_EFFECT, "[zlmreport.effect]\nmy-efect = zlm_mine\n")
     registry = find_plugins({})
-    registry.offers()
+    registry.list_offers()
     assert [each.reason for each in registry.failed] == [
         "its entry point names effect 'my-efect', and zlmreport_effects offers none"
     ]

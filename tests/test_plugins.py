@@ -50,13 +50,13 @@ def test_what_plugins_offer_is_found_by_name() -> None:
 
 
 def test_origin_of_each_is_known() -> None:
-    plugin = exemplary_registry().origin(STANDARD, "exemplary:1")
+    plugin = exemplary_registry().find_origin(STANDARD, "exemplary:1")
     assert plugin.release == "exemplary-plugins 1.2"
 
 
 def test_versions_are_those_of_the_plugins_that_made_the_results(tmp_path: Path) -> None:
     release = "exemplary-plugins 1.2"
-    versions = exemplary_registry().versions(loaded(SOUND, tmp_path))
+    versions = exemplary_registry().list_versions(loaded(SOUND, tmp_path))
     assert versions == {"exemplary-text": release, "exemplary:1": release}
 
 
@@ -64,7 +64,9 @@ def test_order_of_plugins_does_not_matter() -> None:
     one = (Plugin("a"), offering([ExemplaryStandard()], renderers=[ExemplaryRenderer()]))
     other = (Plugin("b"), offering(sources=[ExemplarySource()]))
     there, back = collect([one, other]), collect([other, one])
-    assert [each.identifier for each in there.offers()] == [each.identifier for each in back.offers()]
+    assert [each.identifier for each in there.list_offers()] == [
+        each.identifier for each in back.list_offers()
+    ]
 
 
 def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
@@ -267,7 +269,7 @@ def test_installed_plugin_is_found(install: Any) -> None:
         "    return [ExemplarySource()]\n")  # fmt: skip
     registry = find_plugins({})
     assert registry.source("exemplary-text").identifier == "exemplary-text"
-    assert registry.origin(SOURCE, "exemplary-text") == Plugin(
+    assert registry.find_origin(SOURCE, "exemplary-text") == Plugin(
         "mine", "zlm_test_mine", "zlm_test_mine", "3.0"
     )
 
@@ -299,7 +301,7 @@ def test_built_in_plugins_are_found_by_their_entry_points() -> None:
     points = distribution("zlmreport").entry_points
     names = {point.name for point in points if point.group.startswith("zlmreport.")}
     registry = find_plugins({})
-    found = {each.plugin.name for each in registry.offers() if each.plugin.distribution == "zlmreport"}
+    found = {each.plugin.name for each in registry.list_offers() if each.plugin.distribution == "zlmreport"}
     assert registry.failed == ()
     assert found == names
 
@@ -333,7 +335,7 @@ def test_file_that_the_command_line_names_is_a_plugin(file: Any) -> None:
     path = file(EFFECT_FILE)
     registry = find_plugins({}, [path])
     assert registry.effect("my-effect").identifier == "my-effect"
-    assert registry.origin(EFFECT, "my-effect") == Plugin("mine", str(path))
+    assert registry.find_origin(EFFECT, "my-effect") == Plugin("mine", str(path))
 
 
 def test_file_that_the_environment_names_is_a_plugin(file: Any) -> None:

@@ -74,7 +74,7 @@ def judged(case: Case) -> Record:
     found |= {"diagnosis": diagnosed - started, "experiment": time.process_time() - diagnosed}
     if advice.plan is None:
         return found | {"followed": None}
-    design = question.next_design(advice.plan, expected)
+    design = question.make_next_design(advice.plan, expected)
     found |= {"minutes": advice.minutes, "session": advice.plan.after is not None}
     return found | {"followed": _followed(trial, advice, advice.plan, design)}
 
@@ -84,7 +84,7 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
     design = wandering(expected, np.random.default_rng([trial.description.seed, 3]))
     # What the job's model describes is in the advised test as it is in every test.
     base = np.concatenate(
-        [term.columns(design, term.grid(design)[0])[0] for term in trial.model.terms], axis=1
+        [term.compute_columns(design, term.make_grid(design)[0])[0] for term in trial.model.terms], axis=1
     )
     again = _measured_again(trial, plan, design, base @ trial.coefficients)
     observed = make_observations_of(again.measurements, overrun=plan.overrun)

@@ -36,7 +36,7 @@ def text() -> str:
     own = [
         effect
         for effect in registry.effects
-        if registry.origin(EFFECT, effect.identifier).distribution == "zlmreport"
+        if registry.find_origin(EFFECT, effect.identifier).distribution == "zlmreport"
     ]
     return "\n\n".join(part for shape in Shape for part in _group(shape, own))
 

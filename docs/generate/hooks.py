@@ -10,7 +10,7 @@ from markdown import code, table
 
 from zlmreport.live.emulation.emulator import Emulator
 from zlmreport.live.ports.reading import LiveReading
-from zlmreport.model.planning.programs import Motion, ProgramStop, Reading
+from zlmreport.model.planning.programs import Motion, PlannedReading, ProgramStop
 from zlmreport.plugin import hooks
 from zlmreport.plugin.extending import Command, CommandHost, CommandOption, ExtensionPlan, Happening, LiveRun
 from zlmreport.plugin.kinds import KINDS
@@ -22,7 +22,7 @@ _PROTOCOLS = (
     SourceContext,
     Motion,
     ProgramStop,
-    Reading,
+    PlannedReading,
     Connection,
     LiveReading,
     Emulator,

@@ -26,7 +26,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import make_job_schema
 from zlmreport.job.types import Options, find_field_at
 from zlmreport.language import Language
-from zlmreport.machines.keys import MachineKeys
+from zlmreport.machines.keys import MachineFileKeys
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.notifiers import zlmreport_notifiers
@@ -76,7 +76,7 @@ def _own_table(model: type[BaseModel]) -> str:
 
 def machine_text() -> str:
     """Return every key of a machine file."""
-    return _table(MachineKeys)
+    return _table(MachineFileKeys)
 
 
 def notifiers_text() -> str:
@@ -111,12 +111,12 @@ def standards_text() -> str:
 
 def programs_text() -> str:
     """Return the keys of each installed writer of part programs."""
-    return _programs_text(find_plugins().programs_for())
+    return _programs_text(find_plugins().list_programs_for())
 
 
 def probing_programs_text() -> str:
     """Return the keys of each installed writer of paths of a probe."""
-    return _programs_text(find_plugins().programs_for(ProbingPath))
+    return _programs_text(find_plugins().list_programs_for(ProbingPath))
 
 
 def extensions_text() -> str:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from markdown import code, symbol, table
 
-from zlmreport.evaluation.evaluation import Basis, Group
+from zlmreport.evaluation.evaluation import Basis, QuantityGroup
 from zlmreport.job.installed import list_adoptions_of
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
@@ -19,9 +19,9 @@ from zlmreport.testing.measurements import good_tests, is_of_circles, names_of_l
 
 _EN, _DE = Language.ENGLISH, Language.GERMAN
 _GROUPS = {
-    Group.SYSTEMATIC: "systematic",
-    Group.RANDOM: "random",
-    Group.COMPOSITE: "composite",
+    QuantityGroup.SYSTEMATIC: "systematic",
+    QuantityGroup.RANDOM: "random",
+    QuantityGroup.COMPOSITE: "composite",
 }
 _BASES = {Basis.PUBLISHED: "published", Basis.APPLIED: "applied *"}
 _LINEAR = Axis("X", travel=(0.0, 1.0), screw_pitch=0.01, signal_period=20e-6, scale_element=0.5)
@@ -42,7 +42,7 @@ def text() -> str:
     own = [
         standard
         for standard in registry.standards
-        if registry.origin(STANDARD, standard.identifier).distribution == "zlmreport"
+        if registry.find_origin(STANDARD, standard.identifier).distribution == "zlmreport"
     ]
     return "\n\n".join(part for standard in own for part in _section(standard))
 

@@ -43,17 +43,17 @@ class _Dialect:
 
     def write(self, motion: Motion, options: Any) -> str:
         """Return the program."""
-        return "".join(f"{line}\n" for line in self.lines(motion, options))
+        return "".join(f"{line}\n" for line in self.write_lines(motion, options))
 
     def write_circle(self, path: CirclePath, options: Any) -> str:
         """Return the program of a circular test."""
-        return "".join(f"{line}\n" for line in self.lines_of_circle(path, options))
+        return "".join(f"{line}\n" for line in self.write_lines_of_circle(path, options))
 
-    def lines(self, motion: Motion, options: Any) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: Any) -> Iterator[str]:
         """Yield the lines of the program."""
         raise NotImplementedError
 
-    def lines_of_circle(self, path: CirclePath, options: Any) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: Any) -> Iterator[str]:
         """Yield the lines of the program of a circular test."""
         raise NotImplementedError
 
@@ -71,7 +71,7 @@ class _Iso:
     between: str = ""  #: A letter and its number.
     omits_end: bool = False  #: Whether a full circle has no end.
 
-    def blocks(self, path: CirclePath, options: ProgramOptions) -> Iterator[str]:
+    def write_blocks(self, path: CirclePath, options: ProgramOptions) -> Iterator[str]:
         """Yield the blocks from the first point to the last."""
         mode = ""
         for block in path.blocks(options.decimals):
@@ -82,15 +82,16 @@ class _Iso:
                 yield wanted
                 mode = wanted
             remark = f" {self.remark(block.remark)}" if block.remark else ""
-            yield f"{self._code(block)} {' '.join(self._words(path, block, options.decimals))}{remark}"
+            words = " ".join(self._write_words(path, block, options.decimals))
+            yield f"{self._choose_code(block)} {words}{remark}"
             if block.begins == "test" and options.wait != "never":
                 yield self.stop
 
-    def _code(self, block: PathBlock) -> str:
+    def _choose_code(self, block: PathBlock) -> str:
         number = {None: 1, Approach.NEGATIVE: 2, Approach.POSITIVE: 3}[block.sense]
         return f"G{number:0{self.digits}d}"
 
-    def _words(self, path: CirclePath, block: PathBlock, decimals: int) -> Iterator[str]:
+    def _write_words(self, path: CirclePath, block: PathBlock, decimals: int) -> Iterator[str]:
         """Yield the words to the end of a block, and of an arc to its centre."""
         if block.end != block.start or not self.omits_end:
             for axis, value in zip(path.circle.axes, block.end, strict=True):
@@ -127,7 +128,7 @@ class LinuxCncProgram(_Dialect):
     suffix = ".ngc"
     options: Any = LinuxCncProgramOptions
 
-    def lines(self, motion: Motion, options: LinuxCncProgramOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: LinuxCncProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options)
         yield from (f"({text})" for text in program_heading(motion))
@@ -143,7 +144,7 @@ class LinuxCncProgram(_Dialect):
                 yield f"G4 P{program_number(motion.dwell)}"
         yield "M2"
 
-    def lines_of_circle(self, path: CirclePath, options: LinuxCncProgramOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: LinuxCncProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         yield from (f"({text})" for text in circle_heading(path, options))
         yield "G21 G90 G94 G40 G49 G80 G91.1 (mm, absolute, feed per minute, no offsets, arcs by I J K)"
@@ -156,7 +157,7 @@ class LinuxCncProgram(_Dialect):
             (f"G4 P{program_number(path.rest)}",),
             "({})".format,
         )
-        yield from words.blocks(path, options)
+        yield from words.write_blocks(path, options)
         yield "M2"
 
 
@@ -196,7 +197,7 @@ class FanucProgram(_Dialect):
     suffix = ".nc"
     options: Any = FanucProgramOptions
 
-    def lines(self, motion: Motion, options: FanucProgramOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: FanucProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options)
         yield "%"
@@ -217,7 +218,7 @@ class FanucProgram(_Dialect):
         yield "M30"
         yield "%"
 
-    def lines_of_circle(self, path: CirclePath, options: FanucProgramOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: FanucProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         yield "%"
         yield f"O{options.number:04d}"
@@ -229,7 +230,7 @@ class FanucProgram(_Dialect):
         words = _Iso(
             "G61 (EXACT STOP)", "G64 (NO STOP)", "M00", (rest,), _write_remark, digits=2, omits_end=True
         )
-        yield from words.blocks(path, options)
+        yield from words.write_blocks(path, options)
         yield "M30"
         yield "%"
 
@@ -263,7 +264,7 @@ class Siemens840dProgram(_Dialect):
     suffix = ".mpf"
     options: Any = Siemens840dOptions
 
-    def lines(self, motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options, _ADDRESS, "X or X1")
         yield from (f"; {text}" for text in program_heading(motion))
@@ -280,16 +281,16 @@ class Siemens840dProgram(_Dialect):
                 yield f"N{stop.reading.number} G4 F{dwell} ; {reading_remark(stop.reading)}"
         yield "M30"
 
-    def lines_of_circle(self, path: CirclePath, options: Siemens840dOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: Siemens840dOptions) -> Iterator[str]:
         """Yield the lines."""
         yield from (f"; {text}" for text in circle_heading(path, options))
         yield "G710 G90 G94 G40 D0 ; mm, absolute, feed per minute, no offsets"
         yield f"{options.work_offset} {_PLANES[path.circle.plane]}"
         yield f"F{program_number(path.feed)}"
         rest = ("STOPRE", f"G4 F{program_number(path.rest)}")
-        yield from _Iso("G60 ; exact stop", "G64 ; no stop", "M0", rest, "; {}".format, between="=").blocks(
-            path, options
-        )
+        yield from _Iso(
+            "G60 ; exact stop", "G64 ; no stop", "M0", rest, "; {}".format, between="="
+        ).write_blocks(path, options)
         yield "M30"
 
 
@@ -316,16 +317,16 @@ class HeidenhainProgram(_Dialect):
     suffix = ".h"
     options: Any = HeidenhainOptions
 
-    def lines(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
         """Yield the lines: its blocks with their numbers."""
-        yield from (f"{number} {block}" for number, block in enumerate(self._blocks(motion, options)))
+        yield from (f"{number} {block}" for number, block in enumerate(self._write_blocks(motion, options)))
 
-    def lines_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
         """Yield the lines: its blocks with their numbers."""
-        blocks = self._blocks_of_circle(path, options)
+        blocks = self._write_blocks_of_circle(path, options)
         yield from (f"{number} {block}" for number, block in enumerate(blocks))
 
-    def _blocks_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+    def _write_blocks_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
         name, feed = _NOT_IN_NAMES.sub("_", path.number), program_number(path.feed)
         first, second = path.circle.axes
         yield f"BEGIN PGM {name} MM"
@@ -349,7 +350,7 @@ class HeidenhainProgram(_Dialect):
                 yield "STOP"
         yield f"END PGM {name} MM"
 
-    def _blocks(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
+    def _write_blocks(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
         axis = axis_address(motion, options)
         name = _NOT_IN_NAMES.sub("_", motion.number)
         feed = program_number(motion.feed)

@@ -28,7 +28,7 @@ from zlmreport.plugin import (
 from zlmreport.plugin.extension import FileFormat, JobInstrument, JobKeys, KeysFile, read_keys_file
 from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
-from zlmreport_step_gauge.tables import NamedColumns, Row, read_named_columns
+from zlmreport_step_gauge.tables import NamedRow, NamedTable, read_named_columns
 
 #: Of the file that a gauge's calibration is.
 FORMAT = FileFormat(
@@ -207,14 +207,14 @@ def _read_table(path: Path) -> CalibratedGauge:
     return CalibratedGauge(gauge, table.source)
 
 
-def _end(table: NamedColumns) -> Place:
+def _end(table: NamedTable) -> Place:
     return table.rows[-1].place if table.rows else table.text.place()
 
 
-def _read_face(row: Row, problems: list[Problem]) -> _Listed | None:
-    number = row.integer("face", problems)
-    nominal, calibrated, expanded = (row.number(column, problems) for column in _COLUMNS[2:])
-    side = _SIDES.get(row.text("side").casefold())
+def _read_face(row: NamedRow, problems: list[Problem]) -> _Listed | None:
+    number = row.read_integer("face", problems)
+    nominal, calibrated, expanded = (row.read_number(column, problems) for column in _COLUMNS[2:])
+    side = _SIDES.get(row.read_text("side").casefold())
     if side is None:
         problems.append(Problem(row.cells["side"].place, "column side: front or back is expected"))
     if expanded is not None and expanded < 0:

@@ -50,7 +50,7 @@ def standard_deviation(errors: FloatArray) -> FloatArray:
     return position_statistics(errors).standard_deviation
 
 
-def interpolated(values: FloatArray) -> FloatArray:
+def interpolate(values: FloatArray) -> FloatArray:
     """Return values at each step: those that are there, and between two of them their mean (Eq. 8 to 11).
 
     XF_{2i} = (XF_{2i−1} + XF_{2i+1})/2, XB_{2i−1} = (XB_{2i−2} + XB_{2i})/2, and likewise SF and SB; shape

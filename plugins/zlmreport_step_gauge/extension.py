@@ -66,8 +66,8 @@ def _list_facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
 def _list_location_facts(located: Located, writer: Writer) -> Iterator[Fact]:
     key = ("step_gauge.initial_points",)
     location = located.location
-    yield Fact(Words("Begins at C1"), _point(location.begin, writer), key)
-    yield Fact(Words("Ends at C2"), _point(location.end, writer), key)
+    yield Fact(Words("Begins at C1"), _write_point(location.begin, writer), key)
+    yield Fact(Words("Ends at C2"), _write_point(location.end, writer), key)
     yield Fact(
         Words("Direction C1C2"),
         f"u = {_write_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
@@ -75,7 +75,7 @@ def _list_location_facts(located: Located, writer: Writer) -> Iterator[Fact]:
     )
 
 
-def _point(coordinates: tuple[float, float, float], writer: Writer) -> str:
+def _write_point(coordinates: tuple[float, float, float], writer: Writer) -> str:
     """Write coordinates to a micrometre: x / y / z."""
     sign = writer.language.decimal_sign
     return " / ".join(fixed_number(MILLIMETRE.from_si(each), 3, sign) for each in coordinates) + " mm"

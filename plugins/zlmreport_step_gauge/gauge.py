@@ -60,13 +60,13 @@ class StepGauge:
         """Numbers of the blocks, rising."""
         return tuple(sorted({face.block for face in self.faces}))
 
-    def face(self, number: int) -> Face | None:
+    def find_face(self, number: int) -> Face | None:
         """Return a face by its number; None if the section does not hold it."""
         return next((face for face in self.faces if face.number == number), None)
 
 
 @dataclass(frozen=True, slots=True)
-class Location:
+class GaugeLocation:
     """Where a step gauge lies in the coordinates of the machine."""
 
     #: begin and end: C1 and C2: centres of the first and the last block of the section, m.

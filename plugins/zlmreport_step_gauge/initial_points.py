@@ -26,7 +26,7 @@ import numpy as np
 
 from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Place, Problem, read_only_floats
 from zlmreport.plugin.source import SourceFile
-from zlmreport_step_gauge.tables import Row, read_named_columns
+from zlmreport_step_gauge.tables import NamedRow, read_named_columns
 
 #: The names of the two blocks in files, in the order of the arrays.
 BLOCKS = ("begin", "end")
@@ -55,7 +55,7 @@ def read_initial_points(path: Path) -> InitialPoints:
     problems = table.problems
     coordinates = np.full((len(BLOCKS), POINTS, 3), np.nan)
     for row in table.rows:
-        found = _point(row, problems)
+        found = _read_point(row, problems)
         if found is None:
             continue
         block, point, place, values = found
@@ -72,14 +72,14 @@ def read_initial_points(path: Path) -> InitialPoints:
     return InitialPoints(read_only_floats(coordinates), table.text.place(), table.source)
 
 
-def _point(row: Row, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
-    name = row.text("block").casefold()
+def _read_point(row: NamedRow, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
+    name = row.read_text("block").casefold()
     if name not in BLOCKS:
         problems.append(Problem(row.cells["block"].place, "column block: begin or end is expected"))
-    point = row.integer("point", problems)
+    point = row.read_integer("point", problems)
     if point is not None and point > POINTS:
         problems.append(Problem(row.cells["point"].place, f"a block has the points 1 to {POINTS}"))
-    values = [row.number(column, problems) for column in ("x", "y", "z")]
+    values = [row.read_number(column, problems) for column in ("x", "y", "z")]
     known = [MILLIMETRE.to_si(value) for value in values if value is not None]
     if name not in BLOCKS or point is None or point > POINTS or len(known) < len(values):
         return None

@@ -17,7 +17,7 @@ from zlmreport_step_gauge.blocks import (
     fit_block,
     fit_block_along,
 )
-from zlmreport_step_gauge.gauge import Location, StepGauge
+from zlmreport_step_gauge.gauge import GaugeLocation, StepGauge
 from zlmreport_step_gauge.initial_points import BLOCKS, InitialPoints
 
 #: An angle from a direction that scatters alike both ways across, in units of its standard uncertainty:
@@ -46,7 +46,7 @@ class Misalignment:
 class Located:
     """A located gauge."""
 
-    location: Location  #: Where it lies.
+    location: GaugeLocation  #: Where it lies.
     #: begin and end: The blocks that were touched.
     begin: Block
     end: Block
@@ -122,7 +122,7 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
     squared = _square_blocks(coordinates, radius, direction)
     upward = squared.upward.sum(axis=0)
     upward = upward - np.dot(upward, direction) * direction
-    location = Location(
+    location = GaugeLocation(
         begin=_take_triple(squared.centre[0]),
         end=_take_triple(squared.centre[1]),
         direction=_take_triple(direction),

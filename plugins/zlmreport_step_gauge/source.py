@@ -40,7 +40,7 @@ from zlmreport_step_gauge.probed import (
     say_wrong_side,
 )
 from zlmreport_step_gauge.set_up import GaugeSetUp
-from zlmreport_step_gauge.tables import Row, read_measured, read_named_columns
+from zlmreport_step_gauge.tables import NamedRow, read_measured, read_named_columns
 
 _TABLE = ("face", "cycle", "x", "y", "z")
 _NORMAL = ("i", "j", "k")
@@ -60,19 +60,19 @@ def read_table(path: Path, gauge: StepGauge, direction: Direction | None) -> Poi
 
 
 def _read_row(
-    row: Row, gauge: StepGauge, direction: Direction | None, problems: list[Problem]
+    row: NamedRow, gauge: StepGauge, direction: Direction | None, problems: list[Problem]
 ) -> ProbedPoint | None:
-    face, cycle = row.integer("face", problems), row.integer("cycle", problems)
-    if any(row.text(column) for column in _TABLE[2:]):
-        coordinates = [row.number(column, problems) for column in _TABLE[2:]]
+    face, cycle = row.read_integer("face", problems), row.read_integer("cycle", problems)
+    if any(row.read_text(column) for column in _TABLE[2:]):
+        coordinates = [row.read_number(column, problems) for column in _TABLE[2:]]
     else:
         coordinates = [math.nan] * 3
     if face is None or cycle is None or None in coordinates:
         return None
-    if all(row.text(column) for column in _NORMAL):
-        normal = [row.number(column, problems) for column in _NORMAL]
+    if all(row.read_text(column) for column in _NORMAL):
+        normal = [row.read_number(column, problems) for column in _NORMAL]
         if None not in normal:
-            message = say_wrong_side([each or 0.0 for each in normal], gauge.face(face), direction)
+            message = say_wrong_side([each or 0.0 for each in normal], gauge.find_face(face), direction)
             if message:
                 problems.append(Problem(row.place, message))
     x, y, z = (MILLIMETRE.to_si(each) for each in coordinates if each is not None)

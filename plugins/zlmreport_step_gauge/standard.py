@@ -218,10 +218,10 @@ def arithmetic(statistics: PositionStatistics) -> Arithmetic:
     stands for what is not defined: at the ends of the section there is no neighbour to interpolate with.
     """
     forward, backward = (
-        equations.interpolated(each) for each in (statistics.mean_positive, statistics.mean_negative)
+        equations.interpolate(each) for each in (statistics.mean_positive, statistics.mean_negative)
     )
     of_forward, of_backward = (
-        2 * equations.interpolated(each) for each in (statistics.s_positive, statistics.s_negative)
+        2 * equations.interpolate(each) for each in (statistics.s_positive, statistics.s_negative)
     )
     reversal = equations.reversal_error(forward, backward)
     columns = {
@@ -264,9 +264,9 @@ _SYMBOLS = {Approach.POSITIVE: "F", Approach.NEGATIVE: "B"}
 def draw_graphs(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield the graphs, as far as the test defines what they show."""
     drawn = _Graphs(evaluation)
-    yield drawn.errors()
+    yield drawn.draw_errors()
     if evaluation.parameter("XR"):
-        yield drawn.reversal()
+        yield drawn.draw_reversal()
 
 
 class _Graphs:
@@ -278,14 +278,14 @@ class _Graphs:
         statistics = evaluation.statistics
         self.mean, self.twice = statistics.mean, 2 * statistics.standard_deviation
 
-    def errors(self) -> Figure:
+    def draw_errors(self) -> Figure:
         """Return the means of both directions, their mean, and two standard deviations about them."""
-        repeatability = [self._repeatability(approach) for approach in Approach]
+        repeatability = [self._draw_repeatability(approach) for approach in Approach]
         shown = diagram_panel(
-            bands=[self._limits(approach) for approach in Approach],
+            bands=[self._draw_limits(approach) for approach in Approach],
             readings=self.diagram.readings(),
             curves=[
-                *(self._curve(approach) for approach in Approach),
+                *(self._draw_curve(approach) for approach in Approach),
                 self.diagram.curve("XM_{i}", Role.MEAN_BIDIRECTIONAL, self.evaluation.column("XM")),
             ],
             arrows=repeatability,
@@ -303,7 +303,7 @@ class _Graphs:
         )
         return self.diagram.figure("errors", title.given(axis=self.diagram.axis.name), alternative, [shown])
 
-    def reversal(self) -> Figure:
+    def draw_reversal(self) -> Figure:
         """Return the reversal error by position."""
         values = self.evaluation.column("XR")
         shown = diagram_panel(curves=[self.diagram.curve("XR_{i}", Role.MEAN_BIDIRECTIONAL, values)])
@@ -314,18 +314,18 @@ class _Graphs:
         )
         return self.diagram.figure("reversal", title.given(axis=self.diagram.axis.name), alternative, [shown])
 
-    def _curve(self, approach: Approach) -> Curve | None:
+    def _draw_curve(self, approach: Approach) -> Curve | None:
         return self.diagram.curve(
             f"X{_SYMBOLS[approach]}_{{i}}", MEAN_ROLES[approach], self.mean[approach.index]
         )
 
-    def _limits(self, approach: Approach) -> Band | None:
+    def _draw_limits(self, approach: Approach) -> Band | None:
         name = _SYMBOLS[approach]
         mean, twice = self.mean[approach.index], self.twice[approach.index]
         return self.diagram.band(
             f"X{name}_{{i}} ± 2S{name}_{{i}}", LIMIT_ROLES[approach], mean - twice, mean + twice
         )
 
-    def _repeatability(self, approach: Approach) -> Arrow | None:
+    def _draw_repeatability(self, approach: Approach) -> Arrow | None:
         mean, twice = self.mean[approach.index], self.twice[approach.index]
         return self.diagram.arrow(f"2S{approach.arrow}", worst_position(twice), mean, mean + twice)

@@ -22,17 +22,17 @@ def read_measured(text: str) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class NamedRow:
     """A row: its cells by the names of their columns; a column that the table lacks has no cell."""
 
     place: Place
     cells: dict[str, TextCell]
 
-    def text(self, column: str) -> str:
+    def read_text(self, column: str) -> str:
         """Return what a cell holds; nothing where the table lacks the column."""
         return self.cells[column].text if column in self.cells else ""
 
-    def number(self, column: str, problems: list[Problem]) -> float | None:
+    def read_number(self, column: str, problems: list[Problem]) -> float | None:
         """Return the number in a cell; None, and a problem, where it holds none."""
         cell = self.cells[column]
         try:
@@ -42,9 +42,9 @@ class Row:
             problems.append(Problem(cell.place, f"column {column}: {message}"))
             return None
 
-    def integer(self, column: str, problems: list[Problem]) -> int | None:
+    def read_integer(self, column: str, problems: list[Problem]) -> int | None:
         """Return the positive whole number in a cell; None, and a problem, where it holds none."""
-        value = self.number(column, problems)
+        value = self.read_number(column, problems)
         if value is not None and not (value >= 1 and value.is_integer()):
             cell = self.cells[column]
             problems.append(
@@ -55,11 +55,11 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class NamedColumns:
+class NamedTable:
     """A table that was read."""
 
     text: TextFile  #: The file.
-    rows: tuple[Row, ...]  #: Those with as many cells as the header.
+    rows: tuple[NamedRow, ...]  #: Those with as many cells as the header.
     problems: list[Problem] = field(default_factory=list)  #: What is wrong with the others.
 
     @property
@@ -68,7 +68,7 @@ class NamedColumns:
         return self.text.source
 
 
-def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str] = ()) -> NamedColumns:
+def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str] = ()) -> NamedTable:
     """Read a table: a header that names the columns, then one row a line, in any order of columns.
 
     Tab, semicolon or comma parts the columns; lines that begin with ``#`` and empty lines are left out.
@@ -84,7 +84,7 @@ def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str
     names = [cell.text.casefold() for cell in header]
     _refuse_other_columns(header, names, needed, optional)
     canonical = {name.casefold(): name for name in (*needed, *optional)}
-    table = NamedColumns(text, ())
+    table = NamedTable(text, ())
     rows = []
     for cells in lines:
         if len(cells) != len(header):
@@ -93,8 +93,8 @@ def read_named_columns(path: Path, needed: Sequence[str], optional: Sequence[str
             )
             continue
         by_name = {canonical[name]: cell for name, cell in zip(names, cells, strict=True)}
-        rows.append(Row(text.place(cells[0].place.line, 1), by_name))
-    return NamedColumns(text, tuple(rows), table.problems)
+        rows.append(NamedRow(text.place(cells[0].place.line, 1), by_name))
+    return NamedTable(text, tuple(rows), table.problems)
 
 
 def _refuse_other_columns(

@@ -19,7 +19,7 @@ from zlmreport.testing.part_programs import (
     expect_program_named,
     expect_same_deeds,
 )
-from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
+from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.paths.path import PathKind, PathSettings, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import plan_path
 
@@ -205,7 +205,9 @@ def sample_path(
     begin = (0.3, 0.04, 0.2)
     x, y, z = (at + 4 * _STEP * by for at, by in zip(begin, _DIRECTION, strict=True))
     front, back = tuple(-each for each in _DIRECTION), _DIRECTION
-    location = Location(begin, (x, y, z), _DIRECTION, _UPWARD, (front[0], front[1], front[2]), back, 1e-5)
+    location = GaugeLocation(
+        begin, (x, y, z), _DIRECTION, _UPWARD, (front[0], front[1], front[2]), back, 1e-5
+    )
     settings = PathSettings(
         kind=kind,
         clearance=5e-3,

@@ -125,7 +125,12 @@ def _list_of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iter
     size = math.hypot(of_face, set_up.probing_uncertainty / math.sqrt(touches))
     if size:
         yield Contribution(
-            _REFERENCE, size, Acts.AT_THE_DATUM, Distribution.NORMAL, _standard(size), _REFERENCE_SOURCE
+            _REFERENCE,
+            size,
+            Acts.AT_THE_DATUM,
+            Distribution.NORMAL,
+            _compute_standard(size),
+            _REFERENCE_SOURCE,
         )
 
 
@@ -133,7 +138,12 @@ def _list_of_touches(set_up: GaugeSetUp) -> Iterator[Contribution]:
     size = set_up.probing_uncertainty
     if size:
         yield Contribution(
-            _TOUCH, size, Acts.AT_EACH_READING, Distribution.NORMAL, _standard(size), STATED_IN_THE_JOB
+            _TOUCH,
+            size,
+            Acts.AT_EACH_READING,
+            Distribution.NORMAL,
+            _compute_standard(size),
+            STATED_IN_THE_JOB,
         )
 
 
@@ -150,7 +160,7 @@ def _list_of_radius(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterato
     source = STATED_IN_THE_JOB if stated else _RADIUS_SOURCE
     if size:
         yield Contribution(
-            _RADIUS, 2 * size, Acts.BETWEEN_DIRECTIONS, Distribution.NORMAL, _standard(size), source
+            _RADIUS, 2 * size, Acts.BETWEEN_DIRECTIONS, Distribution.NORMAL, _compute_standard(size), source
         )
 
 
@@ -197,7 +207,7 @@ def _list_of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contributi
     )
 
 
-def _standard(value: float) -> Words:
+def _compute_standard(value: float) -> Words:
     return _STANDARD.given(value=_round_to_two_digits(MICROMETRE.from_si(value)), unit="µm")
 
 

@@ -39,7 +39,7 @@ class Looked:
     read: MeasurementSet  #: What it holds.
     standard: str  #: By which a job that is begun evaluates it.
 
-    def block(self, file: str, indent: str = "") -> Iterator[str]:
+    def write_block(self, file: str, indent: str = "") -> Iterator[str]:
         """Yield the lines of the ``source:`` block of a job that names the file so, and of its tests."""
         keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
         yield f"{indent}source:"
@@ -145,7 +145,7 @@ def write_job_of(looked: Looked, file: Path, directory: Path) -> str:
             *_write_measured(looked),
             "measurement:",
             *(f"  # {question}" for question in looked.proposal.asks),
-            *looked.block(name, indent="  "),
+            *looked.write_block(name, indent="  "),
             "evaluate:",
             f'  - "{looked.standard}"',
             "output: {formats: [pdf, json]}",

@@ -28,7 +28,7 @@ from zlmreport.document.subjects.doubts import find_doubts_of_runs
 from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.correction.corrections import correct, drop_excluded, find_corrections_of
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.likely_units import find_doubts, find_unlikely_limits
@@ -105,7 +105,7 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     source = registry.source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
-        for extension, choice in registry.extensions_of(job)
+        for extension, choice in registry.list_extensions_of(job)
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
@@ -163,7 +163,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
     def describe(writer: Writer) -> list[Described]:
         said = [
             extension.described(job, choice.options, writer)
-            for extension, choice in registry.extensions_of(job)
+            for extension, choice in registry.list_extensions_of(job)
         ]
         return [each for each in said if each]
 
@@ -280,12 +280,12 @@ def evaluate_tests(
 
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
-    return GENERATOR, registry.versions(job)
+    return GENERATOR, registry.list_versions(job)
 
 
 def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:
     """Yield what the extensions of a job doubt of their groups of keys."""
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         yield from extension.doubts(job, choice.options, measurements)
 
 
@@ -304,7 +304,7 @@ def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registr
         return join_budgets(budgets, brought, job.axis.measurand.contributors, negligible)
     own = tuple(
         contribution
-        for extension, choice in registry.extensions_of(job)
+        for extension, choice in registry.list_extensions_of(job)
         for contribution in extension.contributions(job, choice.options, measurements)
     )
     return make_budget_of(job, measurements, own)
@@ -334,7 +334,7 @@ def evaluate_all(
     `budget`: Of the set-up; without it the job's own.
     """
     stated = job.keys.decision_rule
-    rule = decision_rule(stated.rule, stated.guard_band_factor)
+    rule = make_decision_rule(stated.rule, stated.guard_band_factor)
     budget = budget or make_budget_of_job(job, measurements, registry)
     chosen = choose_standards(job, registry)
     bare = [
@@ -346,7 +346,7 @@ def evaluate_all(
     complete: list[Evaluated] = []
     for (standard, _), evaluation in zip(chosen, add_uncertainty(bare, budget, trials), strict=True):
         reported = check_information(find_information_asked_by(standard), job, measurements, budget)
-        with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
+        with_verdicts = with_decisions(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
         complete.append(Evaluated(with_verdicts, (), budget))
     return tuple(complete)
 
@@ -427,7 +427,7 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     carriers = [each for each in renderers if carries_attachments(each)]
     others = [each for each in renderers if each not in carriers]
     is_asked_for = any(each.identifier == RESULTS for each in others)
-    if carriers and not is_asked_for and RESULTS in registry.identifiers(RENDERER):
+    if carriers and not is_asked_for and RESULTS in registry.list_identifiers(RENDERER):
         others.append(registry.renderer(RESULTS))
     contents = {each.identifier: each.render(certificate) for each in others}
     if carriers:

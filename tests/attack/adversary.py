@@ -79,7 +79,7 @@ def warm_up(known: Sequence[Target]) -> None:
         for name in names:
             with contextlib.suppress(ImportError):  # of a folder that is gone
                 importlib.import_module(name)
-        find.find_plugins({}).offers()
+        find.find_plugins({}).list_offers()
     gc.collect()
     gc.freeze()
 

@@ -213,7 +213,7 @@ def _asked(folder: Path) -> int:
     from zlmreport.web.guard import Door
 
     door, bench = Door.at(8420), Workbench.of([folder / "c/hidden-effect/job.yaml"], find_plugins({}))
-    client = TestClient(bench.app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
+    client = TestClient(bench.make_app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
     client.get(door.address)
     client.headers.update({"Origin": "http://127.0.0.1:8420", "Content-Type": "application/json"})
     lines = dict.fromkeys((folder / "requests").read_bytes().splitlines())

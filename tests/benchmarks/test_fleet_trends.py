@@ -28,10 +28,15 @@ def test_a_step_of_ten_scatters_is_seen_at_once_and_a_steep_drift_soon() -> None
 def test_the_tables_are_printed(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     share = fleet_trends.Share.of([0.5, 0.5, 0.8])
     monkeypatch.setattr(fleet_trends, "night", lambda *_: fleet_trends.Night(share, share, share))
-    monkeypatch.setattr(fleet_trends, "_rows", lambda *_: [("steps", "1", "2")])
+    monkeypatch.setattr(fleet_trends, "unchanged", lambda *_: fleet_trends.Unchanged(0.012, 0.034))
+    monkeypatch.setattr(fleet_trends, "seen", lambda *_: (0.25, 0.75))
+    monkeypatch.setattr(fleet_trends, "quarters_to_name", lambda *_: 8.0)
     monkeypatch.setattr(fleet_trends, "found", lambda *_: 0.5)
     fleet_trends.main(["--fleets", "1"])
     printed = capsys.readouterr().out
+    assert "| False drifts named in a year of an axis | 0.034 | 0.034 |" in printed
+    assert "| A step of 1/5 is seen at once; within a year | 25 %; 75 % | 25 %; 75 % |" in printed
+    assert "| A drift of 1/15 a quarter is named after | 8 quarters | 8 quarters |" in printed
     assert "| 1/15, all alike | 4 | 0.6 ± 0.1 |" in printed
     assert "| 60.0 ± 10.0 % |" in printed
     assert "| 8 | 50 % | 50 % | 50 % | 50 % |" in printed

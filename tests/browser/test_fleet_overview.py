@@ -14,7 +14,7 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import State
-from zlmreport.fleet.state import state_of
+from zlmreport.fleet.state import describe_state
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 
@@ -35,7 +35,7 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ),
         entry(day, job="d", state=State.DRAFT, message="the readings have changed"),
     ]
-    state = state_of("Hall North", entries, [each.job for each in entries], None)
+    state = describe_state("Hall North", entries, [each.job for each in entries], None)
     file = tmp_path_factory.mktemp("overview") / "fleet.html"
     names = Names(find_plugins().standards)
     file.write_text(make_overview(state, Language.GERMAN, names, "."), encoding="utf-8")
@@ -70,7 +70,7 @@ def test_twenty_five_axes_are_looked_through_in_a_few_screens(
         for axis in "XYZBC"
         for each in history([8.0, 8.2, 8.1, 8.3, 8.2, 8.1, 8.15, 8.2], axis=axis)
     ]
-    state = state_of("Hall North", entries, [each.job for each in entries], None)
+    state = describe_state("Hall North", entries, [each.job for each in entries], None)
     file = tmp_path / "fleet.html"
     file.write_text(make_overview(state, language, Names(find_plugins().standards), "."), encoding="utf-8")
     page = window(file.as_uri(), viewport={"width": width, "height": 900})

@@ -13,7 +13,7 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import PastNight
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 
@@ -40,7 +40,7 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
                 interval=80 if number < 10 else 1000,
             )
         )
-    state = state_of("Hall North", entries, [], PastNight(BEGAN, BEGAN), Rules())
+    state = describe_state("Hall North", entries, [], PastNight(BEGAN, BEGAN), Rules())
     file = tmp_path_factory.mktemp("overview") / "fleet.html"
     file.write_text(
         make_overview(state, Language.ENGLISH, Names(find_plugins().standards), "."), encoding="utf-8"

@@ -72,8 +72,10 @@ def test_what_is_made_again_for_a_new_release_alone_is_a_count() -> None:
     stream = StringIO()
     log = TextLog(stream)
     for number in range(3):
-        log.happened(Happened(What.CONFIRMED, f"x{number}.yaml", f"CAL-{number}", is_upgrade=number > 0))
-    log.ended(Counter({What.CONFIRMED: 3}), 2.0)
+        log.write_happened(
+            Happened(What.CONFIRMED, f"x{number}.yaml", f"CAL-{number}", is_upgrade=number > 0)
+        )
+    log.write_end(Counter({What.CONFIRMED: 3}), 2.0)
     lines = [line.partition("  ")[2] for line in stream.getvalue().splitlines()]
     assert lines == [
         "confirmed CAL-0  x0.yaml",

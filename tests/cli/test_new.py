@@ -62,7 +62,7 @@ def test_skeleton_of_an_instrument_is_read(begun: Any) -> None:
 def test_skeleton_is_found_and_names_a_guide_that_there_is(kind: str, begun: Any) -> None:
     folder = begun(kind)
     registry = find_plugins({}, [folder / "my_plugin.py"])
-    offered = {each.identifier for each in registry.offers()}
+    offered = {each.identifier for each in registry.list_offers()}
     expected = {"my-plugin:1", "my-plugin-text"} if kind == "quantity" else {"my-plugin"}
     assert expected <= offered
     for path in folder.glob("*.*"):

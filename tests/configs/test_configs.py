@@ -165,7 +165,7 @@ def test_each_standard_is_shown_by_a_job(jobs: list[Job], registry: Registry) ->
     shown = {choice.identifier for job in jobs for choice in job.standards}
     built_in = {
         identifier
-        for identifier, plugin in ((each.identifier, each.plugin) for each in registry.offers())
+        for identifier, plugin in ((each.identifier, each.plugin) for each in registry.list_offers())
         if plugin.module.startswith("zlmreport_plugins.standards.")
     }
     assert built_in <= shown

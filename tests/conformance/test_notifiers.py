@@ -136,7 +136,7 @@ def test_conforms(
 
 
 def test_both_are_found() -> None:
-    assert find_plugins().identifiers(NOTIFIER) == ("apprise", "mail")
+    assert find_plugins().list_identifiers(NOTIFIER) == ("apprise", "mail")
 
 
 def test_a_secret_that_is_not_there_is_named() -> None:

@@ -11,7 +11,7 @@ from zlmreport.plugin.protocols import PartProgram
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import PART_PROGRAM_CHECKS
 
-PROGRAMS = find_plugins().programs_for()
+PROGRAMS = find_plugins().list_programs_for()
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.identifier)

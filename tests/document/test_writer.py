@@ -103,7 +103,7 @@ DISCLAIMER = (
 )
 def test_a_key_is_marked_by_itself_or_its_group_and_a_group_by_what_is_in_it(keys, mark):
     marks = Marks(frozenset({"environment.air_temperature", "machine.model"}), frozenset({"machine"}))
-    assert marks.after(*keys) == mark
+    assert marks.write_after(*keys) == mark
 
 
 def test_what_the_customer_supplied_is_marked_on_every_page_that_has_it(tmp_path):
@@ -147,15 +147,15 @@ def test_results_of_external_providers_are_named_and_marked(tmp_path):
 def test_every_key_that_others_may_supply_is_marked_where_it_is_printed(tmp_path, monkeypatch):
     """Each key is printed by one that asks for its mark: itself, its group, or what it is a group of."""
     asked = set()
-    usual = Marks.after
+    usual = Marks.write_after
 
     def noting(marks, *keys):
         asked.update(keys)
         return usual(marks, *keys)
 
     write_tables(tmp_path)
-    monkeypatch.setattr(Marks, "after", noting)
+    monkeypatch.setattr(Marks, "write_after", noting)
     certificate(tmp_path, EVERYTHING)
     document(tmp_path, {"ccw": 1, "cw": 1})
     monkeypatch.undo()
-    assert [key for key in list_markable_keys() if not Marks(frozenset({key})).after(*asked)] == []
+    assert [key for key in list_markable_keys() if not Marks(frozenset({key})).write_after(*asked)] == []

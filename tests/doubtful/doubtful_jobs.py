@@ -12,7 +12,7 @@ import numpy as np
 from document.certificate import documents
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 
 #: Everything that an assessor could ask for is stated.
 SOUND: Mapping[str, Any] = {
@@ -126,7 +126,7 @@ def cover(document: Certificate) -> str:
     return "\n".join(line for block in document.cover for line in documents.lines_of(block))
 
 
-def parameter(document: Certificate, symbol: str) -> Parameter:
+def parameter(document: Certificate, symbol: str) -> EvaluatedParameter:
     """Return a result by the first standard."""
     found = document.evaluations[0].parameter(symbol)
     assert found is not None

@@ -168,7 +168,7 @@ def test_an_artefact_with_this_document_as_its_certificate_is_no_link(
     assert f"{said}: the calibration certificate named, {number}, is this document" in say(
         traceability.find_doubts_of_artefacts(job)
     )
-    assert traceability.find_chain(job) == traceability.Chain()
+    assert traceability.find_chain(job) == traceability.TraceabilityChain()
     broken = "\n".join(map(str, traceability.find_broken_chain(job)))
     assert (".certificate: " in broken) == (job.keys.certificate.kind == "certificate")
 

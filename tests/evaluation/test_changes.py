@@ -8,7 +8,7 @@ import pytest
 
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, compare_parameters
+from zlmreport.evaluation.evaluation import Change, EvaluatedParameter, Evaluation, compare_parameters
 from zlmreport.evaluation.report import report_changes
 from zlmreport.job.types import Options
 from zlmreport.testing import simulated_test
@@ -17,12 +17,12 @@ ISO = STANDARDS["iso230-2:2014"]
 A, E, R = (next(each for each in ISO.quantities if each.symbol == symbol) for symbol in "AER")
 
 
-def of(*parameters: Parameter) -> Evaluation:
+def of(*parameters: EvaluatedParameter) -> Evaluation:
     return replace(evaluate(ISO, simulated_test(), Options(), {}), parameters=parameters)
 
 
-BEFORE = of(Parameter(A, 10e-6, None, 1e-6, 2.0), Parameter(R, 4e-6))
-AFTER = of(Parameter(E, 3e-6), Parameter(A, 7e-6, None, 2e-6, 2.0))
+BEFORE = of(EvaluatedParameter(A, 10e-6, None, 1e-6, 2.0), EvaluatedParameter(R, 4e-6))
+AFTER = of(EvaluatedParameter(E, 3e-6), EvaluatedParameter(A, 7e-6, None, 2e-6, 2.0))
 
 
 def test_a_parameter_of_one_test_stands_beside_nothing() -> None:

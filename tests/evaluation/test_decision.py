@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.decision import Guard, decided, decision_rule
+from zlmreport.evaluation.decision import Guard, make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Conformity, Decision, Parameter
+from zlmreport.evaluation.evaluation import Conformity, Decision, EvaluatedParameter
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.testing import bidirectional_test, simulated_test
@@ -29,8 +29,8 @@ OPEN = Conformity.UNDECIDED
 
 
 def decision(rule: str, value: float, expanded: float | None = EXPANDED, factor: float = 1.0) -> Decision:
-    found = decision_rule(rule, factor).decide(
-        Parameter(A, value, LIMIT, expanded, None if expanded is None else 2.0)
+    found = make_decision_rule(rule, factor).decide(
+        EvaluatedParameter(A, value, LIMIT, expanded, None if expanded is None else 2.0)
     )
     assert found is not None
     return found
@@ -82,16 +82,16 @@ def test_a_guard_band_is_as_wide_as_its_factor_says() -> None:
 
 
 def test_a_guard_band_is_as_wide_as_u_if_no_factor_is_stated() -> None:
-    assert decision_rule("guard-band") == decision_rule("guard-band", 1.0)
+    assert make_decision_rule("guard-band") == make_decision_rule("guard-band", 1.0)
 
 
 @pytest.mark.parametrize("rule", ["simple", "guard-band", "iso14253-1", "non-binary"])
 def test_a_rule_is_called_as_jobs_name_it(rule: str) -> None:
-    assert decision_rule(rule).identifier == rule
+    assert make_decision_rule(rule).identifier == rule
 
 
 def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> None:
-    assert (decision_rule("iso14253-1").factor, decision_rule("iso14253-1").guard) == (
+    assert (make_decision_rule("iso14253-1").factor, make_decision_rule("iso14253-1").guard) == (
         1.65,
         Guard.STANDARD_UNCERTAINTY,
     )
@@ -99,16 +99,18 @@ def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> N
 
 @pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
 def test_an_uncertainty_that_is_not_complete_decides_nothing(rule: str) -> None:
-    known = Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
+    known = EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
 
-    found = decision_rule(rule).decide(known, uncertainty_is_complete=False)
+    found = make_decision_rule(rule).decide(known, uncertainty_is_complete=False)
     assert found == Decision(OPEN, None, None, None)
 
 
 def test_an_evaluation_says_whether_its_uncertainty_is_complete() -> None:
-    known = (Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
+    known = (EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
     evaluation = replace(evaluate(ISO, simulated_test(), Options(), {}), parameters=known)
-    found = decided(replace(evaluation, uncertainty_is_complete=False), decision_rule("guard-band"))
+    found = with_decisions(
+        replace(evaluation, uncertainty_is_complete=False), make_decision_rule("guard-band")
+    )
 
     assert found.parameters[0].conforms is None
 
@@ -130,7 +132,7 @@ def test_simple_acceptance_needs_no_uncertainty_but_knows_no_risk_without_it() -
 
 
 def test_a_parameter_without_limit_has_no_decision() -> None:
-    assert decision_rule("simple").decide(Parameter(A, 1e-6)) is None
+    assert make_decision_rule("simple").decide(EvaluatedParameter(A, 1e-6)) is None
 
 
 def test_a_limit_is_held_against_the_unrounded_value() -> None:
@@ -141,7 +143,9 @@ def test_a_range_of_exactly_the_limit_conforms_in_spite_of_binary_rounding() -> 
     assert 3e-6 - 1e-6 > 2e-6  # what a bare comparison would stumble over
     first, second = [1.0, 1.0], [3.0, 3.0]
     measurements = bidirectional_test([0, 100], [first, second], [first, second])
-    evaluation = decided(evaluate(ISO, measurements, Options(), {"E": 2e-6}), decision_rule("simple"))
+    evaluation = with_decisions(
+        evaluate(ISO, measurements, Options(), {"E": 2e-6}), make_decision_rule("simple")
+    )
     found = evaluation.parameter("E")
 
     assert found is not None
@@ -208,9 +212,10 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
     measurements = simulated_test()
     evaluation = evaluate(ISO, measurements, Options(), {"A": 1e-6})
     uncertain = tuple(
-        Parameter(each.quantity, each.value, each.limit, EXPANDED, 2.0) for each in evaluation.parameters
+        EvaluatedParameter(each.quantity, each.value, each.limit, EXPANDED, 2.0)
+        for each in evaluation.parameters
     )
-    found = decided(replace(evaluation, parameters=uncertain), decision_rule("guard-band"))
+    found = with_decisions(replace(evaluation, parameters=uncertain), make_decision_rule("guard-band"))
 
     said = [each.found.in_language(Language.ENGLISH) for each in found.findings if each.met is False]
     assert said[-1] == "the guard band is as wide as the limit: no value of A could conform"
@@ -225,9 +230,9 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
 def test_a_guard_band_up_to_the_limit_is_no_finding(expanded: float) -> None:
     """As wide as the limit, it leaves one value that conforms: 0."""
     evaluation = evaluate(ISO, simulated_test(), Options(), {})
-    evaluation = replace(evaluation, parameters=(Parameter(A, 0.0, LIMIT, expanded, 2.0),))
+    evaluation = replace(evaluation, parameters=(EvaluatedParameter(A, 0.0, LIMIT, expanded, 2.0),))
 
-    assert decided(evaluation, decision_rule("guard-band")).findings == evaluation.findings
+    assert with_decisions(evaluation, make_decision_rule("guard-band")).findings == evaluation.findings
 
 
 @pytest.mark.parametrize("rule", ["simple", "guard-band", "non-binary"])
@@ -236,8 +241,8 @@ def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
     rule: str, value: float, known_error: float
 ) -> None:
     """4 µm of which 60 µm are known to be missing exceed 20 µm, and 30 µm with 26 µm too many do not."""
-    uncertain = Parameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
-    found = decision_rule(rule).decide(uncertain)
+    uncertain = EvaluatedParameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
+    found = make_decision_rule(rule).decide(uncertain)
 
     assert found is not None
     # Of 4 µm guarded acceptance says no, as it would of 64 µm.
@@ -246,9 +251,9 @@ def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
 
 
 def test_a_known_error_that_turns_nothing_leaves_the_statement() -> None:
-    small = Parameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
+    small = EvaluatedParameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
 
     for rule in ("simple", "guard-band", "non-binary", "iso14253-1"):
-        found = decision_rule(rule).decide(small)
+        found = make_decision_rule(rule).decide(small)
         assert found is not None
         assert found.conformity is MET

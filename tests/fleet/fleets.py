@@ -76,7 +76,7 @@ class Here:
     def __exit__(self, *_: object) -> None:
         pass
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             yield task, making.make_certificate(task)
 
@@ -90,16 +90,16 @@ class Witness:
     notices: list[NightNotice] = field(default_factory=list)
     priors: list[Path] = field(default_factory=list)
 
-    def planned(self, jobs: Sequence[PlannedJob]) -> None:
+    def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
         self.jobs = jobs
 
-    def happened(self, happened: Happened) -> None:
+    def note_happened(self, happened: Happened) -> None:
         self.seen.append(happened)
 
-    def noticed(self, notice: NightNotice) -> None:
+    def note_notice(self, notice: NightNotice) -> None:
         self.notices.append(notice)
 
-    def learned(self, file: Path) -> None:
+    def note_priors(self, file: Path) -> None:
         self.priors.append(file)
 
     @property
@@ -162,7 +162,7 @@ class Fleet:
 
     def entries(self) -> list[LedgerEntry]:
         with Ledger.open(self.file.ledger, self.file.name) as ledger:
-            return list(ledger.entries())
+            return list(ledger.list_entries())
 
     def certificate(self, stem: str, suffix: str = ".txt") -> Path:
         return self.folder / f"certificates/17/X/CAL-{stem.upper()}{suffix}"

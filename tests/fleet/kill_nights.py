@@ -62,7 +62,7 @@ def wrong(fleet: Fleet, expected: dict[str, str]) -> Iterator[str]:
         yield f"files differ: {sorted(set(digests.items()) ^ set(expected.items()))}"
     made = Counter(each.number for each in fleet.entries() if each.state is State.MADE)
     with Ledger.open(fleet.file.ledger, fleet.file.name) as ledger:
-        certificates = ledger.certificates()
+        certificates = ledger.list_certificates()
     for issued in certificates.values():
         for file in issued.files:
             if digests.get(Path(file.path).name) != file.sha256:
@@ -107,7 +107,7 @@ def counting(patch: pytest.MonkeyPatch, last: int) -> Callable[[], int]:
 
     for owner, name in (
         (files, "push_folder"),
-        (issuing.Laid, "name"),
+        (issuing.Laid, "name_files"),
         (Night, "issue"),
         (Night, "add"),
         (Night, "end"),

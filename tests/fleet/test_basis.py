@@ -53,13 +53,13 @@ def test_a_file_that_looks_the_same_is_not_read(tmp_path: Path, monkeypatch: pyt
     path = tmp_path / "x.csv"
     path.write_bytes(CONTENT)
     file = KnownFile("readings", "x.csv", "of something else", FileStamp.at(path))
-    monkeypatch.setattr(Disk, "digest", lambda *_: pytest.fail("the file is read"))
+    monkeypatch.setattr(Disk, "compute_digest", lambda *_: pytest.fail("the file is read"))
     assert Disk(tmp_path).still_has(file)
 
 
 def test_a_file_without_a_look_is_read(tmp_path: Path) -> None:
     (tmp_path / "x.csv").write_bytes(CONTENT)
-    digest = Disk(tmp_path).digest("x.csv") or ""
+    digest = Disk(tmp_path).compute_digest("x.csv") or ""
     assert Disk(tmp_path).still_has(KnownFile("readings", "x.csv", digest))
     assert not Disk(tmp_path).still_has(KnownFile("readings", "x.csv", "of something else"))
 
@@ -84,4 +84,4 @@ def test_a_newer_release_is_said(tmp_path: Path) -> None:
 
 
 def test_a_file_that_cannot_be_read_has_no_digest(tmp_path: Path) -> None:
-    assert Disk(tmp_path).digest("none") is None
+    assert Disk(tmp_path).compute_digest("none") is None

@@ -10,7 +10,7 @@ from icalendar import Calendar
 from fleet.histories import entry
 from zlmreport.fleet.exports import write_calendar
 from zlmreport.fleet.records import PastNight
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language
 
 ENTRIES = [
@@ -21,7 +21,7 @@ NIGHT = PastNight(dt.datetime(2026, 7, 1, 2, tzinfo=dt.UTC), None)
 
 
 def test_each_axis_has_its_day_with_a_reminder_two_weeks_before() -> None:
-    state = state_of("Hall North", ENTRIES, ["x.yaml", "y.yaml"], NIGHT, Rules(365))
+    state = describe_state("Hall North", ENTRIES, ["x.yaml", "y.yaml"], NIGHT, Rules(365))
     read = Calendar.from_ical(write_calendar(state, Language.ENGLISH))
     assert read["NAME"] == read["X-WR-CALNAME"] == "Hall North: tests that are due"
     days = [(each.decoded("DTSTART"), str(each["SUMMARY"])) for each in read.walk("VEVENT")]
@@ -35,7 +35,7 @@ def test_each_axis_has_its_day_with_a_reminder_two_weeks_before() -> None:
 
 def test_the_same_ledger_gives_the_same_bytes_and_a_new_measurement_another_entry() -> None:
     def made(*entries: object) -> bytes:
-        return write_calendar(state_of("Hall", entries, ["x.yaml"], NIGHT, Rules(365)), Language.GERMAN)  # type: ignore[arg-type]
+        return write_calendar(describe_state("Hall", entries, ["x.yaml"], NIGHT, Rules(365)), Language.GERMAN)  # type: ignore[arg-type]
 
     first, again = made(ENTRIES[0]), made(replace(ENTRIES[0], measured="2026-07-01"))
     assert first == made(ENTRIES[0])
@@ -45,5 +45,5 @@ def test_the_same_ledger_gives_the_same_bytes_and_a_new_measurement_another_entr
 
 
 def test_a_fleet_without_intervals_has_an_empty_calendar() -> None:
-    read = Calendar.from_ical(write_calendar(state_of("Hall", ENTRIES, [], None), Language.ENGLISH))
+    read = Calendar.from_ical(write_calendar(describe_state("Hall", ENTRIES, [], None), Language.ENGLISH))
     assert list(read.walk("VEVENT")) == []

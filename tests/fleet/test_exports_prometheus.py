@@ -13,7 +13,7 @@ from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.exports import write_heartbeat, write_metrics
 from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import same
 
 NIGHT = PastNight(
@@ -27,7 +27,7 @@ def told(
     entries: Sequence[LedgerEntry], name: str = "Hall North", night: PastNight | None = NIGHT
 ) -> dict[str, Family]:
     rules = Rules(interval=365)
-    return parse(write_metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
+    return parse(write_metrics(describe_state(name, entries, [each.job for each in entries], night, rules)))
 
 
 def only(families: dict[str, Family], name: str) -> float:

@@ -78,7 +78,7 @@ def address(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
 
 @contextlib.contextmanager
 def night(address: str, began: str = NIGHTS[0], fleet: str = "north") -> Iterator[tuple[Ledger, Night]]:
-    with Ledger.open(address, fleet) as ledger, ledger.night(began, "fleet.yaml") as at_work:
+    with Ledger.open(address, fleet) as ledger, ledger.hold_night(began, "fleet.yaml") as at_work:
         yield ledger, at_work
 
 
@@ -89,7 +89,7 @@ def test_an_entry_comes_back_as_it_was_given(address: str) -> None:
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
         at_work.add(FAILURE)
-        assert list(ledger.entries()) == [ENTRY, FAILURE]
+        assert list(ledger.list_entries()) == [ENTRY, FAILURE]
 
 
 def test_each_entry_has_its_own_parameters(address: str) -> None:
@@ -97,17 +97,17 @@ def test_each_entry_has_its_own_parameters(address: str) -> None:
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
         at_work.issue(others, FILES, BASIS)
-        assert list(ledger.entries()) == [ENTRY, others]
+        assert list(ledger.list_entries()) == [ENTRY, others]
 
 
 def test_a_night_knows_whose_place_it_took(tmp_path: Path) -> None:
     with Ledger.open(str(tmp_path / "ledger.db"), "north") as ledger:
-        assert ledger._begun(NIGHTS[1], NIGHTS[0]).took_over == NIGHTS[0]
+        assert ledger._begin(NIGHTS[1], NIGHTS[0]).took_over == NIGHTS[0]
 
 
 def test_to_begin_is_a_sign_of_life(address: str) -> None:
     with night(address) as (ledger, _):
-        last = ledger.last_night()
+        last = ledger.find_last_night()
         assert last is not None
         assert last.beat == last.began
 
@@ -115,7 +115,7 @@ def test_to_begin_is_a_sign_of_life(address: str) -> None:
 def test_what_a_certificate_was_made_from_comes_back(address: str) -> None:
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
-        standing = ledger.standings()["x.yaml"]
+        standing = ledger.list_standings()["x.yaml"]
         assert (standing.basis, standing.files, standing.night) == (BASIS, FILES, NIGHTS[0])
 
 
@@ -126,11 +126,11 @@ def test_the_latest_entry_of_each_job_is_found(address: str) -> None:
     with night(address, NIGHTS[1]) as (ledger, at_work):
         draft = replace(ENTRY, night=NIGHTS[1], state=State.DRAFT)
         at_work.add(draft, FILES, BASIS)
-        assert {job: each.state for job, each in ledger.standings().items()} == {
+        assert {job: each.state for job, each in ledger.list_standings().items()} == {
             ENTRY.job: State.DRAFT,
             FAILURE.job: State.FAILED,
         }
-        assert list(ledger.certificates()) == [ENTRY.number]
+        assert list(ledger.list_certificates()) == [ENTRY.number]
 
 
 def test_a_certificate_confirmed_keeps_its_first_entry(address: str) -> None:
@@ -138,9 +138,9 @@ def test_a_certificate_confirmed_keeps_its_first_entry(address: str) -> None:
         at_work.issue(ENTRY, FILES, BASIS)
     with night(address, NIGHTS[1]) as (ledger, at_work):
         at_work.issue(replace(ENTRY, night=NIGHTS[1]), FILES, BASIS)
-        assert ledger.certificates()["CAL-1"].night == NIGHTS[0]
-        assert len(list(ledger.entries())) == 2
-        assert len(ledger.certificates()) == 1
+        assert ledger.list_certificates()["CAL-1"].night == NIGHTS[0]
+        assert len(list(ledger.list_entries())) == 2
+        assert len(ledger.list_certificates()) == 1
 
 
 def test_a_number_is_given_once_whatever_fleet_asks(address: str) -> None:
@@ -149,15 +149,15 @@ def test_a_number_is_given_once_whatever_fleet_asks(address: str) -> None:
     with night(address, fleet="south") as (ledger, at_work):
         with pytest.raises(NumberTakenError):
             at_work.issue(ENTRY, FILES, BASIS)
-        assert not list(ledger.entries())
-        assert ledger.certificates()["CAL-1"].fleet == "north"
+        assert not list(ledger.list_entries())
+        assert ledger.list_certificates()["CAL-1"].fleet == "north"
 
 
 def test_fleets_see_their_own_jobs_only(address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
     with Ledger.open(address, "south") as ledger:
-        assert not list(ledger.entries())
+        assert not list(ledger.list_entries())
 
 
 def test_a_night_that_did_not_end_is_noticed_by_the_next(address: str) -> None:
@@ -176,7 +176,7 @@ def test_a_second_night_is_excluded_while_the_first_is_at_work(address: str) -> 
         Ledger.open(address, "south") as second,
         pytest.raises(AccessError, match="another night is at work on this ledger"),
     ):
-        second.night(NIGHTS[0], "fleet.yaml").__enter__()
+        second.hold_night(NIGHTS[0], "fleet.yaml").__enter__()
     with night(address, fleet="south") as (_, at_work):
         assert at_work.fleet == "south"
 
@@ -185,7 +185,7 @@ def test_a_reader_is_let_in_during_a_night(address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
         with Ledger.open(address, "north", create=False) as reader:
-            assert list(reader.entries()) == [ENTRY]
+            assert list(reader.list_entries()) == [ENTRY]
 
 
 def test_nights_of_a_fleet_are_kept(address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -248,12 +248,12 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
         connection.execute(text(f"UPDATE ledger_format SET format = {older}"))
     engine.dispose()
     with night(address, NIGHTS[1]) as (ledger, at_work):
-        assert list(ledger.entries()) == [ENTRY]
+        assert list(ledger.list_entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
         at_work.notice([NightNotice(About.CLOCK, _SET_BACK)])
         at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
-        assert [each.lesson for each in ledger.lessons()] == [{"kind": "linear"}]
-        last = ledger.last_night()
+        assert [each.lesson for each in ledger.list_lessons()] == [{"kind": "linear"}]
+        last = ledger.find_last_night()
         assert last is not None
         assert last.notices == (NightNotice(About.CLOCK, _SET_BACK),)
 
@@ -262,10 +262,10 @@ def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:
     copy = tmp_path / "copy.db"
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
-        ledger.backup(copy)
+        ledger.write_backup(copy)
     with Ledger.open(str(copy), "north") as copied:
-        assert list(copied.entries()) == [ENTRY]
-        assert copied.certificates()["CAL-1"].files == FILES
+        assert list(copied.list_entries()) == [ENTRY]
+        assert copied.list_certificates()["CAL-1"].files == FILES
 
 
 @pytest.fixture
@@ -290,33 +290,33 @@ def test_what_the_latest_certificate_of_a_job_states_is_found(north: tuple[Ledge
     at_work.issue(ENTRY, FILES, BASIS)
     at_work.issue(replace(ENTRY, job="z.yaml", number="CAL-9", parameters=ENTRY.parameters[1:]), FILES, BASIS)
     at_work.add(replace(ENTRY, state=State.DRAFT, parameters=()))
-    assert at_work.stated("x.yaml") == ENTRY.parameters
-    assert at_work.stated("y.yaml") == ()
+    assert at_work.find_stated_parameters("x.yaml") == ENTRY.parameters
+    assert at_work.find_stated_parameters("y.yaml") == ()
 
 
 def test_news_is_told_once_by_each_way_and_only_the_own(north: tuple[Ledger, Night]) -> None:
     _, at_work = north
     at_work.report([FAILED, OVERDUE])
-    assert at_work.untold("mail", was_tried=True) == (FAILED, OVERDUE)
+    assert at_work.list_untold("mail", was_tried=True) == (FAILED, OVERDUE)
     at_work.tell("mail")
-    assert (at_work.untold("mail", was_tried=True), at_work.untold("page", was_tried=True)) == (
+    assert (at_work.list_untold("mail", was_tried=True), at_work.list_untold("page", was_tried=True)) == (
         (),
         (FAILED, OVERDUE),
     )
     at_work.tell("mail")  # again: nothing changes
     at_work.tell("page")
-    assert at_work.untold("page", was_tried=True) == ()
+    assert at_work.list_untold("page", was_tried=True) == ()
 
 
 def test_what_is_told_is_told_to_nobody_else(north: tuple[Ledger, Night]) -> None:
     ledger, at_work = north
     at_work.report([FAILED])
     at_work.tell("mail")
-    assert at_work.untold("mail", was_tried=True) == ()
+    assert at_work.list_untold("mail", was_tried=True) == ()
     with Ledger.open(f"{ledger._database.engine.url.database}", "south") as south:
-        assert replace(at_work, fleet="south", database=south._database).untold("mail", was_tried=True) == (
-            OVERDUE,
-        )
+        assert replace(at_work, fleet="south", database=south._database).list_untold(
+            "mail", was_tried=True
+        ) == (OVERDUE,)
 
 
 def test_a_condition_that_ended_is_news_when_it_comes_back_and_an_event_never(
@@ -325,14 +325,14 @@ def test_a_condition_that_ended_is_news_when_it_comes_back_and_an_event_never(
     _, at_work = north
     for news in ([FAILED, OVERDUE], [FAILED], [], [FAILED, OVERDUE]):
         at_work.report(news)
-    assert at_work.untold("mail", was_tried=True) == (FAILED, OVERDUE, FAILED)
+    assert at_work.list_untold("mail", was_tried=True) == (FAILED, OVERDUE, FAILED)
 
 
 def test_a_condition_that_was_not_looked_at_goes_on(north: tuple[Ledger, Night]) -> None:
     _, at_work = north
     for news in ([FAILED], [], [FAILED]):
         at_work.report(news, is_all=False)
-    assert at_work.untold("mail", was_tried=True) == (FAILED,)
+    assert at_work.list_untold("mail", was_tried=True) == (FAILED,)
 
 
 def test_the_longest_time_of_each_job_is_known(north: tuple[Ledger, Night]) -> None:
@@ -340,7 +340,7 @@ def test_the_longest_time_of_each_job_is_known(north: tuple[Ledger, Night]) -> N
     for seconds in (2.0, 3.0, None, 1.0):
         at_work.add(replace(ENTRY, seconds=seconds, state=State.DRAFT))
     at_work.add(FAILURE)
-    assert ledger.longest() == {"x.yaml": 3.0}
+    assert ledger.list_longest_times() == {"x.yaml": 3.0}
 
 
 def test_of_each_test_the_latest_certificate_teaches_in_the_order_of_measurement(
@@ -356,7 +356,7 @@ def test_of_each_test_the_latest_certificate_teaches_in_the_order_of_measurement
         ("CAL-4", "2026-11-20", None),
     ):
         at_work.issue(replace(ENTRY, number=number, measured=measured), FILES, basis, lesson)
-    taught = list(ledger.lessons())
+    taught = list(ledger.list_lessons())
     assert [(each.subject.number, each.lesson) for each in taught] == [
         ("CAL-1", {"a": 2}),
         ("CAL-3", {"a": 3}),
@@ -373,20 +373,20 @@ def test_the_last_night_is_that_of_the_fleet_with_what_became_of_it(north: tuple
         at_work.add(entry)
     began, later = map(dt.datetime.fromisoformat, NIGHTS)
     at_work_still = PastNight(began, None, (said,), {State.FAILED: 2, State.DRAFT: 1}, later)
-    assert ledger.last_night() == at_work_still
+    assert ledger.find_last_night() == at_work_still
     at_work.end(NIGHTS[1])
-    assert ledger.last_night() == replace(at_work_still, ended=later)
+    assert ledger.find_last_night() == replace(at_work_still, ended=later)
 
 
 def test_before_its_first_night_a_fleet_has_none(tmp_path: Path) -> None:
     with Ledger.open(str(tmp_path / "ledger.db"), "north") as ledger:
-        assert ledger.last_night() is None
+        assert ledger.find_last_night() is None
 
 
 def test_a_standing_is_all_that_was_noted_of_the_last_entry(north: tuple[Ledger, Night]) -> None:
     ledger, at_work = north
     at_work.add(replace(FAILURE, machine="HMC 500 17", axis="X", interval=365, digest="d"))
-    standing = ledger.standings()["y.yaml"]
+    standing = ledger.list_standings()["y.yaml"]
     assert (standing.state, standing.message, standing.digest) == (State.FAILED, FAILURE.message, "d")
     assert (standing.files, standing.basis) == ((), None)
     assert standing.subject == Subject(machine="HMC 500 17", axis="X", interval=365)
@@ -395,7 +395,7 @@ def test_a_standing_is_all_that_was_noted_of_the_last_entry(north: tuple[Ledger,
 def test_a_certificate_is_known_by_its_number_with_where_it_belongs(north: tuple[Ledger, Night]) -> None:
     ledger, at_work = north
     at_work.issue(ENTRY, FILES, BASIS)
-    assert ledger.certificates() == {
+    assert ledger.list_certificates() == {
         "S-1": Issued("south", "x.yaml", NIGHTS[0], FILES),
         "CAL-1": Issued("north", "x.yaml", NIGHTS[0], FILES),
     }

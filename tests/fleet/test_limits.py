@@ -13,7 +13,7 @@ from zlmreport.fleet import night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.making import Failed, MadeCertificate, Task
 from zlmreport.fleet.records import State
-from zlmreport.fleet.state import state_of
+from zlmreport.fleet.state import describe_state
 
 HANGING = """\
 import time
@@ -67,7 +67,7 @@ def test_a_job_that_grows_is_stopped(tmp_path: Path) -> None:
 class Stopping(Here):
     """Stops every job."""
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             yield task, Failed((Problem(Place(str(task.job)), "was stopped"),), is_stopped=True)
 
@@ -102,7 +102,7 @@ def test_what_is_set_aside_is_tried_again_when_a_template_changes(stopping: Flee
 def test_what_is_set_aside_still_needs_somebody(stopping: Fleet) -> None:
     stopping.spend()
     stopping.spend()
-    state = state_of("Hall North", stopping.entries(), ["jobs/x.yaml"], None)
+    state = describe_state("Hall North", stopping.entries(), ["jobs/x.yaml"], None)
     assert [each.entry.number for each in state.failures] == ["CAL-X"]
     assert state.counts["failed"] == 1
 
@@ -115,8 +115,8 @@ def test_a_job_may_take_ten_times_as_long_as_it_ever_took(
     limits = []
 
     class Slow(Here):
-        def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
-            for task, made in super().results(tasks):
+        def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+            for task, made in super().make_all(tasks):
                 limits.append(task.limits.seconds)
                 object.__setattr__(made, "seconds", 300.0)
                 yield task, made

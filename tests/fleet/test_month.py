@@ -53,8 +53,8 @@ class KilledError(Exception):
 class Deadly(Witness):
     """Kills a night at the first job of which something becomes."""
 
-    def happened(self, happened: Happened) -> None:
-        Witness.happened(self, happened)
+    def note_happened(self, happened: Happened) -> None:
+        Witness.note_happened(self, happened)
         if happened.what is not What.UNCHANGED:
             raise KilledError
 
@@ -65,7 +65,7 @@ class Hanging(Here):
 
     stem: str
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             hangs = task.job.stem == self.stem
             yield task, report_late(task) if hangs else making.make_certificate(task)
@@ -188,6 +188,6 @@ def test_every_document_is_right_and_every_event_told_once(
     numbers = {f"CAL-A{axis}T{one}" for axis in range(AXES) for one in range(1, month.measured[axis] + 1)}
     assert fleet.files() == {f"{number}.txt" for number in numbers}
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        assert set(ledger.certificates()) == numbers
+        assert set(ledger.list_certificates()) == numbers
     assert Counter(map(kind_of, post.lines)) == TOLD
     assert set(post.lines.values()) == {1}

@@ -19,11 +19,11 @@ from fleet.histories import entry, history, parameter
 from zlmreport.errors import InputError
 from zlmreport.fleet import news, night
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.news import digest, find_news_of
+from zlmreport.fleet.news import find_news_of, write_digest
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import PlannedJob
 from zlmreport.fleet.records import About, NightNotice, PastNight, State
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language, same
 from zlmreport.plugin import AccessError, Options, Place, Words, hookimpl
 from zlmreport.plugin.notifier import Message, Occasion
@@ -136,7 +136,7 @@ def test_that_nobody_was_reached_stands_in_the_ledger_until_somebody_is(fleet: F
 
 def last_of(fleet: Fleet) -> PastNight:
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     return last
 
@@ -156,7 +156,7 @@ def test_a_new_way_is_told_what_is_still_so_and_no_history(fleet: Fleet, post: P
 
 def test_a_message_that_begins_with_its_job_names_it_once() -> None:
     failed = entry(dt.date(2026, 8, 1), job="z.yaml", state=State.FAILED, message="z.yaml: was stopped")
-    (told,) = find_news_of(state_of("Hall North", [failed], ["z.yaml"], None), Language.ENGLISH)
+    (told,) = find_news_of(describe_state("Hall North", [failed], ["z.yaml"], None), Language.ENGLISH)
     assert told.text == "z.yaml: was stopped"
 
 
@@ -219,9 +219,9 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
     clock = NightNotice(About.CLOCK, same("die Uhr steht auf …"))
     last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
-    state = state_of("Halle Nord", entries, [], last, Rules(365))
+    state = describe_state("Halle Nord", entries, [], last, Rules(365))
     keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language=Language.GERMAN))
-    message = digest(keys, tuple(find_news_of(state, Language.GERMAN)))  # type: ignore[arg-type]
+    message = write_digest(keys, tuple(find_news_of(state, Language.GERMAN)))  # type: ignore[arg-type]
     assert message.title == (
         "Halle Nord: 1 zum ganzen Lauf, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"
     )
@@ -240,8 +240,8 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
     seen: list[str] = []
 
     class Curious(Witness):
-        def planned(self, jobs: Sequence[PlannedJob]) -> None:
-            Witness.planned(self, jobs)
+        def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
+            Witness.note_plan(self, jobs)
             seen.append(fleet.file.heartbeat.read_text())
 
     night.spend_night(fleet.file, night.Order(), Curious())

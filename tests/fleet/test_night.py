@@ -392,7 +392,7 @@ def test_a_folder_that_cannot_be_written_fails_the_job_and_issues_nothing(fleet:
     night = fleet.spend()
     assert night.what == {"x": What.FAILED, "y": What.FAILED}
     with Ledger.open(fleet.file.ledger, fleet.file.name) as ledger:
-        assert not ledger.certificates()
+        assert not ledger.list_certificates()
 
 
 def test_a_dry_run_says_what_is_due_and_writes_nothing(fleet: Fleet) -> None:
@@ -415,7 +415,7 @@ def test_a_dry_run_says_why(fleet: Fleet) -> None:
 def test_two_nights_at_once_on_one_ledger_are_excluded(fleet: Fleet) -> None:
     with (
         Ledger.open(fleet.file.ledger, "Hall South") as ledger,
-        ledger.night("2026-11-21T02:00:00+00:00", "south.yaml"),
+        ledger.hold_night("2026-11-21T02:00:00+00:00", "south.yaml"),
         pytest.raises(
             AccessError, match=r"another night is at work on this ledger \(south.yaml on .*, since"
         ),

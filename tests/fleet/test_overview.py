@@ -19,7 +19,7 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
-from zlmreport.fleet.state import state_of
+from zlmreport.fleet.state import describe_state
 from zlmreport.language import Language, same
 from zlmreport.plugin.registry import find_plugins
 
@@ -34,7 +34,7 @@ def of_night(one: LedgerEntry, **changes: Any) -> LedgerEntry:
 def page(*entries: LedgerEntry, language: Language = Language.ENGLISH, files: str = ".") -> str:
     jobs = [each.job for each in entries]
     night = PastNight(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
-    state = state_of("Hall North", entries, jobs, night)
+    state = describe_state("Hall North", entries, jobs, night)
     return make_overview(state, language, Names(find_plugins().standards), files)
 
 
@@ -62,7 +62,7 @@ FAILURE = of_night(
 
 def test_what_concerns_the_whole_night_stands_first() -> None:
     notices = (NightNotice(About.FOLDER, same("the folder is empty")),)
-    state = state_of("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
+    state = describe_state("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
     html = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
 
@@ -94,7 +94,7 @@ def test_a_failure_that_was_mended_is_none() -> None:
 
 
 def test_a_job_that_is_no_longer_of_the_fleet_does_not_fail() -> None:
-    state = state_of("Hall North", [*CALM, FAILURE], [each.job for each in CALM], None)
+    state = describe_state("Hall North", [*CALM, FAILURE], [each.job for each in CALM], None)
     assert state.failures == ()
 
 
@@ -221,7 +221,7 @@ def test_a_run_at_work_is_not_called_interrupted() -> None:
     night = PastNight(NIGHT, None, came_to={State.MADE: 3}, beat=NIGHT + timedelta(minutes=9))
     said = {}
     for minutes in (10, 60):
-        state = state_of("Hall North", CALM, ["x"], night.seen_at(NIGHT + timedelta(minutes=minutes)))
+        state = describe_state("Hall North", CALM, ["x"], night.see_at(NIGHT + timedelta(minutes=minutes)))
         said[minutes] = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "at work: 3 jobs so far" in said[10]
     assert "interrupted" not in said[10]

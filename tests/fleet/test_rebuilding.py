@@ -59,14 +59,14 @@ def test_it_knows_what_they_state_and_the_next_night_finds_them_unchanged(
 ) -> None:
     ledger = fleet.parent / "hall.db"
     with Ledger.open(str(ledger), "Hall") as before:
-        (stated,) = before.entries()
+        (stated,) = before.list_entries()
     assert main(["fleet", "rebuild", str(fleet)]) == 2
     assert "the ledger knows 1 certificate of this fleet" in capsys.readouterr().err
     for file in fleet.parent.glob("hall.db*"):
         file.unlink()
     assert main(["fleet", "rebuild", str(fleet)]) == 0
     with Ledger.open(str(ledger), "Hall") as after:
-        (rebuilt,) = after.entries()
+        (rebuilt,) = after.list_entries()
     assert (rebuilt.number, rebuilt.machine, rebuilt.measured) == ("R-1", "17", "2026-11-18")
     assert rebuilt.parameters == stated.parameters
     assert rebuilt.files == stated.files

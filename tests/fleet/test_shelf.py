@@ -30,7 +30,7 @@ def test_files_have_no_names_before_the_ledger_has_them(tmp_path: Path) -> None:
     with lay(tmp_path, FILES) as files:
         assert not names(tmp_path) & {"CAL-1.pdf", "CAL-1.json"}
         assert len(names(tmp_path)) == 2
-        files.name()
+        files.name_files()
     assert names(tmp_path) == {"CAL-1.pdf", "CAL-1.json"}
 
 
@@ -42,7 +42,7 @@ def test_what_the_ledger_refuses_leaves_nothing(tmp_path: Path) -> None:
 
 def test_the_ledger_knows_the_files_as_they_lie_there(tmp_path: Path) -> None:
     with lay(tmp_path, FILES) as files:
-        files.name()
+        files.name_files()
     for known, file in zip(files.known, FILES, strict=True):
         assert (known.path, known.sha256) == (file.path, file.sha256)
         assert known.look == FileStamp.at(tmp_path / file.path)
@@ -81,7 +81,7 @@ def test_other_files_are_left_alone(tmp_path: Path) -> None:
 )
 def test_a_pdf_is_as_it_was_issued_if_it_begins_so(tmp_path: Path, content: bytes, *, intact: bool) -> None:
     with lay(tmp_path, FILES[:1]) as files:
-        files.name()
+        files.name_files()
     path = tmp_path / "m/X/CAL-1.pdf"
     path.write_bytes(content)
     assert is_intact(path, files.known[0]) is intact
@@ -89,7 +89,7 @@ def test_a_pdf_is_as_it_was_issued_if_it_begins_so(tmp_path: Path, content: byte
 
 def test_to_any_other_file_nothing_may_be_added(tmp_path: Path) -> None:
     with lay(tmp_path, FILES[1:2]) as files:
-        files.name()
+        files.name_files()
     path = tmp_path / files.known[0].path
     path.write_bytes(path.read_bytes() + b" ")
     assert not is_intact(path, files.known[0])

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import datetime as dt
 import shutil
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from signal import SIGKILL
+from subprocess import Popen
 from typing import NoReturn
 
 import pytest
 
 from fleet.fleets import FLEET, Fleet, Here, without_processes
+from processes import PATIENCE, PYTHON, started
 from zlmreport.errors import InputError
-from zlmreport.fleet import ledger, night
+from zlmreport.fleet import night
+from zlmreport.fleet.database import TakenError
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.making import Task
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.records import About, PastNight, State
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language
 
 
@@ -71,9 +76,9 @@ def test_the_overview_counts_what_is_gone(fleet: Fleet) -> None:
     (fleet.folder / "jobs/x.yaml").unlink()
     fleet.spend()
     jobs = [f"jobs/{stem}.yaml" for stem in "vwyz"]
-    state = state_of("Hall North", fleet.entries(), jobs, None)
+    state = describe_state("Hall North", fleet.entries(), jobs, None)
     assert state.counts == {"made": 0, "unchanged": 4, "draft": 0, "failed": 0, "vanished": 1}
-    retired = state_of("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
+    retired = describe_state("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
     assert retired.counts["vanished"] == 0
 
 
@@ -118,7 +123,7 @@ def test_a_clock_that_was_set_back_is_noticed(fleet: Fleet, monkeypatch: pytest.
 def noticed(fleet: Fleet) -> list[About]:
     """Return what the ledger keeps of the last night, for the overview and for Prometheus."""
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     assert last.ended is not None
     return [each.about for each in last.notices]
@@ -142,7 +147,7 @@ def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
     fleet: Fleet, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     class Interrupted(Here):
-        def results(self, _: Iterable[Task]) -> NoReturn:
+        def make_all(self, _: Iterable[Task]) -> NoReturn:
             raise KeyboardInterrupt
 
     fleet.job("u")
@@ -156,7 +161,7 @@ def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
         fleet.spend()
     with (
         Ledger.open(fleet.file.ledger, "Hall North") as ledger,
-        ledger.night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
+        ledger.hold_night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
     ):
         assert third.was_interrupted
 
@@ -176,7 +181,7 @@ def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
         fleet.spend()
     (fleet.folder / "elsewhere").rename(fleet.folder / "certificates")
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     assert [each.about for each in last.notices] == [About.BROKEN, About.FOLDER]
     moment = "2026-11-21T02:00:00+00:00"
@@ -287,7 +292,7 @@ def test_an_interval_that_comes_late_is_told_at_once(fleet: Fleet, monkeypatch: 
 
 def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> None:
     now = night_of("2027-12-01")
-    state = state_of("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))
+    state = describe_state("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))
     assert [(term.due.isoformat(), term.is_over) for term in state.terms] == [("2027-11-18", True)]
 
 
@@ -295,38 +300,47 @@ def night_of(day: str) -> PastNight:
     return PastNight(dt.datetime.fromisoformat(f"{day}T02:00:00+00:00"), None)
 
 
-def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(
-    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    killed = []
-    address = str(fleet.folder / "ledger.db")
-    with Ledger.open(address, "Hall North") as stuck, stuck.night("2026-11-21T02:00:00+00:00", "fleet.yaml"):
-        monkeypatch.setattr(ledger.os, "getpid", lambda: -1)
-        monkeypatch.setattr(ledger, "_kill", killed.append)
-        monkeypatch.setattr(ledger, "_ATTEMPTS", 1)
-        with (
-            Ledger.open(address, "Hall North") as second,
-            pytest.raises(ledger.TakenError),
-            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
-        ):
-            pass
-    assert len(killed) == 1
+_AT_WORK = """
+import sys, time
+from zlmreport.fleet.ledger import Ledger
+
+with Ledger.open(sys.argv[1], "Hall North") as ledger:
+    with ledger.hold_night("2026-11-21T02:00:00+00:00", "fleet.yaml") as night:
+        for now in sys.argv[2:]:
+            night.beat(now)
+        print("at work", flush=True)
+        time.sleep(600)
+"""
 
 
-def test_a_night_that_lives_is_left_alone(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ledger, "_kill", lambda _: pytest.fail("it lives"))
+@contextmanager
+def night_at_work(address: str, *beats: str) -> Iterator[Popen[bytes]]:
+    """Let another process be at work on a ledger since 2 o'clock, with some signs of life."""
+    with started(PYTHON, "-c", _AT_WORK, address, *beats) as program:
+        program.until("at work")
+        yield program.process
+
+
+def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(fleet: Fleet) -> None:
     address = str(fleet.folder / "ledger.db")
     with (
-        Ledger.open(address, "Hall North") as first,
-        first.night("2026-11-21T02:00:00+00:00", "x") as at_work,
+        night_at_work(address) as stuck,
+        Ledger.open(address, "Hall North") as ledger,
+        ledger.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml") as second,
     ):
-        at_work.beat("2026-11-21T02:29:00+00:00")
-        with (
-            Ledger.open(address, "Hall North") as second,
-            pytest.raises(ledger.TakenError),
-            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
-        ):
+        assert stuck.wait(PATIENCE) == -SIGKILL
+        assert second.took_over == "2026-11-21T02:00:00+00:00"
+
+
+def test_a_night_that_lives_is_left_alone(fleet: Fleet) -> None:
+    address = str(fleet.folder / "ledger.db")
+    with (
+        night_at_work(address, "2026-11-21T02:29:00+00:00") as at_work,
+        Ledger.open(address, "Hall North") as ledger,
+    ):
+        with pytest.raises(TakenError), ledger.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml"):
             pass
+        assert at_work.poll() is None
 
 
 def test_an_overview_alone_in_the_folder_of_certificates_does_not_make_it_mounted(fleet: Fleet) -> None:

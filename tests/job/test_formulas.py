@@ -111,7 +111,7 @@ def test_bare_number_is_in_the_unit_of_the_name_beside_it() -> None:
         _keys("k*(P - 300)*(axis_temperature - 20)", k={"unit": "um/(m K)"}), AxisKind.LINEAR
     )
     readings = {"P": np.array([0.5]), "axis_temperature": np.array([23.0])}
-    assert formula.values(readings, {}) == pytest.approx(0.2 * 3.0)
+    assert formula.compute_values(readings, {}) == pytest.approx(0.2 * 3.0)
 
 
 def test_factors_of_whole_terms_are_solved_and_the_rest_is_searched() -> None:
@@ -126,7 +126,9 @@ def test_factors_of_whole_terms_are_solved_and_the_rest_is_searched() -> None:
     place, sign = np.array([0.1, 0.203]), np.array([1.0, -1.0])
     angle = 2 * np.pi * place / 0.01
     expected = np.column_stack([np.sin(angle) - sign * np.cos(angle), -sign * place])
-    np.testing.assert_allclose(formula.values({"P": place, "D": sign}, {"L": 0.01}), expected, rtol=1e-12)
+    np.testing.assert_allclose(
+        formula.compute_values({"P": place, "D": sign}, {"L": 0.01}), expected, rtol=1e-12
+    )
 
 
 def test_formula_of_a_rotary_axis_is_in_angles() -> None:

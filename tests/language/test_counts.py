@@ -101,7 +101,7 @@ def test_a_single_attached_file_is_one_file() -> None:
     file = CheckedStatement("x.csv", VerificationVerdict.HOLDS, Words("as stated"))
     words = Words("{of} page as printed again", plural="{of} pages as printed again")
     for language, said in ((Language.ENGLISH, "1 of 1 page as"), (Language.GERMAN, "1 von 1 Seite wie")):
-        ((_, found),) = verify._summary("", [file], words, lambda each, to=language: each.in_language(to))
+        ((_, found),) = verify._say_summary("", [file], words, lambda each, to=language: each.in_language(to))
         assert found.startswith(said)
 
 

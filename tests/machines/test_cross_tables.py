@@ -10,7 +10,7 @@ import zlmreport as z
 from machines.simulated import added, bare_machine, circle, lagging, out_of_square as turned
 from zlmreport.cli import main
 from zlmreport.errors import InputError, Place
-from zlmreport.machines.course import Course
+from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm_circles
 from zlmreport.machines.cross_tables import compensate_machine, plan_tables
 from zlmreport.machines.curve import AxisErrorCurve
@@ -36,7 +36,7 @@ def displacements(machine):
     places = np.array([[0, 0, 0], [0.4, 0.1, 0.3], [0.2, 0.35, 0.05], [0.05, 0.2, 0.4]])
     found = []
     for sensing in np.eye(3):
-        course = Course(places, np.tile(sensing, (4, 1)), np.zeros_like(places))
+        course = ToolCourse(places, np.tile(sensing, (4, 1)), np.zeros_like(places))
         found.append(predict(machine, course).values)
     whole = np.array(found).T
     return whole - whole[0]

@@ -129,7 +129,7 @@ def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name(
     study = study_circles(bare_machine(), [with_deviation(seen, 3 * MICRO * bump)], effects)
     found = diagnose(study, [REGISTRY.circle_effect(name) for name in ("scale-mismatch", "servo-mismatch")])
     assert (found.verdict, found.found) == (Verdict.UNEXPLAINED, ())
-    bare, held = (each.estimates_of("squareness")[0] for each in (study, found.complete))
+    bare, held = (each.list_estimates_of("squareness")[0] for each in (study, found.complete))
     assert held.expanded_uncertainty > 1.3 * bare.expanded_uncertainty
     assert found.study is found.complete
 
@@ -146,7 +146,7 @@ def test_beside_curves_without_a_name_parameters_lie_within_their_uncertainty():
         drawn = 0.3 * MICRO * curve @ random.standard_normal(curve.shape[1])
         study = replace(plain, deviation=plain.deviation + drawn)
         for is_held, each in ((False, study), (True, replace(study, unnamed=0.3 * MICRO * curve))):
-            own = each.estimates_of("squareness")[0]
+            own = each.list_estimates_of("squareness")[0]
             misses[is_held].append(abs(own.value) / own.expanded_uncertainty)
     assert np.mean(np.array(misses[True]) <= 1) >= 0.9
     assert np.mean(np.array(misses[False]) <= 1) < 0.8
@@ -247,7 +247,7 @@ def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
     whole = circle(out_of_square(30 * MICRO), seed=3, plane="ZX")
     angle = np.degrees(whole.angle) % 360
     kept = (angle < 200) | (angle > 340)
-    assert diagnosed(whole.of(kept)).found == ("squareness",)
+    assert diagnosed(whole.keep(kept)).found == ("squareness",)
 
 
 @pytest.mark.long

@@ -50,13 +50,13 @@ def test_the_band_holds_the_circle_that_the_axes_would_make():
     for name, curve in (("EXX", true_x), ("EYY", true_y)):
         sides = np.concatenate([curve - MICRO, curve + MICRO])  # lost motion of 2 µm, without the instrument
         exact[name] = type(exact[name])(name, TARGETS, sides, np.zeros((len(sides), 0)), ErrorLine({}), "")
-    truth = predict(bare_machine(exact.values()), seen.course()).values
+    truth = predict(bare_machine(exact.values()), seen.make_course()).values
     for _ in range(150):
         curves = [
             make_measured_curve(name, readings(curve, random, 2 * MICRO), INSTRUMENT, ErrorLine({}), "")
             for name, curve in (("EXX", true_x), ("EYY", true_y))
         ]
-        found = predict(bare_machine(curves), seen.course())
+        found = predict(bare_machine(curves), seen.make_course())
         # A constant of an axis is the centre's: the instrument's scale is zero in the middle of the travel.
         inside += int(np.count_nonzero(np.abs(found.values - truth) <= found.expanded_uncertainty))
         count += len(truth)

@@ -61,17 +61,17 @@ class Notes:
     missing: list[tuple[int, int, int]] = field(default_factory=list)
     heard: list[str] = field(default_factory=list)
 
-    def begun(self, done: int, points: int) -> None:
+    def note_begin(self, done: int, points: int) -> None:
         self.begun_with.append((done, points))
 
-    def probed(self, probing: Probing, centre: Point, done: int) -> None:
+    def note_probed(self, probing: Probing, centre: Point, done: int) -> None:
         assert done
         self.points.append((probing.face, probing.cycle, centre))
 
-    def missed(self, probing: Probing, error: MachineError) -> None:
+    def note_missed(self, probing: Probing, error: MachineError) -> None:
         self.missing.append((probing.face, probing.cycle, error.number))
 
-    def told(self, text: str) -> None:
+    def note_told(self, text: str) -> None:
         self.heard.append(text)
 
 

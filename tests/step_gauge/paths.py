@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import Place
-from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
+from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.paths.path import PathKind, PathSettings, Point
 from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path
 
@@ -53,12 +53,12 @@ def part(gauge: StepGauge, first: int, last: int) -> StepGauge:
     return replace(gauge, faces=tuple(face for face in gauge.faces if first <= face.block <= last))
 
 
-def location(begin: Point, direction: Point, upward: Point, length: float) -> Location:
+def location(begin: Point, direction: Point, upward: Point, length: float) -> GaugeLocation:
     """Return a location: a gauge of a length from its first to its last block's centre."""
     unit = np.array(direction) / np.linalg.norm(direction)
     x, y, z = (np.array(begin) + length * unit).tolist()
     i, j, k = unit.tolist()
-    return Location(begin, (x, y, z), (i, j, k), upward, (-i, -j, -k), (i, j, k), 0.0)
+    return GaugeLocation(begin, (x, y, z), (i, j, k), upward, (-i, -j, -k), (i, j, k), 0.0)
 
 
 def planned(

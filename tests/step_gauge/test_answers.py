@@ -6,7 +6,7 @@ import pytest
 
 from zlmreport_step_gauge.machines.session import (
     Answer,
-    Kind,
+    LineKind,
     MachineError,
     UnreadableError,
     read_answer,
@@ -18,12 +18,12 @@ from zlmreport_step_gauge.machines.session import (
 @pytest.mark.parametrize(
     ("line", "answer"),
     [
-        ("00010 &", Answer("00010", Kind.ACKNOWLEDGED)),
-        ("99990 %", Answer("99990", Kind.DONE)),
-        ("00120 # X(1.5)", Answer("00120", Kind.DATA, "X(1.5)")),
+        ("00010 &", Answer("00010", LineKind.ACKNOWLEDGED)),
+        ("99990 %", Answer("99990", LineKind.DONE)),
+        ("00120 # X(1.5)", Answer("00120", LineKind.DATA, "X(1.5)")),
         (
             'E0000 ! Error(3, 0500, Server, "Stop")',
-            Answer("E0000", Kind.ERROR, 'Error(3, 0500, Server, "Stop")'),
+            Answer("E0000", LineKind.ERROR, 'Error(3, 0500, Server, "Stop")'),
         ),
     ],
 )

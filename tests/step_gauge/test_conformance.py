@@ -12,7 +12,7 @@ from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS
 
-PROGRAMS = find_plugins().programs_for(ProbingPath)
+PROGRAMS = find_plugins().list_programs_for(ProbingPath)
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.identifier)

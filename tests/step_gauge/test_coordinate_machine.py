@@ -81,5 +81,5 @@ def test_noise_scatters_what_is_shown_by_its_standard_deviation() -> None:
 
 def test_the_volume_holds_what_lies_in_it() -> None:
     machine = CoordinateMachine(CUBE, volume=((0.0, 0.5), (0.0, 0.5), (0.0, 0.4)))
-    assert machine.reaches(np.array([0.5, 0.0, 0.4]))
-    assert not machine.reaches(np.array([0.5, 0.0, 0.41]))
+    assert machine.can_reach(np.array([0.5, 0.0, 0.4]))
+    assert not machine.can_reach(np.array([0.5, 0.0, 0.41]))

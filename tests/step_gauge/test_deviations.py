@@ -121,7 +121,7 @@ def test_distances_need_no_radius() -> None:
     distances = [
         replace(each, coordinates=(face.distance,))
         for each in touched(GAUGE)
-        for face in [GAUGE.face(each.face)]
+        for face in [GAUGE.find_face(each.face)]
         if face
     ]
     found = compute_deviations_of(probed(distances, GAUGE), set_up(GAUGE), FILE, is_corrected=True)

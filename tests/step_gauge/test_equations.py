@@ -42,22 +42,22 @@ def test_a_single_cycle_has_no_standard_deviation() -> None:
 
 
 def test_eq_8_and_10_a_forward_value_at_a_back_face_is_the_mean_of_its_neighbours() -> None:
-    forward = equations.interpolated(np.array([1.0, NAN, 4.0, NAN]))
+    forward = equations.interpolate(np.array([1.0, NAN, 4.0, NAN]))
     assert forward[:3] == pytest.approx([1.0, 2.5, 4.0])
 
 
 def test_eq_9_and_11_a_backward_value_at_a_front_face_is_the_mean_of_its_neighbours() -> None:
-    backward = equations.interpolated(np.array([NAN, 2.0, NAN, 3.0]))
+    backward = equations.interpolate(np.array([NAN, 2.0, NAN, 3.0]))
     assert backward[1:] == pytest.approx([2.0, 2.5, 3.0])
 
 
 def test_the_ends_of_the_section_are_not_extrapolated() -> None:
-    assert np.isnan(equations.interpolated(np.array([1.0, NAN, 4.0, NAN]))[3])
-    assert np.isnan(equations.interpolated(np.array([NAN, 2.0, NAN, 3.0]))[0])
+    assert np.isnan(equations.interpolate(np.array([1.0, NAN, 4.0, NAN]))[3])
+    assert np.isnan(equations.interpolate(np.array([NAN, 2.0, NAN, 3.0]))[0])
 
 
 def test_a_step_beside_a_missing_one_is_not_interpolated() -> None:
-    assert np.isnan(equations.interpolated(np.array([1.0, NAN, NAN, NAN, 5.0]))[1:4]).all()
+    assert np.isnan(equations.interpolate(np.array([1.0, NAN, NAN, NAN, 5.0]))[1:4]).all()
 
 
 def test_eq_12_the_mean_error_is_that_of_both_directions() -> None:
@@ -70,7 +70,7 @@ def test_eq_13_the_reversal_error_is_backward_minus_forward() -> None:
 
 def test_a_stack_of_tests_is_interpolated_test_by_test() -> None:
     stack = np.array([[1.0, NAN, 3.0], [10.0, NAN, 30.0]])
-    assert equations.interpolated(stack)[:, 1] == pytest.approx([2.0, 20.0])
+    assert equations.interpolate(stack)[:, 1] == pytest.approx([2.0, 20.0])
 
 
 def test_the_chain_of_equations_agrees_with_exact_arithmetic() -> None:
@@ -86,8 +86,8 @@ def test_the_chain_of_equations_agrees_with_exact_arithmetic() -> None:
     )
     means = equations.mean(errors)
     is_front = np.arange(4) % 2 == 0
-    of_forward = equations.interpolated(np.where(is_front, means, np.nan))
-    of_backward = equations.interpolated(np.where(is_front, np.nan, means))
+    of_forward = equations.interpolate(np.where(is_front, means, np.nan))
+    of_backward = equations.interpolate(np.where(is_front, np.nan, means))
     assert equations.mean_error(of_forward, of_backward)[1] == pytest.approx(float(exact["XM"]), rel=1e-15)
     assert equations.reversal_error(of_forward, of_backward)[1] == pytest.approx(
         float(exact["XR"]), rel=1e-15

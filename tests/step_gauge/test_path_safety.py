@@ -91,7 +91,7 @@ class TestDistances:
         ends = np.array([[-0.01, 0.0, 0.0], [0.02, 0.008, 0.02], [0.02, 0.0, -0.02]])
         # before the front face; along an edge, 3 mm aside and 15 mm above it; through the block
         expected = [5e-3, np.hypot(3e-3, 15e-3), 0.0]
-        assert boxes.distances(starts, ends)[:, 0] == pytest.approx(expected, abs=1e-9)
+        assert boxes.measure_distances(starts, ends)[:, 0] == pytest.approx(expected, abs=1e-9)
 
     def test_by_points_of_the_move(self) -> None:
         random = np.random.default_rng(4)
@@ -101,7 +101,7 @@ class TestDistances:
         points = (starts + shares * (ends - starts))[:, :, None, :]
         outside = np.maximum(np.maximum(boxes.lower - points, points - boxes.upper), 0.0)
         sampled = np.linalg.norm(outside, axis=-1).min(axis=0)
-        found = boxes.distances(starts, ends)
+        found = boxes.measure_distances(starts, ends)
         assert (found <= sampled + 1e-9).all()
         # between two points lie at most 0.18 m / 2000 = 0.09 mm
         assert found == pytest.approx(sampled, abs=9e-5)

@@ -138,7 +138,7 @@ def test_an_interrupt_stops_the_machine_and_keeps_what_was_probed(run: Run, tmp_
             return super().answer(data, moment)
 
     class Impatient(Notes):
-        def probed(self, *_: object) -> None:
+        def note_probed(self, *_: object) -> None:
             raise KeyboardInterrupt
 
     path = small_path()

@@ -11,7 +11,7 @@ import pytest
 
 from processes import PATIENCE
 from zlmreport.errors import AccessError
-from zlmreport_step_gauge.machines.session import Connection, Session
+from zlmreport_step_gauge.machines.session import ServerConnection, Session
 
 
 @contextmanager
@@ -35,7 +35,7 @@ def answering(*answers: str) -> Iterator[tuple[Session, list[str], list[str]]]:
 
         thread = threading.Thread(target=serve, daemon=True)
         thread.start()
-        with Connection("127.0.0.1", listening.getsockname()[1]) as connection:
+        with ServerConnection("127.0.0.1", listening.getsockname()[1]) as connection:
             yield Session(connection, 0.2, told.append), heard, told
         thread.join(PATIENCE)
 
@@ -104,7 +104,7 @@ def test_a_server_that_does_not_keep_to_the_protocol_is_told(answer: str, messag
 def test_a_server_that_hangs_up_is_told() -> None:
     with (
         socket.create_server(("127.0.0.1", 0)) as listening,
-        Connection("127.0.0.1", listening.getsockname()[1]) as connection,
+        ServerConnection("127.0.0.1", listening.getsockname()[1]) as connection,
     ):
         client, _ = listening.accept()
         client.close()

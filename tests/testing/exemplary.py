@@ -15,7 +15,14 @@ from zlmreport.document.blocks import Graph
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, Group, PositionQuantity, Quantity
+from zlmreport.evaluation.evaluation import (
+    Arithmetic,
+    Evaluation,
+    Finding,
+    PositionQuantity,
+    Quantity,
+    QuantityGroup,
+)
 from zlmreport.evaluation.statistics import PositionStatistics, largest, smallest
 from zlmreport.job.types import JobPath, Options
 from zlmreport.language import Words, same
@@ -36,8 +43,10 @@ class ExemplaryStandard:
     position_index = "i"
     options: Any = ExemplaryOptions
     quantities: Any = (
-        Quantity("E", "E", same("range"), Group.SYSTEMATIC, "max(x̄_{i}↑) − min(x̄_{i}↑)", same("meaning")),
-        Quantity("R", "R", same("scatter"), Group.RANDOM, "max(2k·s_{i}↑)", same("meaning")),
+        Quantity(
+            "E", "E", same("range"), QuantityGroup.SYSTEMATIC, "max(x̄_{i}↑) − min(x̄_{i}↑)", same("meaning")
+        ),
+        Quantity("R", "R", same("scatter"), QuantityGroup.RANDOM, "max(2k·s_{i}↑)", same("meaning")),
     )
     position_quantities: Any = (PositionQuantity("width", "2k·s_{i}↑", same("width")),)
     notes: Any = (Words(en="A note", de="Eine Bemerkung"),)

@@ -51,7 +51,7 @@ def door() -> Door:
 @pytest.fixture
 def stranger(workbench: Workbench, door: Door) -> TestClient:
     """Return a browser that has not been given the token."""
-    return TestClient(workbench.app(door), base_url=f"http://127.0.0.1:{PORT}", follow_redirects=False)
+    return TestClient(workbench.make_app(door), base_url=f"http://127.0.0.1:{PORT}", follow_redirects=False)
 
 
 @pytest.fixture

@@ -52,7 +52,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.Fixtur
     path.write_text(JOB.replace("MOVES", getattr(request, "param", WHOLE)), encoding="utf-8")
     workbench = Workbench.of([path], find_plugins(files=[PLUGIN]), [PLUGIN])
     door = Door.at(8420)
-    browser = TestClient(workbench.app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
+    browser = TestClient(workbench.make_app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
     browser.get(door.address)
     browser.headers["Origin"] = "http://127.0.0.1:8420"
     yield Desk(browser)

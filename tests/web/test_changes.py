@@ -99,7 +99,7 @@ def test_what_an_editor_says_of_an_effect_is_fitted_anew_and_known_when_it_is_sa
     for each in (*effects_of_job, *effects_of_job):
         job.write_text(text.replace("- backlash", each), encoding="utf-8")
         shown.append(
-            (browser.get("/api/job").json()["error"], workbench.bench.whole(workbench.bench.loaded()))
+            (browser.get("/api/job").json()["error"], workbench.bench.fit_whole(workbench.bench.load()))
         )
     (first, fit), (second, other), (again, fit_again), (_, other_again) = shown
     assert first == again != second

@@ -49,7 +49,7 @@ def _shifted(path: Path) -> str:
 
 def _compared(*paths: Path) -> dict[str, Any]:
     bench, *others = (Bench(path, registry()) for path in paths)
-    return ComparedTests.of(bench, others).values(Language.ENGLISH)
+    return ComparedTests.of(bench, others).list_values(Language.ENGLISH)
 
 
 @pytest.fixture(scope="module")
@@ -137,14 +137,14 @@ def test_a_test_that_cannot_be_read_is_named_and_is_there_again_when_it_can(
     comparison: Callable[[], tuple[ComparedTests, Path]],
 ) -> None:
     made, readings = comparison()
-    kept, stamp = readings.read_bytes(), made.stamp()
+    kept, stamp = readings.read_bytes(), made.make_stamp()
     readings.unlink()
-    assert made.stamp() != stamp
-    without = made.values(Language.ENGLISH)
+    assert made.make_stamp() != stamp
+    without = made.list_values(Language.ENGLISH)
     assert without["tests"] == []
     assert "before.csv" in without["problems"][0]
     readings.write_bytes(kept)
-    assert len(made.values(Language.ENGLISH)["tests"]) == 2
+    assert len(made.list_values(Language.ENGLISH)["tests"]) == 2
 
 
 def test_nothing_is_written_beside_the_other_tests(
@@ -152,5 +152,5 @@ def test_nothing_is_written_beside_the_other_tests(
 ) -> None:
     made, readings = comparison()
     before = {path: path.read_bytes() for path in readings.parent.iterdir()}
-    made.values(Language.ENGLISH)
+    made.list_values(Language.ENGLISH)
     assert {path: path.read_bytes() for path in readings.parent.iterdir()} == before

@@ -33,7 +33,9 @@ def folder(job: Path) -> Iterator[FolderWorkbench]:
 @pytest.fixture
 def listing(folder: FolderWorkbench, door: Door) -> TestClient:
     """Return a browser that came by the address on the terminal."""
-    client = TestClient(folder.app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
+    client = TestClient(
+        folder.make_app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False
+    )
     assert client.get(door.address).status_code == 303
     client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
     return client
@@ -72,8 +74,8 @@ def test_a_click_in_a_folder_is_written_into_its_job(job: Path, listing: TestCli
 
 
 def test_nobody_opens_a_job_without_the_token(folder: FolderWorkbench, door: Door) -> None:
-    stranger = TestClient(folder.app(door), base_url=f"http://127.0.0.1:{door.port}")
-    key = next(iter(folder.folder.paths()))
+    stranger = TestClient(folder.make_app(door), base_url=f"http://127.0.0.1:{door.port}")
+    key = next(iter(folder.folder.list_paths()))
     assert [stranger.get(path).status_code for path in ("/api/folder", f"/jobs/{key}/api/job")] == [403, 403]
 
 
@@ -108,12 +110,12 @@ def test_a_job_that_fails_opens_and_says_what_is_wrong(job: Path, listing: TestC
     ],
 )
 def test_an_axis_is_due_after_its_interval(due: dt.date | None, state: JobState) -> None:
-    assert JobRow("", "", JobState.FINE, due=due).dated(TODAY, is_latest=True).state is state
+    assert JobRow("", "", JobState.FINE, due=due).date(TODAY, is_latest=True).state is state
 
 
 @pytest.mark.parametrize("state", [JobState.FAILS, JobState.NOT_MET, JobState.OVERDUE])
 def test_being_due_soon_hides_nothing_worse(state: JobState) -> None:
-    assert JobRow("", "", state, due=TODAY).dated(TODAY, is_latest=True).state is state
+    assert JobRow("", "", state, due=TODAY).date(TODAY, is_latest=True).state is state
 
 
 def test_the_interval_counts_from_the_day_of_the_measurement(job: Path) -> None:

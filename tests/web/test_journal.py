@@ -22,11 +22,14 @@ def test_what_is_written_is_read_again(tmp_path: Path) -> None:
     journal.append(made(0))
     journal.append(made(1, subject="Größe"))
     assert journal.path.name == "job.history.jsonl"
-    assert [(each.subject, each.content) for each in journal.entries()] == [("offset", b"a"), ("Größe", b"b")]
+    assert [(each.subject, each.content) for each in journal.read_entries()] == [
+        ("offset", b"a"),
+        ("Größe", b"b"),
+    ]
 
 
 def test_a_job_that_nobody_clicked_on_has_no_record(tmp_path: Path) -> None:
-    assert BenchJournal.beside(tmp_path / "job.yaml").entries() == ()
+    assert BenchJournal.beside(tmp_path / "job.yaml").read_entries() == ()
 
 
 @pytest.mark.parametrize(
@@ -38,7 +41,7 @@ def test_a_line_that_is_none_is_passed_over(tmp_path: Path, line: str) -> None:
     with journal.path.open("a", encoding="utf-8") as file:
         file.write(f"{line}\n")
     journal.append(made(1))
-    assert len(journal.entries()) == 2
+    assert len(journal.read_entries()) == 2
 
 
 def test_a_record_that_cannot_be_written_is_said(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ def machine(tmp_path: Path) -> Path:
 def page(machine: Path, door: Door) -> Iterator[TestClient]:
     """Return a browser that came by the address on the terminal."""
     made = MachineWorkbench.of(machine, registry())
-    client = TestClient(made.app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
+    client = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
     assert client.get(door.address).status_code == 303
     client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
     yield client
@@ -163,7 +163,7 @@ def test_what_makes_no_sense_is_refused_in_words(
 
 def test_nobody_opens_a_machine_without_the_token(machine: Path, door: Door) -> None:
     made = MachineWorkbench.on(machine, registry())
-    stranger = TestClient(made.app(door), base_url=f"http://127.0.0.1:{door.port}")
+    stranger = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}")
     assert stranger.get("/api/job").status_code == 403
 
 
@@ -173,7 +173,7 @@ def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path) -> None:
     text = machine.read_text("utf-8").replace("[circle-xy.yaml]", "[circle-xy.yaml, x-elsewhere.yaml]")
     machine.write_text(text, "utf-8")
     bench = MachineBench(machine, registry())
-    _, drawn = MachineView(bench, bench.loaded(), Language.GERMAN).page()["tests"]
+    _, drawn = MachineView(bench, bench.load(), Language.GERMAN).list_page()["tests"]
     assert (drawn["kind"], drawn["arrows"]) == ("line", ["↓", "↑"])
     assert [each["title"] for each in drawn["axes"]] == ["Ort auf der Linie", "X", "Richtung"]
 

@@ -34,11 +34,11 @@ def test_identifiers_are_replaced_by_titles_and_other_words_stay(
     german: Naming, text: str, named: str
 ) -> None:
     titles = {each.identifier: each.title.in_language(Language.GERMAN) for each in registry().effects}
-    assert german.text(text) == named.replace("Stoß zweier Teilmaßstäbe", titles["scale-joint"])
+    assert german.name_in(text) == named.replace("Stoß zweier Teilmaßstäbe", titles["scale-joint"])
 
 
 def test_a_page_in_english_has_the_words_of_the_job() -> None:
-    assert Naming.of(registry().effects, Language.ENGLISH).text("scale-error") == "scale-error"
+    assert Naming.of(registry().effects, Language.ENGLISH).name_in("scale-error") == "scale-error"
 
 
 @pytest.mark.long
@@ -55,5 +55,5 @@ def test_no_identifier_is_read_on_the_german_page(browser: TestClient) -> None:
         *(each["name"] for each in (*job["effects"], *job["others"], *fall["rows"])),
     ]
     named = Naming.of(registry().effects, Language.GERMAN)
-    assert [text for text in read if named.text(text) != text] == []
+    assert [text for text in read if named.name_in(text) != text] == []
     assert "Periodischer Steigungsfehler der Spindel" in found["statement"]

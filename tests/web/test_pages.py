@@ -36,7 +36,7 @@ from zlmreport.web.view import collect_diagnosed, make_results, make_view
 def page() -> dict[str, Any]:
     """Return the example's job as the page is told of it."""
     workbench = Workbench.of([EXAMPLE / "job.yaml"], registry())
-    loaded = workbench.bench.loaded()
+    loaded = workbench.bench.load()
     return {
         **make_view(workbench.bench, loaded, Language.ENGLISH),
         **make_results(workbench.bench, loaded, Language.ENGLISH),
@@ -107,7 +107,7 @@ def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
 
 
 def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
-    german = make_view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
+    german = make_view(workbench.bench, workbench.bench.load(), Language.GERMAN)
     assert german["subject"] == "Achse X, Example Machine Works Example axis, EXAMPLE-X-7"
     floor = german["error"][1]
     assert (floor["name"], floor["value"]) == ("Grundrauschen", "0,480 µm")
@@ -177,9 +177,9 @@ def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_
     for name in ("job.yaml", "x-axis.csv"):
         shutil.copy(workbench.bench.path.with_name(name), copy)
     again = Workbench.of([copy / "job.yaml"], registry())
-    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"diagnosis"}
+    assert again.diagnoses.find(again.bench.load().content).keys() == {"diagnosis"}
     (copy / "x-axis.csv").write_text((copy / "x-axis.csv").read_text("utf-8") + "# later\n", "utf-8")
-    assert again.diagnoses.of(again.bench.loaded().content).keys() == {"seconds", "share"}
+    assert again.diagnoses.find(again.bench.load().content).keys() == {"seconds", "share"}
     again.end()
 
 
@@ -187,7 +187,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
     workbench: Workbench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench, begun, go_on, made = workbench.bench, Event(), Event(), []
-    fitted, loaded = Study.fitted, bench.loaded()
+    fitted, loaded = Study.fitted, bench.load()
 
     def slow(study: Study) -> Fitted:
         begun.set()
@@ -198,9 +198,9 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
     monkeypatch.setattr(Study, "fitted", slow)
     with ThreadPoolExecutor(3) as others:
         try:
-            falls = [others.submit(bench.history, loaded) for _ in range(2)]
+            falls = [others.submit(bench.fit_history, loaded) for _ in range(2)]
             assert begun.wait(60)
-            assert others.submit(bench.tried, loaded.job).result(60).basis == loaded.basis
+            assert others.submit(bench.try_job, loaded.job).result(60).basis == loaded.basis
         finally:
             go_on.set()
         assert falls[0].result() == falls[1].result()
@@ -208,12 +208,12 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
 
 
 def test_a_fit_that_fails_is_tried_again(workbench: Workbench, monkeypatch: pytest.MonkeyPatch) -> None:
-    bench, loaded = workbench.bench, workbench.bench.loaded()
+    bench, loaded = workbench.bench, workbench.bench.load()
     with monkeypatch.context() as patch:
         patch.setattr(Study, "fitted", Mock(side_effect=MemoryError))
         with pytest.raises(MemoryError):
-            bench.whole(loaded)
-    assert bench.whole(loaded).fit.fitted.size
+            bench.fit_whole(loaded)
+    assert bench.fit_whole(loaded).fit.fitted.size
 
 
 @pytest.mark.parametrize("step", ["3", "screw-pitch"])

@@ -317,7 +317,9 @@ class Fanuc(_OnPaper):
         quantum, rows = options.magnification * 1e-3, len(table.positions)
         remedy = "raise magnification (3623), or state a shorter step"
         if options.reverse is None:
-            return {".txt": self._file({options.reference: _make_increments(table, quantum, 7, remedy)})}
+            return {
+                ".txt": self._write_file({options.reference: _make_increments(table, quantum, 7, remedy)})
+            }
         if abs(options.reverse - options.reference) < rows:
             raise InputError.at(
                 table.place,
@@ -331,9 +333,12 @@ class Fanuc(_OnPaper):
         }
         apart = round(-float(reverse[0] - forward[0]) / quantum)
         parameters = ("3605#0 1", f"3626 {options.reverse}", f"3627 {apart}")
-        return {".txt": self._file(steps), "-parameters.txt": "".join(f"{each}\n" for each in parameters)}
+        return {
+            ".txt": self._write_file(steps),
+            "-parameters.txt": "".join(f"{each}\n" for each in parameters),
+        }
 
-    def _file(self, steps: Mapping[int, Sequence[int]]) -> str:
+    def _write_file(self, steps: Mapping[int, Sequence[int]]) -> str:
         lines = [
             f"N1{first + row:04d}P{step}"
             for first, column in steps.items()

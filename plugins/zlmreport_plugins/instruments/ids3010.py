@@ -47,15 +47,15 @@ class Ids3010Emulator:
         self._starts_at: float | None = None
         self._zero = 0.0
         self._methods: Mapping[str, Callable[[float], list[Any]]] = {
-            f"{_NAMESPACE}system.getCurrentMode": lambda time: [0, self._mode(time)],
+            f"{_NAMESPACE}system.getCurrentMode": lambda time: [0, self._answer_mode(time)],
             f"{_NAMESPACE}system.startMeasurement": self._start,
             f"{_NAMESPACE}system.resetAxis": self._reset,
             f"{_NAMESPACE}system.resetError": lambda _: [0],
-            f"{_NAMESPACE}displacement.getAxesDisplacement": self._displacements,
-            f"{_NAMESPACE}displacement.getAbsolutePosition": self._absolute,
-            f"{_ECU}.getTemperatureInDegrees": self._sensor("air_temperature", CELSIUS),
-            f"{_ECU}.getPressureInHPa": self._sensor("air_pressure", HECTOPASCAL),
-            f"{_ECU}.getHumidityInPercent": self._sensor("relative_humidity", PERCENT),
+            f"{_NAMESPACE}displacement.getAxesDisplacement": self._answer_displacements,
+            f"{_NAMESPACE}displacement.getAbsolutePosition": self._answer_absolute,
+            f"{_ECU}.getTemperatureInDegrees": self._make_sensor("air_temperature", CELSIUS),
+            f"{_ECU}.getPressureInHPa": self._make_sensor("air_pressure", HECTOPASCAL),
+            f"{_ECU}.getHumidityInPercent": self._make_sensor("relative_humidity", PERCENT),
             f"{_ECU}.getRefractiveIndex": lambda _: [0, 1.000271],
         }
 
@@ -76,11 +76,13 @@ class Ids3010Emulator:
             except ValueError:
                 break
             text = text[end:].lstrip()
-            answers += json.dumps(self._to_question(message, time), separators=(",", ":")).encode() + b"\r\n"
+            answers += (
+                json.dumps(self._answer_question(message, time), separators=(",", ":")).encode() + b"\r\n"
+            )
         self._rest = text if len(text) < _LONGEST_QUESTION else ""
         return b"" if self._scene.troubles.has(Trouble.SKIPPED, time) else answers
 
-    def _to_question(self, message: Any, time: float) -> dict[str, Any]:
+    def _answer_question(self, message: Any, time: float) -> dict[str, Any]:
         asked = message if isinstance(message, dict) else {}
         method = self._methods.get(str(asked.get("method")))
         answer: dict[str, Any] = {"jsonrpc": "2.0"}
@@ -90,7 +92,7 @@ class Ids3010Emulator:
             answer["result"] = method(time)
         return {**answer, "id": asked.get("id")}
 
-    def _mode(self, time: float) -> str:
+    def _answer_mode(self, time: float) -> str:
         if self._starts_at is None:
             return "system idle"
         return "measurement running" if time >= self._starts_at else "measurement starting"
@@ -105,18 +107,18 @@ class Ids3010Emulator:
         self._zero = self._scene.axis.position(time)
         return [0]
 
-    def _displacements(self, time: float) -> list[Any]:
+    def _answer_displacements(self, time: float) -> list[Any]:
         moved = self._scene.axis.position(time) - self._zero
-        return [self._warning(time), round(moved * _PER_METRE), 0, 0]
+        return [self._find_warning(time), round(moved * _PER_METRE), 0, 0]
 
-    def _absolute(self, time: float) -> list[Any]:
-        return [self._warning(time), round(self._scene.axis.position(time) * _PER_METRE)]
+    def _answer_absolute(self, time: float) -> list[Any]:
+        return [self._find_warning(time), round(self._scene.axis.position(time) * _PER_METRE)]
 
-    def _sensor(self, condition: str, unit: ReadingScale) -> Callable[[float], list[Any]]:
+    def _make_sensor(self, condition: str, unit: ReadingScale) -> Callable[[float], list[Any]]:
         """Return what asks a sensor of the environmental unit."""
         return lambda time: [0, round(unit.from_si(self._scene.condition(condition, time)), 3)]
 
-    def _warning(self, time: float) -> int:
+    def _find_warning(self, time: float) -> int:
         return 1 if self._scene.troubles.has(Trouble.ERROR, time) else 0
 
 
@@ -229,12 +231,12 @@ class Client:
         self._patience.understand(now)
         return answer
 
-    def mode(self) -> str:
+    def ask_mode(self) -> str:
         """Return what the device is doing; empty if it does not say."""
         answer = self.call("system.getCurrentMode")
         return str(answer.values[0]) if answer is not None and answer.values else ""
 
-    def conditions(self) -> Mapping[str, float]:
+    def ask_conditions(self) -> Mapping[str, float]:
         """Return what the environmental unit measures, SI; nothing if there is none."""
         found = {}
         for method, name, unit in (
@@ -307,7 +309,7 @@ class _Talk:
         self._client = Client(self._port, self._options.timeout)
         self._client.find_namespace()
         self._start()
-        yield from readings_at_rate(self._options.rate, self._reading)
+        yield from readings_at_rate(self._options.rate, self._ask_reading)
 
     def zero(self) -> None:
         """Let the axis count from here."""
@@ -317,11 +319,11 @@ class _Talk:
 
     def _start(self) -> None:
         """Let it measure, and wait until it does."""
-        if self._client.mode() == RUNNING:
+        if self._client.ask_mode() == RUNNING:
             return
         self._client.call("system.startMeasurement")
         until = time.monotonic() + _LONGEST_START
-        while (mode := self._client.mode()) != RUNNING:
+        while (mode := self._client.ask_mode()) != RUNNING:
             if time.monotonic() > until:
                 self._port.fail(
                     f"the instrument does not begin to measure (it says: {mode or 'nothing'}); "
@@ -329,13 +331,13 @@ class _Talk:
                 )
             time.sleep(_LOOK)
 
-    def _reading(self) -> LiveReading:
+    def _ask_reading(self) -> LiveReading:
         """Ask for a displacement, and after it whether the device has measured up to there."""
         self._ask_for_conditions()
         axis = self._options.axis - 1
         answer = self._client.call("displacement.getAxesDisplacement")
         now = time.monotonic()
-        mode = self._client.mode()
+        mode = self._client.ask_mode()
         value = answer.values[axis] if answer is not None and axis < len(answer.values) else None
         if answer is None or not mode or not isinstance(value, int) or isinstance(value, bool):
             error = f" ({answer.error})" if answer is not None and answer.error else ""
@@ -361,7 +363,7 @@ class _Talk:
         now = time.monotonic()
         if now - self._conditions_at >= _CONDITIONS_EVERY:
             self._conditions_at = now
-            self._conditions = self._client.conditions()
+            self._conditions = self._client.ask_conditions()
 
 
 @hookimpl

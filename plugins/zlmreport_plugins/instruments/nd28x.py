@@ -130,30 +130,30 @@ class Nd28xEmulator:
         while found := _COMMAND.match(data, end):
             end = found.end()
             if found[0] == PRINT:
-                answers += self._printed(time)
+                answers += self._print_value(time)
             elif found[0].startswith(b"\x1b"):
-                answers += self._to_command(found[1] or b"", time)
+                answers += self._answer_command(found[1] or b"", time)
         self._rest = data[end:][:20]
         return b"" if self._scene.troubles.has(Trouble.SKIPPED, time) else answers
 
-    def _to_command(self, name: bytes, time: float) -> bytes:
+    def _answer_command(self, name: bytes, time: float) -> bytes:
         if name in _TEXTS:
             return STX + _TEXTS[name] + b"\r\n"
         if name == b"A0100":
-            return STX + b"%10.4f\r\n" % self._shown(time)
+            return STX + b"%10.4f\r\n" % self._round_shown(time)
         if name == b"A0200":
-            return STX + b"%+010d\r\n" % round(self._shown(time) * 1e4)
+            return STX + b"%+010d\r\n" % round(self._round_shown(time) * 1e4)
         if name == b"A0301":
             text = b"Signal fault X1" if self._has_fault(time) else b""
             return STX + text.ljust(_ERROR_WIDTH) + b"\r\n"
         if name == b"F0200":
-            return self._printed(time)
+            return self._print_value(time)
         if name == _CLEAR:
             self._cleared_at = time
         return ACK if name[:1] in {b"F", b"S", b"T"} else NAK
 
-    def _printed(self, time: float) -> bytes:
-        shown = self._shown(time)
+    def _print_value(self, time: float) -> bytes:
+        shown = self._round_shown(time)
         sign = b"-" if shown < 0 else b" "
         unit = b"?" if self._has_fault(time) else b" "
         return sign + b"%10.4f" % abs(shown) + b" " + unit + b"  \r\n"
@@ -165,7 +165,7 @@ class Nd28xEmulator:
             troubles.begins(trouble, self._cleared_at, time) for trouble in (Trouble.ERROR, Trouble.LOST_BEAM)
         )
 
-    def _shown(self, time: float) -> float:
+    def _round_shown(self, time: float) -> float:
         """Return what it shows, mm: whole tenths of a micrometre."""
         return round(MILLIMETRE.from_si(self._scene.axis.position(time)), 4) + 0.0
 

@@ -100,9 +100,9 @@ class TextDecoder:
 
     def feed(self, data: bytes, now: float) -> list[LiveReading]:
         """Return the readings of the lines that these bytes complete."""
-        return [self.reading(line, now) for line in self._lines.feed(data)]
+        return [self.read_line(line, now) for line in self._lines.feed(data)]
 
-    def reading(self, line: bytes, now: float) -> LiveReading:
+    def read_line(self, line: bytes, now: float) -> LiveReading:
         """Return what one line says."""
         text = line.decode("utf-8", "replace").strip()
         if any(pattern.search(text) for pattern in self._no_reading):
@@ -113,7 +113,7 @@ class TextDecoder:
                 Fault.DEVICE_ERROR | Fault.BEAM_LOST,
                 message=f"the readout says {text[:40]!r}: clear it there, then begin the run again",
             )
-        value = self._value(text)
+        value = self._read_value(text)
         if value is None:
             return LiveReading(
                 float("nan"),
@@ -124,7 +124,7 @@ class TextDecoder:
         self.understood += 1
         return LiveReading(value * self._options.factor, now)
 
-    def _value(self, text: str) -> float | None:
+    def _read_value(self, text: str) -> float | None:
         """Return the value in a line, SI; None if it is no reading."""
         found = self._pattern.fullmatch(text)
         if found is None or found["value"] is None:
@@ -153,14 +153,14 @@ class TextEmulator:
         lines = b""
         while (self._sent + 1) / _RATE <= time:
             self._sent += 1
-            lines += self._line(self._sent / _RATE)
+            lines += self._write_line(self._sent / _RATE)
         return lines
 
     def answer(self, data: bytes, time: float) -> bytes:  # noqa: ARG002 - it takes no commands
         """Return nothing: it takes no commands."""
         return b""
 
-    def _line(self, at: float) -> bytes:
+    def _write_line(self, at: float) -> bytes:
         troubles = self._scene.troubles
         if troubles.has(Trouble.SKIPPED, at):
             return b""
@@ -244,7 +244,7 @@ def _answer(port: Port, request: bytes, decoder: TextDecoder, patience: Patience
         patience.check(now)
         return unreadable_reading(now, "the readout did not answer")
     understood = decoder.understood
-    reading = decoder.reading(answer[0], now)
+    reading = decoder.read_line(answer[0], now)
     patience.hear(answer[0], now)
     if decoder.understood != understood:
         patience.understand(now)

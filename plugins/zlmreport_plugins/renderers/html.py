@@ -45,7 +45,7 @@ class HtmlRenderer:
         script = linked_script() if certificate.linked else ""
         allowed = [f"script-src {script_fingerprint(script)}"] if script else []
         setting = HtmlSetting(
-            style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
+            style=_make_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
             + own_style(certificate.look, lambda font: _make_data_address(font, "font/sfnt"))
             + _write_foot(certificate.page_words),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
@@ -58,7 +58,7 @@ class HtmlRenderer:
 
 
 @lru_cache(maxsize=8)
-def _style(paper: str, accent: str, *, with_linked: bool) -> str:
+def _make_style(paper: str, accent: str, *, with_linked: bool) -> str:
     from zlmreport.plugin.page import (  # noqa: PLC0415 (brings Jinja)
         font_face_rules,
         font_file,

@@ -186,7 +186,7 @@ class Nmtba:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the two diagrams."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 _RUNS_FOR_A_SCATTER = 2
@@ -271,11 +271,11 @@ def _find_lacking_a_direction(statistics: PositionStatistics) -> BoolArray:
     return lacks & statistics.is_bidirectional[..., np.newaxis]
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield both diagrams, as far as the test defines what they show."""
     graphs = _Graphs(evaluation)
-    yield graphs.means()
-    yield graphs.overall()
+    yield graphs.draw_means()
+    yield graphs.draw_overall()
 
 
 class _Graphs:
@@ -287,47 +287,47 @@ class _Graphs:
         self.mean, self.spread = evaluation.column("X"), evaluation.column("Ps")
         self.upper, self.lower = self.mean + self.spread / 2, self.mean - self.spread / 2
 
-    def means(self) -> Figure:
+    def draw_means(self) -> Figure:
         """Return means and limits by position, with P_sj/2 where the spread is largest."""
         shown = diagram_panel(
-            bands=[self._band()],
+            bands=[self._draw_band()],
             readings=self.diagram.readings(),
-            curves=[self._curve()],
+            curves=[self._draw_curve()],
             arrows=[self.diagram.arrow("P_{sj}/2", worst_position(self.spread), self.mean, self.upper)],
         )
         title = Words("Axis {axis}: mean deviations and position spread")
-        return self._figure("means", title, shown, marks_in_words(self.diagram.axis, shown.arrows))
+        return self._make_figure("means", title, shown, marks_in_words(self.diagram.axis, shown.arrows))
 
-    def overall(self) -> Figure:
+    def draw_overall(self) -> Figure:
         """Return P and P_a at the places where they arise, and the offset O that centres the band."""
         shown = diagram_panel(
-            bands=[self._band()],
-            curves=[self._curve()],
-            arrows=[self._offset_arrow()],
+            bands=[self._draw_band()],
+            curves=[self._draw_curve()],
+            arrows=[self._draw_offset_arrow()],
             brackets=[
                 self.diagram.bracket("P", self.lower, self.upper),
                 self.diagram.bracket("Pa", self.mean, self.mean),
             ],
-            levels=[self._middle()],
+            levels=[self._draw_middle()],
         )
         title = Words("Axis {axis}: position uncertainty, position deviation and offset")
-        sentences = marks_in_words(self.diagram.axis, shown.brackets), self._offset_sentence()
-        return self._figure("overall", title, shown, *sentences)
+        sentences = marks_in_words(self.diagram.axis, shown.brackets), self._say_offset()
+        return self._make_figure("overall", title, shown, *sentences)
 
-    def _curve(self) -> Curve | None:
+    def _draw_curve(self) -> Curve | None:
         approaches = self.diagram.approaches
         role = MEAN_ROLES[approaches[0]] if len(approaches) == 1 else Role.MEAN_BIDIRECTIONAL
         return self.diagram.curve("X̄_{j}", role, self.mean)
 
-    def _band(self) -> Band | None:
+    def _draw_band(self) -> Band | None:
         return self.diagram.band("X̄_{j} ± ½P_{sj}", Role.SPREAD, self.lower, self.upper)
 
-    def _middle(self) -> Level | None:
+    def _draw_middle(self) -> Level | None:
         """Return the line in the middle of the band, which lies at −O."""
         offset = self.evaluation.value("O")
         return None if offset is None else self.diagram.level("−O", Role.BAND_LIMIT, -offset)
 
-    def _offset_arrow(self) -> Arrow | None:
+    def _draw_offset_arrow(self) -> Arrow | None:
         """Return the arrow from zero to the middle of the band, at the first target."""
         offset = self.evaluation.value("O")
         if offset is None:
@@ -335,7 +335,7 @@ class _Graphs:
         middle = np.full_like(self.mean, -offset)
         return self.diagram.arrow("O", 0, np.zeros_like(middle), middle)
 
-    def _offset_sentence(self) -> Words | None:
+    def _say_offset(self) -> Words | None:
         offset = self.evaluation.value("O")
         if offset is None:
             return None
@@ -344,7 +344,7 @@ class _Graphs:
             offset=deviation_in_words(self.diagram.axis, offset),
         )
 
-    def _figure(self, key: str, title: Words, shown: Panel, *sentences: Words | None) -> Figure:
+    def _make_figure(self, key: str, title: Words, shown: Panel, *sentences: Words | None) -> Figure:
         axis = self.diagram.axis
         alternative = alternative_text(
             graph_in_words(self.evaluation),

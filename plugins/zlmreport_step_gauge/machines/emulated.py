@@ -61,7 +61,7 @@ class Boxes:
     lower: FloatArray
     upper: FloatArray
 
-    def distance(self, point: FloatArray) -> float:
+    def measure_distance(self, point: FloatArray) -> float:
         """Return the distance of a point from the nearest box, m; 0 inside one."""
         own = self.axes @ (point - self.origin)
         outside = np.maximum(np.maximum(self.lower - own, own - self.upper), 0.0)
@@ -87,30 +87,30 @@ class CoordinateMachine:
         """Begin the noise."""
         self._random = Random(self.seed)  # noqa: S311 - no secret
 
-    def reaches(self, point: FloatArray) -> bool:
+    def can_reach(self, point: FloatArray) -> bool:
         """Return whether a point lies in the volume."""
         return all(low <= at <= high for at, (low, high) in zip(point.tolist(), self.volume, strict=True))
 
     def travel(self, to: FloatArray) -> bool:
         """Go straight to a point; return whether nothing was touched. The tip stays where it touched."""
-        touched = self._first_touch(self.position, to)
+        touched = self._find_first_touch(self.position, to)
         self.position = to if touched is None else touched
         return touched is None
 
     def probe(self, to: FloatArray) -> FloatArray | None:
         """Go slowly to a point until something is touched; return the tip's centre there, as it is shown."""
-        touched = self._first_touch(self.position, to)
+        touched = self._find_first_touch(self.position, to)
         self.position = to if touched is None else touched
         if touched is None:
             return None
         scattered = [self._random.gauss(at, self.noise) for at in touched.tolist()]
         return np.array(scattered)
 
-    def _true(self, shown: FloatArray) -> FloatArray:
+    def _find_true(self, shown: FloatArray) -> FloatArray:
         """Return where the tip is when the machine shows a position: errors change little over errors."""
         return shown - self.errors(shown - self.errors(shown))
 
-    def _first_touch(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
+    def _find_first_touch(self, start: FloatArray, end: FloatArray) -> FloatArray | None:
         """Return the position shown at the first touch on a move; None if there is none.
 
         The move is looked at in steps of half the radius, between which no box can hide.
@@ -118,22 +118,22 @@ class CoordinateMachine:
         steps = max(1, int(np.ceil(np.linalg.norm(end - start) / (self.effective_radius / 2))))
         before = 0.0
         for share in np.linspace(0.0, 1.0, steps + 1)[1:].tolist():
-            if self._gap(start + share * (end - start)) < 0:
-                return self._halved(start, end, before, share)
+            if self._measure_gap(start + share * (end - start)) < 0:
+                return self._halve(start, end, before, share)
             before = share
         return None
 
-    def _halved(self, start: FloatArray, end: FloatArray, free: float, touching: float) -> FloatArray:
+    def _halve(self, start: FloatArray, end: FloatArray, free: float, touching: float) -> FloatArray:
         for _ in range(_HALVINGS):
             middle = (free + touching) / 2
-            if self._gap(start + middle * (end - start)) < 0:
+            if self._measure_gap(start + middle * (end - start)) < 0:
                 touching = middle
             else:
                 free = middle
         return start + free * (end - start)
 
-    def _gap(self, shown: FloatArray) -> float:
-        return self.boxes.distance(self._true(shown)) - self.effective_radius
+    def _measure_gap(self, shown: FloatArray) -> float:
+        return self.boxes.measure_distance(self._find_true(shown)) - self.effective_radius
 
 
 #: By how much the tip seems smaller than it is, since the stylus bends until the probe triggers, m.

@@ -47,12 +47,12 @@ class _Told:
         self._tell = tell
         self._points = 0
 
-    def begun(self, done: int, points: int) -> None:
+    def note_begin(self, done: int, points: int) -> None:
         self._points = points
         line = f"{points} points, {done} of them probed already" if done else f"{points} points"
         self._tell(Happening({"event": "begun", "done": done, "points": points}, line))
 
-    def probed(self, probing: Probing, centre: Point, done: int) -> None:
+    def note_probed(self, probing: Probing, centre: Point, done: int) -> None:
         to = [MILLIMETRE.from_si(at) for at in centre]
         where = "  ".join(fixed_number(at, 4) for at in to)
         count = f"{done:>{len(str(self._points))}}/{self._points}"
@@ -60,12 +60,12 @@ class _Told:
         line = f"  {count}  cycle {probing.cycle}  face {probing.face:>3}  {where} mm"
         self._tell(Happening(values, line))
 
-    def missed(self, probing: Probing, error: MachineError) -> None:
+    def note_missed(self, probing: Probing, error: MachineError) -> None:
         values = {"event": "missed", "face": probing.face, "cycle": probing.cycle, "error": error.number}
         line = f"face {probing.face}, cycle {probing.cycle}: {error}"
         self._tell(Happening(values, line, warning="missed"))
 
-    def told(self, text: str) -> None:
+    def note_told(self, text: str) -> None:
         self._tell(Happening({"event": "told", "text": text}, f"  the machine says: {text}"))
 
 
@@ -92,7 +92,7 @@ def _emulate(values: Mapping[str, Any], host: CommandHost) -> int:
     return host.serve(server, STANDARD_PORT, announced, lambda: server.is_gone)
 
 
-def _number(text: str) -> float:
+def _read_number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
@@ -130,11 +130,15 @@ EMULATE = Command(
             "scale-error",
             "E",
             "error of the machine along the gauge, micrometres a metre; 0 without it",
-            _number,
+            _read_number,
             0.0,
         ),
         CommandOption(
-            "noise", "U", "standard deviation of a coordinate, micrometres; 0.05 without it", _number, 0.05
+            "noise",
+            "U",
+            "standard deviation of a coordinate, micrometres; 0.05 without it",
+            _read_number,
+            0.05,
         ),
         CommandOption(
             "point-fault",

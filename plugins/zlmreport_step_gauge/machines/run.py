@@ -22,8 +22,8 @@ from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem
 from zlmreport.plugin.extension import Job, JournalFile, take_names, unwritable
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
 from zlmreport_step_gauge.machines.session import (
-    Connection,
     MachineError,
+    ServerConnection,
     Session,
     UnreadableError,
     is_missed_face,
@@ -45,7 +45,7 @@ _FINGERPRINT = "# path "
 Key = tuple[int, int]
 
 
-class Journal:
+class PointJournal:
     """A journal that is open; leave it as a context manager.
 
     Raises `AccessError` if it cannot be written, another run writes it, or the result is there already;
@@ -62,12 +62,12 @@ class Journal:
             )
         self._file = JournalFile(self._part, "is being written by another run on this gauge; end that first")
         try:
-            self.done = self._sound()  #: The faces and cycles that it holds.
+            self.done = self._keep_sound()  #: The faces and cycles that it holds.
         except BaseException:
             self._file.close()
             raise
         if not self._part.stat().st_size:
-            self._append(*self._head())
+            self._append(*self._make_head())
 
     def __enter__(self) -> Self:
         """Return the journal."""
@@ -107,7 +107,7 @@ class Journal:
     def _append(self, *lines: str) -> None:
         self._file.append("".join(f"{line}\n" for line in lines).encode("ascii"))
 
-    def _head(self) -> tuple[str, ...]:
+    def _make_head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)
         what = f"{plain(self._path.gauge)}, job {plain(self._path.number)}"
         return (
@@ -116,11 +116,11 @@ class Journal:
             _COLUMNS,
         )
 
-    def _sound(self) -> set[Key]:
+    def _keep_sound(self) -> set[Key]:
         """Return the faces and cycles that are there; a last line that was torn off is cut away."""
         whole, end, _ = self._part.read_bytes().rpartition(b"\n")
         lines = whole.decode("ascii", errors="replace").splitlines()
-        head = list(self._head())
+        head = list(self._make_head())
         if lines[1:3] == head[1:]:
             self._file.cut(len(whole) + len(end))
             return {_read_key(line) for line in lines[3:] if not line.startswith("#")}
@@ -148,16 +148,16 @@ def digest_path(path: ProbingPath) -> str:
 class Watcher(Protocol):
     """Who is told how a run goes on."""
 
-    def begun(self, done: int, points: int) -> None:
+    def note_begin(self, done: int, points: int) -> None:
         """Hear how many of all points are on the disk already."""
 
-    def probed(self, probing: Probing, centre: Point, done: int) -> None:
+    def note_probed(self, probing: Probing, centre: Point, done: int) -> None:
         """Hear of a point: the tip's centre, m, and how many there are now."""
 
-    def missed(self, probing: Probing, error: MachineError) -> None:
+    def note_missed(self, probing: Probing, error: MachineError) -> None:
         """Hear of a face that was not found."""
 
-    def told(self, text: str) -> None:
+    def note_told(self, text: str) -> None:
         """Hear what the machine says unasked."""
 
 
@@ -197,8 +197,8 @@ def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
     was probed on another path.
     """
     whole = probing.planned.path
-    with Journal(probing.result, whole) as journal:
-        watcher.begun(len(journal.done), len(whole.probings))
+    with PointJournal(probing.result, whole) as journal:
+        watcher.note_begin(len(journal.done), len(whole.probings))
         path = find_remaining(probing.planned, journal.done)
         missed: dict[Probing, MachineError] = {}
         if path.probings:
@@ -209,12 +209,12 @@ def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
 
 
 def _probe(
-    path: ProbingPath, machine: MachineKeys, journal: Journal, watcher: Watcher
+    path: ProbingPath, machine: MachineKeys, journal: PointJournal, watcher: Watcher
 ) -> dict[Probing, MachineError]:
     """Make the moves of a path; return the faces that were missed."""
     missed: dict[Probing, MachineError] = {}
-    with Connection(machine.host, machine.port) as connection:
-        session = Session(connection, machine.timeout, watcher.told)
+    with ServerConnection(machine.host, machine.port) as connection:
+        session = Session(connection, machine.timeout, watcher.note_told)
         with _stop_on_interrupt(session):
             session.begin(write_beginning(path, machine.tool))
             for move in path.moves:
@@ -224,11 +224,11 @@ def _probe(
                 point = _touch_face(session, move, connection.place)
                 if isinstance(point, MachineError):
                     missed[move] = point
-                    watcher.missed(move, point)
+                    watcher.note_missed(move, point)
                 else:
                     centre, others = point
                     journal.take(move, centre, others)
-                    watcher.probed(move, centre, len(journal.done))
+                    watcher.note_probed(move, centre, len(journal.done))
             session.order("EndSession()")
     return missed
 

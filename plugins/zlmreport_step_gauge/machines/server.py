@@ -105,10 +105,10 @@ class DmeServer:
         answers: list[str] = []
         while b"\r\n" in self._rest and not self.is_gone:
             line, _, self._rest = self._rest.partition(b"\r\n")
-            answers.extend(self._line(line.decode("ascii", errors="replace")))
+            answers.extend(self._answer_line(line.decode("ascii", errors="replace")))
         return "".join(f"{each}\r\n" for each in answers).encode("ascii")
 
-    def _line(self, line: str) -> Iterator[str]:
+    def _answer_line(self, line: str) -> Iterator[str]:
         found = _COMMAND.fullmatch(line)
         if found is None:
             tag = line[:5] if re.match(r"\d{5} ", line) else "E0000"
@@ -121,7 +121,7 @@ class DmeServer:
             return
         yield f"{tag} &"
         try:
-            data = list(self._carried_out(name, arguments))
+            data = list(self._carry_out(name, arguments))
         except _Trouble as trouble:
             if self.is_gone:
                 return
@@ -133,7 +133,7 @@ class DmeServer:
             yield from (f"{tag} # {text}" for text in data)
         yield f"{tag} %"
 
-    def _carried_out(self, name: str, arguments: str) -> Iterator[str]:
+    def _carry_out(self, name: str, arguments: str) -> Iterator[str]:
         """Do what a command says; yield the data of its answer."""
         if name in {"ClearAllErrors", "AbortE"}:
             self._is_stuck = False
@@ -146,12 +146,12 @@ class DmeServer:
             self._is_in_session = self._is_stuck = False
             return
         self._demand(not self._is_stuck, _USE_CLEAR)
-        do = self._commands().get(name)
+        do = self._list_commands().get(name)
         if do is None:
             raise _UNSUPPORTED
         yield from do(arguments)
 
-    def _commands(self) -> dict[str, Callable[[str], Iterator[str]]]:
+    def _list_commands(self) -> dict[str, Callable[[str], Iterator[str]]]:
         return {
             "Home": self._home,
             "ChangeTool": self._change_tool,
@@ -204,17 +204,17 @@ class DmeServer:
         self._have_trouble(self._faults.get(self._measured))
         normal /= length
         radius = self.machine.effective_radius
-        self._travel(nominal + normal * (self._length("Approach") + radius), touching=_ILLEGAL_TOUCH)
-        touched = self.machine.probe(nominal + normal * (radius - self._length("Search")))
+        self._travel(nominal + normal * (self._read_length("Approach") + radius), touching=_ILLEGAL_TOUCH)
+        touched = self.machine.probe(nominal + normal * (radius - self._read_length("Search")))
         if touched is None:
-            self._retract(normal, self._length("Approach") + self._length("Search"))
+            self._retract(normal, self._read_length("Approach") + self._read_length("Search"))
             raise _NO_SURFACE
-        self._retract(normal, self._length("Retract"))
-        yield self._reported(touched, normal)
+        self._retract(normal, self._read_length("Retract"))
+        yield self._write_report(touched, normal)
 
     def _travel(self, to: FloatArray, touching: _Trouble = _COLLISION) -> None:
         self._demand(self._is_homed, _CONTEXT)
-        self._demand(self.machine.reaches(to), _LIMIT)
+        self._demand(self.machine.can_reach(to), _LIMIT)
         self._demand(self.machine.travel(to), touching)
 
     def _retract(self, normal: FloatArray, distance: float) -> None:
@@ -234,7 +234,7 @@ class DmeServer:
         if fault is not None:
             raise troubles[fault]
 
-    def _reported(self, centre: FloatArray, normal: FloatArray) -> str:
+    def _write_report(self, centre: FloatArray, normal: FloatArray) -> str:
         x, y, z = (centre * _PER_METRE).tolist()
         i, j, k = (normal + 0.0).tolist()
         items = [f"X({x:.5f}), Y({y:.5f}), Z({z:.5f})"]
@@ -244,7 +244,7 @@ class DmeServer:
             items.append(f"Temperature({self._temperature:.3f})")
         return ", ".join(items)
 
-    def _length(self, name: str) -> float:
+    def _read_length(self, name: str) -> float:
         return self._parameters["PtMeasPar", name] / _PER_METRE
 
     @staticmethod

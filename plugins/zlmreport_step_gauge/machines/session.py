@@ -28,7 +28,7 @@ _ERROR = re.compile(
 _ITEM = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z0-9_.]*)\((?P<values>[^()]*)\)\s*(?:,|$)")
 
 
-class Kind(StrEnum):
+class LineKind(StrEnum):
     """What a line of the server is; the value is its sign."""
 
     ACKNOWLEDGED = "&"
@@ -42,7 +42,7 @@ class Answer:
     """A line of the server: to which command, what it is, and what it says."""
 
     tag: str
-    kind: Kind
+    kind: LineKind
     text: str = ""
 
 
@@ -73,14 +73,14 @@ def read_answer(line: str) -> Answer:
     """Return what a line says.
 
     >>> read_answer("00120 # X(1.5)")
-    Answer(tag='00120', kind=<Kind.DATA: '#'>, text='X(1.5)')
+    Answer(tag='00120', kind=<LineKind.DATA: '#'>, text='X(1.5)')
 
     Raises `UnreadableError` if it is no answer.
     """
     found = _LINE.fullmatch(line)
     if found is None:
         raise UnreadableError(f"{line[:60]!r} is no answer of I++ DME")
-    return Answer(found["tag"], Kind(found["kind"]), found["text"] or "")
+    return Answer(found["tag"], LineKind(found["kind"]), found["text"] or "")
 
 
 def read_error(text: str) -> MachineError:
@@ -168,7 +168,7 @@ class Session:
     `event`: Is told what the server sends unasked, as it is written.
     """
 
-    def __init__(self, connection: Connection, timeout: float, event: Callable[[str], None]) -> None:
+    def __init__(self, connection: ServerConnection, timeout: float, event: Callable[[str], None]) -> None:
         self._connection = connection
         self._timeout = timeout
         self._event = event
@@ -213,23 +213,25 @@ class Session:
         is_acknowledged = False
         until = time.monotonic() + _ACKNOWLEDGED_WITHIN
         while True:
-            answer = self._next(until, command)
+            answer = self._receive_next(until, command)
             if answer.tag == UNASKED:
                 self._take_event(answer)
             elif answer.tag == "E0001":
                 continue  # of AbortE, whose own end is of no matter
             elif answer.tag != tag:
-                self._misunderstood(f"an answer to {answer.tag} where one to {tag} is expected")
-            elif answer.kind is Kind.ACKNOWLEDGED and not is_acknowledged:
+                self._raise_misunderstood(f"an answer to {answer.tag} where one to {tag} is expected")
+            elif answer.kind is LineKind.ACKNOWLEDGED and not is_acknowledged:
                 is_acknowledged = True
                 until = time.monotonic() + self._timeout
-            elif answer.kind is Kind.ACKNOWLEDGED or not (is_acknowledged or answer.kind is Kind.ERROR):
-                self._misunderstood(f"{answer.kind.value} at the wrong place in the answers to {tag}")
-            elif answer.kind is Kind.DATA:
+            elif answer.kind is LineKind.ACKNOWLEDGED or not (
+                is_acknowledged or answer.kind is LineKind.ERROR
+            ):
+                self._raise_misunderstood(f"{answer.kind.value} at the wrong place in the answers to {tag}")
+            elif answer.kind is LineKind.DATA:
                 outcome.data.append(answer.text)
-            elif answer.kind is Kind.ERROR:
+            elif answer.kind is LineKind.ERROR:
                 is_acknowledged = True  # an order that makes no sense may be refused at once
-                outcome.errors.append(self._error(answer))
+                outcome.errors.append(self._make_error(answer))
             else:
                 return outcome
 
@@ -240,7 +242,7 @@ class Session:
                 self.fail(error)
             self._event(str(error))
 
-    def _next(self, until: float, command: str) -> Answer:
+    def _receive_next(self, until: float, command: str) -> Answer:
         line = self._connection.receive(until - time.monotonic())
         if line is None:
             name = command.partition("(")[0]
@@ -252,25 +254,25 @@ class Session:
         try:
             return read_answer(line)
         except UnreadableError as error:
-            self._misunderstood(str(error))
+            self._raise_misunderstood(str(error))
 
     def _take_event(self, answer: Answer) -> None:
         """Tell what was sent unasked; an error that is in the way ends the session."""
-        if answer.kind is Kind.ERROR:
-            error = self._error(answer)
+        if answer.kind is LineKind.ERROR:
+            error = self._make_error(answer)
             if error.is_in_the_way:
                 self.fail(error)
             self._event(str(error))
         else:
             self._event(answer.text)
 
-    def _error(self, answer: Answer) -> MachineError:
+    def _make_error(self, answer: Answer) -> MachineError:
         try:
             return read_error(answer.text)
         except UnreadableError as error:
-            self._misunderstood(str(error))
+            self._raise_misunderstood(str(error))
 
-    def _misunderstood(self, what: str) -> NoReturn:
+    def _raise_misunderstood(self, what: str) -> NoReturn:
         raise AccessError.at(
             self._connection.place,
             f"{what}; is this the port of an I++ DME server, and are both of version 1.4?",
@@ -284,7 +286,7 @@ _LONGEST_LINE = 65536
 _PATIENCE = 10.0
 
 
-class Connection:
+class ServerConnection:
     """Lines to and from a server.
 
     Raises `AccessError` if it cannot be reached; here and in every method, with what the operator can do.
@@ -316,28 +318,28 @@ class Connection:
         try:
             self._socket.sendall(f"{line}\r\n".encode("ascii"))
         except OSError as error:
-            raise self._lost(_say(error)) from error
+            raise self._make_loss(_say(error)) from error
 
     def receive(self, patience: float) -> str | None:
         """Return the next line without its end; None if none comes within a time, s."""
         until = time.monotonic() + patience
         while b"\n" not in self._rest:
             if len(self._rest) > _LONGEST_LINE:
-                raise self._lost("what it sends has no lines")
+                raise self._make_loss("what it sends has no lines")
             self._socket.settimeout(max(0.001, until - time.monotonic()))
             try:
                 data = self._socket.recv(_CHUNK)
             except TimeoutError:
                 return None
             except OSError as error:
-                raise self._lost(_say(error)) from error
+                raise self._make_loss(_say(error)) from error
             if not data:
-                raise self._lost("it has hung up")
+                raise self._make_loss("it has hung up")
             self._rest += data
         line, _, self._rest = self._rest.partition(b"\n")
         return line.rstrip(b"\r").decode("ascii", errors="replace")
 
-    def _lost(self, why: str) -> AccessError:
+    def _make_loss(self, why: str) -> AccessError:
         message = (
             f"the connection to the machine is lost ({why}); look at the machine and the network, then start "
             "again: what was probed is kept"

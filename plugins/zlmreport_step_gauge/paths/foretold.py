@@ -35,7 +35,7 @@ from zlmreport_step_gauge.keys import StepGaugeKeys
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path_of_job
 from zlmreport_step_gauge.paths.room import find_least_gap
-from zlmreport_step_gauge.paths.views import Note, Touch, View, make_path_views
+from zlmreport_step_gauge.paths.views import PlacedText, Touch, View, make_path_views
 
 SCHEMA = "zlmreport/probing-path/1"
 _MINUTE = 60.0
@@ -81,11 +81,11 @@ def _make_files(planned: PlannedPath, language: Language) -> dict[str, str]:
 
     return {
         "path.svg": draw_path(planned, language),
-        "path.csv": "".join(f"{line}\n" for line in _rows(planned.path)),
+        "path.csv": "".join(f"{line}\n" for line in _make_rows(planned.path)),
     }
 
 
-def _rows(path: ProbingPath) -> Iterator[str]:
+def _make_rows(path: ProbingPath) -> Iterator[str]:
     yield "# moves of the tip's centre, and the points of the surface that measuring moves lead to, mm"
     yield "move,kind,face,cycle,x,y,z,i,j,k"
     for number, move in enumerate(path.moves, start=1):
@@ -287,7 +287,7 @@ def _draw_arrow(canvas: Canvas, kind: str, start: FloatArray, end: FloatArray, s
     canvas.outline(kind, [*_draw_polyline(corners), ("Z", ())], None, Fill(stroke.colour))
 
 
-def _note(canvas: Canvas, placed: _Placed, note: Note, language: Language) -> None:
+def _note(canvas: Canvas, placed: _Placed, note: PlacedText, language: Language) -> None:
     size = GRAPH_TEXT_SIZE if note.side is None else _NUMBER_SIZE
     label = plain_label(note.text.in_language(language), size)
     x, y = placed(note.at).tolist()

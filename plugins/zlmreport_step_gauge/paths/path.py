@@ -127,9 +127,9 @@ class ProbingPath:
     @property
     def duration(self) -> float:
         """Time that the motion takes, s, as if the machine needed none to speed up and slow down."""
-        return sum(self._durations())
+        return sum(self._compute_durations())
 
-    def _durations(self) -> Iterator[float]:
+    def _compute_durations(self) -> Iterator[float]:
         for move, step in zip(self.moves[1:], pairwise(self.stops), strict=True):
             yield math.dist(*step) / (self.measuring_speed if isinstance(move, Probing) else self.speed)
 

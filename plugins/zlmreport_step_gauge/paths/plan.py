@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from zlmreport.plugin import MICROMETRE, MILLIMETRE, InputError, Place, Problem
 from zlmreport.plugin.extension import Job
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
-from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
+from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points
 from zlmreport_step_gauge.keys import ProbingPathKeys, StepGaugeKeys
 from zlmreport_step_gauge.location import locate
@@ -53,15 +53,15 @@ class _Stations:
     aside: tuple[float, float]  #: Across and upward: where the tip passes the blocks.
     reach: float  #: Distance of the tip's centre from the face at the start of a measuring move.
 
-    def before(self, face: Face, origin: float) -> float:
+    def place_before(self, face: Face, origin: float) -> float:
         """Return where along the gauge the measuring move to a face begins."""
         return face.nominal - origin + face.side * self.reach
 
-    def in_line(self, along: float) -> Point:
+    def place_in_line(self, along: float) -> Point:
         """Return a point in the line of the faces' centres."""
         return self.frame.to_machine(along, 0.0, self.level)
 
-    def passing(self, along: float) -> Point:
+    def place_passing(self, along: float) -> Point:
         """Return the point beside or above it where the tip passes the blocks."""
         return self.frame.to_machine(along, *self.aside)
 
@@ -69,7 +69,7 @@ class _Stations:
 def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
     gauge: StepGauge,
     section: StepGauge,
-    location: Location,
+    location: GaugeLocation,
     settings: PathSettings,
     *,
     size: tuple[float, float],
@@ -123,18 +123,18 @@ def _plan_inner(
     fronts = [face for face in section.faces if face.side is Side.FRONT]
     backs = [face for face in reversed(section.faces) if face.side is Side.BACK]
     if settings.lead_in and settings.kind is PathKind.HORIZONTAL:
-        start = stations.before(fronts[0], origin) - settings.lead_in
-        yield Travel(stations.in_line(start))
-        yield Travel(stations.passing(start))
+        start = stations.place_before(fronts[0], origin) - settings.lead_in
+        yield Travel(stations.place_in_line(start))
+        yield Travel(stations.place_passing(start))
     for cycle in range(1, settings.cycles + 1):
         for face in (*fronts, *backs):
-            before = stations.before(face, origin)
-            normal = stations.frame.turned(float(face.side))
-            yield Travel(stations.passing(before), face.number, cycle)
-            yield Travel(stations.in_line(before), face.number, cycle)
-            yield Probing(face.number, cycle, stations.in_line(face.nominal - origin), normal)
-            yield Travel(stations.in_line(before), face.number, cycle)
-            yield Travel(stations.passing(before), face.number, cycle)
+            before = stations.place_before(face, origin)
+            normal = stations.frame.turn(float(face.side))
+            yield Travel(stations.place_passing(before), face.number, cycle)
+            yield Travel(stations.place_in_line(before), face.number, cycle)
+            yield Probing(face.number, cycle, stations.place_in_line(face.nominal - origin), normal)
+            yield Travel(stations.place_in_line(before), face.number, cycle)
+            yield Travel(stations.place_passing(before), face.number, cycle)
 
 
 def find_remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> ProbingPath:

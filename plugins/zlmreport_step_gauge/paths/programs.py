@@ -75,11 +75,11 @@ def write_beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
     yield "Home()"
     if tool is not None:
         yield f'ChangeTool("{tool}")'
-    yield f"SetProp(Tool.GoToPar.Speed({_number(path.speed)}))"
-    yield f"SetProp(Tool.PtMeasPar.Speed({_number(path.measuring_speed)}))"
-    yield f"SetProp(Tool.PtMeasPar.Approach({_number(path.approach)}))"
-    yield f"SetProp(Tool.PtMeasPar.Search({_number(path.search)}))"
-    yield f"SetProp(Tool.PtMeasPar.Retract({_number(path.retract)}))"
+    yield f"SetProp(Tool.GoToPar.Speed({_write_number(path.speed)}))"
+    yield f"SetProp(Tool.PtMeasPar.Speed({_write_number(path.measuring_speed)}))"
+    yield f"SetProp(Tool.PtMeasPar.Approach({_write_number(path.approach)}))"
+    yield f"SetProp(Tool.PtMeasPar.Search({_write_number(path.search)}))"
+    yield f"SetProp(Tool.PtMeasPar.Retract({_write_number(path.retract)}))"
     yield "OnPtMeasReport(X(), Y(), Z(), IJK())"
 
 
@@ -99,7 +99,7 @@ def _write_at(texts: tuple[str, str, str]) -> str:
     return ", ".join(f"{axis}({text})" for axis, text in zip("XYZ", texts, strict=True))
 
 
-def _number(length: float) -> str:
+def _write_number(length: float) -> str:
     return f"{MILLIMETRE.from_si(length):.9g}"
 
 

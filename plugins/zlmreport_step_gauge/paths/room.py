@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Problem, read_only_floats
-from zlmreport_step_gauge.gauge import Location, StepGauge
+from zlmreport_step_gauge.gauge import GaugeLocation, StepGauge
 from zlmreport_step_gauge.paths.path import Move, Point, Probing, ProbingPath
 
 #: How many moves a message names; one that fails mostly fails at every block.
@@ -113,7 +113,7 @@ def _say_collision(number: int, move: Move, stop: Point) -> str:
 def _measure_gaps(room: Room, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """Return what is left between the tip's surface and each obstacle on straight moves, m."""
     own = room.frame.to_gauge
-    return room.obstacles.distances(own(starts), own(ends)) - room.tip_radius
+    return room.obstacles.measure_distances(own(starts), own(ends)) - room.tip_radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +126,7 @@ class GaugeFrame:
     axes: FloatArray
 
     @classmethod
-    def of(cls, location: Location) -> GaugeFrame:
+    def of(cls, location: GaugeLocation) -> GaugeFrame:
         """Return the frame of a location."""
         along = np.array(location.direction)
         upward = np.array(location.upward) - np.dot(location.upward, along) * along
@@ -144,7 +144,7 @@ class GaugeFrame:
         own: FloatArray = (np.asarray(points) - self.origin) @ self.axes.T
         return own
 
-    def turned(self, along: float) -> Point:
+    def turn(self, along: float) -> Point:
         """Return the direction along the gauge (1) or against it (−1)."""
         x, y, z = (along * self.axes[0] + 0.0).tolist()
         return x, y, z
@@ -171,7 +171,7 @@ class Obstacles:
         """What messages call them."""
         return (*(f"block {number}" for number in self.blocks), "the base of the gauge")
 
-    def distances(self, starts: FloatArray, ends: FloatArray) -> FloatArray:
+    def measure_distances(self, starts: FloatArray, ends: FloatArray) -> FloatArray:
         """Return how near straight moves come to each box.
 
         Parameters
@@ -188,13 +188,15 @@ class Obstacles:
         low, high = np.zeros(shape), np.ones(shape)
         for _ in range(_STEPS):  # the distance from a box is a convex function along a line
             third = (high - low) / 3
-            is_left = self._distance(starts, ends, low + third) < self._distance(starts, ends, high - third)
+            is_left = self._measure_distance(starts, ends, low + third) < self._measure_distance(
+                starts, ends, high - third
+            )
             low, high = np.where(is_left, low, low + third), np.where(is_left, high - third, high)
-        nearest = [self._distance(starts, ends, at) for at in (low, np.zeros(shape), np.ones(shape))]
+        nearest = [self._measure_distance(starts, ends, at) for at in (low, np.zeros(shape), np.ones(shape))]
         found: FloatArray = np.min(nearest, axis=0)
         return found
 
-    def _distance(self, starts: FloatArray, ends: FloatArray, share: FloatArray) -> FloatArray:
+    def _measure_distance(self, starts: FloatArray, ends: FloatArray, share: FloatArray) -> FloatArray:
         at = starts[:, None, :] + share[..., None] * (ends - starts)[:, None, :]
         outside = np.maximum(np.maximum(self.lower - at, at - self.upper), 0.0)
         distance: FloatArray = np.linalg.norm(outside, axis=-1)

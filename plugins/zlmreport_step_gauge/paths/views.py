@@ -48,7 +48,7 @@ class Touch:
 
 
 @dataclass(frozen=True, slots=True)
-class Note:
+class PlacedText:
     """A text at a place, (2,) mm; `side` is that of the face whose number it is, None for anything else."""
 
     text: Words
@@ -68,7 +68,7 @@ class View:
     way: FloatArray  #: (n, 2): Where the moves end.
     touches: tuple[Touch, ...]  #: The measuring moves.
     arrows: FloatArray  #: (k, 2, 2): The machine's axes.
-    notes: tuple[Note, ...]  #: Numbers of faces, names of axes.
+    notes: tuple[PlacedText, ...]  #: Numbers of faces, names of axes.
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,12 +77,12 @@ class _Eye:
 
     rows: FloatArray
 
-    def sees(self, points: FloatArray) -> FloatArray:
+    def see(self, points: FloatArray) -> FloatArray:
         """Return points, (..., 3) m, as they are seen, (..., 2) mm."""
         seen: FloatArray = MILLIMETRE.from_si(points @ self.rows[:2].T)
         return seen
 
-    def depth(self, points: FloatArray) -> FloatArray:
+    def measure_depth(self, points: FloatArray) -> FloatArray:
         """Return how far away points are, m."""
         depth: FloatArray = points @ self.rows[2]
         return depth
@@ -121,7 +121,7 @@ def _view_at_gauge(planned: PlannedPath, heading: Words, eye: _Eye) -> View:
         base=_order_sides(planned, eye, slice(-1, None)),
         blocks=_order_sides(planned, eye, slice(-1)),
         edges=np.empty((0, 2, 2)),
-        way=read_only_floats(eye.sees(points)),
+        way=read_only_floats(eye.see(points)),
         touches=tuple(_draw_touches(planned, eye)),
         arrows=np.empty((0, 2, 2)),
         notes=tuple(_place_numbers(planned, eye)),
@@ -132,26 +132,26 @@ def _view_in_machine(planned: PlannedPath) -> View:
     eye = _Eye(_turn_view(*_AT_MACHINE) @ np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]))
     way = np.array([stop for _, stop in planned.path.first_cycle])
     volume = planned.settings.working_volume
-    corners = eye.sees(np.array(list(product(*volume)))) if volume else np.empty((0, 2))
+    corners = eye.see(np.array(list(product(*volume)))) if volume else np.empty((0, 2))
     edges = [corners[list(edge)] for edge in _EDGES if volume]
     base, blocks = _order_sides(planned, eye, slice(-1, None)), _order_sides(planned, eye, slice(-1))
-    drawn = np.concatenate([each.reshape(-1, 2) for each in (eye.sees(way), corners, base, blocks)])
+    drawn = np.concatenate([each.reshape(-1, 2) for each in (eye.see(way), corners, base, blocks)])
     length = _AXIS_LENGTH * float(np.ptp(drawn, axis=0).max())
     # in the corner of the volume from which its axes count, or else beside everything
     origin = corners[0] if volume else drawn.min(axis=0) - [1.8 * length, 0.0]
-    tips = origin + length * eye.sees(np.eye(3)) / MILLIMETRE.from_si(1.0)
+    tips = origin + length * eye.see(np.eye(3)) / MILLIMETRE.from_si(1.0)
     notes = [
-        Note(same_in_all_languages(name), origin + 1.3 * (tip - origin))
+        PlacedText(same_in_all_languages(name), origin + 1.3 * (tip - origin))
         for name, tip in zip("XYZ", tips, strict=True)
     ]
     if planned.settings.safe_position is not None:
-        notes.append(Note(_SAFE, eye.sees(way[0])))
+        notes.append(PlacedText(_SAFE, eye.see(way[0])))
     return View(
         heading=_IN_THE_MACHINE,
         base=base,
         blocks=blocks,
         edges=read_only_floats(np.reshape(edges, (-1, 2, 2))),
-        way=read_only_floats(eye.sees(way)),
+        way=read_only_floats(eye.see(way)),
         touches=(),
         arrows=read_only_floats([[origin, tip] for tip in tips]),
         notes=tuple(notes),
@@ -167,8 +167,8 @@ def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
         middle = corners.mean(axis=0)
         for numbers in _SIDES:
             side = corners[list(numbers)]
-            if eye.depth(side.mean(axis=0)) < eye.depth(middle) - 1e-9:
-                found.append((float(eye.depth(middle)), eye.sees(side)))
+            if eye.measure_depth(side.mean(axis=0)) < eye.measure_depth(middle) - 1e-9:
+                found.append((float(eye.measure_depth(middle)), eye.see(side)))
     found.sort(key=lambda each: -each[0])
     return read_only_floats([side for _, side in found])
 
@@ -177,11 +177,11 @@ def _draw_touches(planned: PlannedPath, eye: _Eye) -> Iterator[Touch]:
     path = planned.path
     for probing in _list_probings(planned):
         ends = [probing.away(path.approach + path.tip_radius), probing.away(path.tip_radius)]
-        start, end = eye.sees(np.array(ends))
+        start, end = eye.see(np.array(ends))
         yield Touch(_find_side(probing), start, end, MILLIMETRE.from_si(path.tip_radius))
 
 
-def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
+def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[PlacedText]:
     """Yield the numbers of faces: on the right side of the base, or from above beside the blocks."""
     boxes = planned.obstacles
     away = MILLIMETRE.to_si(_NUMBERS_AWAY)
@@ -191,8 +191,8 @@ def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
         across, upward = boxes.lower[0, 1] - away, boxes.upper[0, 2]
     for probing in _list_probings(planned):
         along = planned.frame.to_gauge(probing.target)[0]
-        at = eye.sees(np.array(_move_into(planned, (along, across, upward))))
-        yield Note(same_in_all_languages(str(probing.face)), at, _find_side(probing))
+        at = eye.see(np.array(_move_into(planned, (along, across, upward))))
+        yield PlacedText(same_in_all_languages(str(probing.face)), at, _find_side(probing))
 
 
 def _list_probings(planned: PlannedPath) -> Iterator[Probing]:

@@ -75,17 +75,17 @@ def run(options: Namespace) -> int:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry).line(options.test, Place("zlmreport capture --test"))
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         live = extension.live(job, choice.options)
         if live:
             return _run_live(live, options)
     if options.journal:
         job = _replace_journal(job, options.journal)
-    asked = assignment(job, registry)
+    asked = find_assignment(job, registry)
     if options.end:
         _close(job, asked, options.job)
         return 0
-    display = _display(options)(job, asked)
+    display = _choose_display(options)(job, asked)
     resume = options.resume or bool(options.retake)
     words = TypedAnswers(options.answer, options.retake)
     capture(job, asked, registry, display, options.job, resume=resume, words=words)
@@ -94,7 +94,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _display(options: Namespace) -> Callable[[Job, Assignment], Display]:
+def _choose_display(options: Namespace) -> Callable[[Job, Assignment], Display]:
     """Return where the capture is shown."""
     if options.steered:
         return SteeredLines
@@ -122,7 +122,7 @@ def _run_live(live: LiveRun, options: Namespace) -> int:
 
 def _tell(happening: Happening) -> None:
     line = make_visible(happening.line)
-    print(f"  {Colour.YELLOW.of(happening.warning)}  {line}" if happening.warning else line, flush=True)
+    print(f"  {Colour.YELLOW.set(happening.warning)}  {line}" if happening.warning else line, flush=True)
 
 
 def _replace_journal(job: Job, journal: Path) -> Job:
@@ -137,14 +137,14 @@ def _replace_journal(job: Job, journal: Path) -> Job:
 def _close(job: Job, asked: Assignment, path: Path) -> None:
     """Close the journal of a job; its instrument is not needed for that."""
     demand_own_journal(job, asked)
-    with Journal.continued(asked.options.journal) as journal:
+    with Journal.resume(asked.options.journal) as journal:
         taken, visits = journal.progress.taken, len(journal.progress.visits)
         journal.append(Ended(), journal.elapsed)
     print(f"closed after {taken} of {count_in_words(visits, 'visit')}; what was not taken is missing")
     print(f"next: zlmreport {show_path(path)}")
 
 
-def assignment(job: Job, registry: Registry) -> Assignment:
+def find_assignment(job: Job, registry: Registry) -> Assignment:
     """Return what a job asks to be captured; raise `InputError` if it is nothing, or makes no sense."""
     return make_assignment_of(job, propose(job, pipeline.choose_standards(job, registry)).plan)
 
@@ -160,16 +160,16 @@ def awaits_capture(job: Job) -> bool:
 def demand_capturable(job: Job, registry: Registry) -> None:
     """Refuse a job whose certificate would lack something, or whose capture makes no sense."""
     demand_mandatory_items(job)
-    assignment(job, registry)
+    find_assignment(job, registry)
     find_instrument_of(job)
 
 
 def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
-    plan = assignment(job, registry).plan
+    plan = find_assignment(job, registry).plan
     test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     writer = Writer.of(test, Language.ENGLISH)
-    yield f"{Colour.BOLD.of(str(path))}  the job is sound; its readings are still to be captured"
+    yield f"{Colour.BOLD.set(str(path))}  the job is sound; its readings are still to be captured"
     for standard, options in pipeline.choose_standards(job, registry):
         yield from tell_requirements(standard.designation, standard.requirements(test, options), writer)
     yield f"  next: zlmreport capture {show_path(path)}{' --resume' if _has_begun(job) else ''}"
@@ -179,7 +179,7 @@ def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
     """Capture what a job awaits if somebody sits at the terminal; if not, its data source says what to do."""
     if not is_watched() or job.source.instrument is None or not awaits_capture(job):
         return
-    asked = assignment(job, registry)
+    asked = find_assignment(job, registry)
     capture(job, asked, registry, LiveDisplay(job, asked), path, resume=_has_begun(job))
 
 
@@ -243,7 +243,7 @@ def demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = T
         return
     demand_same_test(history, job, assignment, Place(str(path)))
     if words.retake:
-        history.progress.retake(words.retake, _RETAKE)
+        history.progress.make_retake(words.retake, _RETAKE)
     elif history.progress.is_over:
         raise AccessError.at(
             Place(str(path)),
@@ -264,16 +264,16 @@ def demand_answer(assignment: Assignment, answer: str) -> None:
 def _open_journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
     path = assignment.options.journal
     if not resume:
-        return Journal.begun(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
-    journal = Journal.continued(path)
+        return Journal.begin(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
+    journal = Journal.resume(path)
     if words.answer:
         visit = visit_named(words.answer, journal.progress, Place("--answer"))
         now = _measure_elapsed(journal)
-        for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
+        for event in Follower(journal.progress, assignment.settings).take_answer(visit, now - journal.asked):
             journal.append(event, now)
     journal.append(Resumed(), _measure_elapsed(journal))
     if words.retake:
-        journal.append(journal.progress.retake(words.retake, _RETAKE), _measure_elapsed(journal))
+        journal.append(journal.progress.make_retake(words.retake, _RETAKE), _measure_elapsed(journal))
     return journal
 
 
@@ -293,7 +293,7 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
         show = partial(display.show, follower)
         event: Event | None = None
         try:
-            with display.keys():
+            with display.take_keys():
                 for event in captured(chain([first], readings), follower, journal, clock, show=show):
                     display.tell(event)
         except BaseException:
@@ -305,13 +305,13 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
                 display.leave("the datum is gone; all visits were taken before, and their readings stay")
             return
         if isinstance(event, Unclear):
-            for each in follower.told(display.ask(event, journal.progress)):
+            for each in follower.take_answer(display.ask(event, journal.progress)):
                 journal.append(each, _measure_elapsed(journal))
                 display.tell(each)
             if journal.progress.is_over:
                 return
         else:
-            display.see_to(event, journal.progress.after(Resumed()))
+            display.see_to(event, journal.progress.take_event(Resumed()))
         journal.append(Resumed(), _measure_elapsed(journal))
         readings = ReadAhead(connection.readings())
         first = next(readings)

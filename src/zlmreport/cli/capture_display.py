@@ -71,7 +71,7 @@ class Display(Protocol):
     def tell(self, event: Event) -> None:
         """Say what has happened."""
 
-    def keys(self) -> AbstractContextManager[None]:
+    def take_keys(self) -> AbstractContextManager[None]:
         """Take orders from a keyboard, if there is one."""
 
     def show(self, follower: Follower, reading: LiveReading) -> Iterable[Order]:
@@ -106,9 +106,9 @@ def order_of(line: str, progress: Progress) -> Order:
     place = Place("keyboard")
     match line.strip().partition(" "):
         case ("r", _, rest) if rest:
-            return progress.retake(rest, place)
+            return progress.make_retake(rest, place)
         case ("b", _, "") if progress.taken:
-            return progress.retake(str(progress.taken), place)
+            return progress.make_retake(str(progress.taken), place)
         case ("b", _, ""):
             raise InputError.at(place, "nothing was taken yet")
         case ("s", _, "") if progress.taken < len(progress.visits):
@@ -131,7 +131,7 @@ class Keyboard:
         return f"> {self.typed}" if self.typed else f"keys   {_KEYS}"
 
     @contextmanager
-    def taken(self) -> Iterator[None]:
+    def take(self) -> Iterator[None]:
         """Take the keys one by one, and give the terminal back as it was."""
         import termios  # noqa: PLC0415 - not on every system
         import tty  # noqa: PLC0415
@@ -143,7 +143,7 @@ class Keyboard:
         finally:
             termios.tcsetattr(self._file, termios.TCSADRAIN, before)
 
-    def lines(self) -> Iterator[str]:
+    def list_lines(self) -> Iterator[str]:
         """Yield the lines that were finished since it was asked last."""
         while select.select([self._file], [], [], 0)[0]:
             keys = os.read(self._file, 1024).decode(errors="replace")
@@ -179,21 +179,21 @@ class PlainLines:
         )
         visits = count_in_words(len(self._assignment.visits), "visit")
         method = self._assignment.plan.method
-        rest = f"about {write_duration(self._assignment.remaining_time(0))}"
-        self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits}, {rest}")
+        rest = f"about {write_duration(self._assignment.estimate_remaining_time(0))}"
+        self._write_line(f"{Colour.BOLD.set(number)}  axis {axis}, {method}, {visits}, {rest}")
 
     def begin(self, follower: Follower) -> None:
         """Say what is to be done."""
         for number, step in enumerate(list_what_to_do(follower.progress, self._writer), start=1):
-            self._line(f"{number}. {step}")
+            self._write_line(f"{number}. {step}")
 
     def tell(self, event: Event) -> None:
         """Print a line on an event."""
         line = write_terminal_line(event, self._assignment, self._writer)
         if line:
-            self._line(line)
+            self._write_line(line)
 
-    def keys(self) -> AbstractContextManager[None]:
+    def take_keys(self) -> AbstractContextManager[None]:
         """Take no orders."""
         return nullcontext()
 
@@ -216,9 +216,9 @@ class PlainLines:
 
     def leave(self, message: str) -> None:
         """Print how the capture goes on."""
-        self._line(message)
+        self._write_line(message)
 
-    def _line(self, line: str) -> None:
+    def _write_line(self, line: str) -> None:
         print(line, flush=True)
 
 
@@ -234,7 +234,7 @@ class JsonLines(PlainLines):
     def tell(self, event: Event) -> None:
         """Print an event."""
         if not isinstance(event, MOMENTARY):
-            self._line(json.dumps(to_record(event), ensure_ascii=False))
+            self._write_line(json.dumps(to_record(event), ensure_ascii=False))
 
     def leave(self, message: str) -> None:
         """Print nothing: the journal is left as it is after any other end."""
@@ -249,16 +249,16 @@ class LiveDisplay(PlainLines):
         self._due = 0.0
         self._keyboard = Keyboard()
 
-    def keys(self) -> AbstractContextManager[None]:
+    def take_keys(self) -> AbstractContextManager[None]:
         """Take orders from the keyboard."""
-        return self._keyboard.taken()
+        return self._keyboard.take()
 
     def tell(self, event: Event) -> None:
         """Print a line on an event, and ring: once for a reading, twice and in colour for what is wrong."""
         line = write_terminal_line(event, self._assignment, self._writer)
         is_wrong = isinstance(event, _WRONG) or (isinstance(event, Elsewhere) and event.factor is not None)
         if line:
-            self._line(Colour.RED.of(line) if is_wrong else line)
+            self._write_line(Colour.RED.set(line) if is_wrong else line)
         if is_wrong or isinstance(event, Recorded):
             print(_BELL * (2 if is_wrong else 1), end="", flush=True)
 
@@ -266,7 +266,7 @@ class LiveDisplay(PlainLines):
         """Show the present moment, ten times a second at most; yield what was typed and can be done."""
         if reading.time < self._due:
             return
-        for line in filter(str.strip, self._keyboard.lines()):
+        for line in filter(str.strip, self._keyboard.list_lines()):
             try:
                 yield order_of(line, follower.progress)
             except InputError as error:
@@ -275,7 +275,7 @@ class LiveDisplay(PlainLines):
         width = shutil.get_terminal_size().columns - 1
         lines = [*show_panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
         shown = [make_visible(line)[:width] for line in lines]
-        print(self._back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
+        print(self._make_way_back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
         self._shown = len(shown)
 
     def see_to(self, event: Event | None, progress: Progress) -> None:
@@ -283,7 +283,7 @@ class LiveDisplay(PlainLines):
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
         self._say(say_halted(event, self._writer))
-        self._line(f"First {list_what_to_do(progress, self._writer, event)[0]}.")
+        self._write_line(f"First {list_what_to_do(progress, self._writer, event)[0]}.")
         try:
             input("Press Enter when that is done, Ctrl-C to stop: ")
         except EOFError as error:
@@ -293,7 +293,7 @@ class LiveDisplay(PlainLines):
         """Ring, and ask which visit a stop is until there is an answer."""
         print(_BELL, end="", flush=True)
         self._say(say_halted(question, self._writer))
-        self._line("Stop the program and look where it is.")
+        self._write_line("Stop the program and look where it is.")
         while True:
             try:
                 return visit_named(
@@ -306,17 +306,17 @@ class LiveDisplay(PlainLines):
             except EOFError as error:
                 raise KeyboardInterrupt from error
 
-    def _line(self, line: str) -> None:
-        print(self._back() + line, flush=True)
+    def _write_line(self, line: str) -> None:
+        print(self._make_way_back() + line, flush=True)
         self._shown = 0
         self._due = 0.0
 
     def _say(self, message: str) -> None:
         """Print a message that is to be heeded."""
         for line in textwrap.wrap(make_visible(message), shutil.get_terminal_size().columns - 1):
-            self._line(Colour.RED.of(line))
+            self._write_line(Colour.RED.set(line))
 
-    def _back(self) -> str:
+    def _make_way_back(self) -> str:
         """Return what takes the cursor to where the present moment is shown, and wipes that away."""
         return (_UP.format(self._shown) if self._shown else "") + "\r" + _CLEAR_BELOW
 
@@ -336,24 +336,28 @@ def show_panel(
     progress = follower.progress
     visit = progress.next
     yield ""
-    yield f"next   {writer.visit(visit)} {writer.say(SIDES[visit.approach])}"
-    yield f"now    {_now(reading, follower, assignment, writer)}"
+    yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}"
+    yield f"now    {_write_moment(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
     bar = "█" * full + "░" * (_BAR - full)
-    rest = f"about {write_duration(assignment.remaining_time(done))}"
+    rest = f"about {write_duration(assignment.estimate_remaining_time(done))}"
     yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
 
 
-def _now(reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter) -> str:
+def _write_moment(
+    reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
+) -> str:
     if not reading.is_usable and reading.message:
         return reading.message
     progress, status, settings = follower.progress, follower.status, assignment.settings
-    still = f"range {writer.fine(status.range)}, still {status.still:.1f} of {settings.dwell:g} s"
+    still = (
+        f"range {writer.write_small_length(status.range)}, still {status.still:.1f} of {settings.dwell:g} s"
+    )
     if status.position is None:
         return f"waiting for the datum: {still}"
     away = status.position - progress.next.position
-    position = writer.position(status.position, 4)
+    position = writer.write_position(status.position, 4)
     if abs(away) > settings.tolerance:
-        return f"{position:>14}  {writer.position(-away, 3)} to go"
-    return f"{position:>14}  {writer.deviation(away)}  {still}"
+        return f"{position:>14}  {writer.write_position(-away, 3)} to go"
+    return f"{position:>14}  {writer.write_deviation(away)}  {still}"

@@ -57,7 +57,7 @@ class SteeredLines(JsonLines):
         """Print the present moment, five times a second at most; yield what was ordered and can be done."""
         if reading.time < self._due:
             return
-        for line in self._ordered():
+        for line in self._list_orders():
             try:
                 yield order_of(line, follower.progress)
             except InputError as error:
@@ -98,7 +98,7 @@ class SteeredLines(JsonLines):
             raise KeyboardInterrupt
         return line
 
-    def _ordered(self) -> Iterator[str]:
+    def _list_orders(self) -> Iterator[str]:
         """Yield the lines that have come since; an empty one orders nothing."""
         with suppress(Empty):
             while True:
@@ -117,4 +117,4 @@ class SteeredLines(JsonLines):
         self._print({"record": record, **values})
 
     def _print(self, record: dict[str, Any]) -> None:
-        self._line(json.dumps(record, ensure_ascii=False, allow_nan=False))
+        self._write_line(json.dumps(record, ensure_ascii=False, allow_nan=False))

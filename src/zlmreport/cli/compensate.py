@@ -61,7 +61,7 @@ def run(options: Namespace) -> int:
     if len(options.jobs) != 1:
         raise InputError.at(_COMMAND, "one job makes a table; --confirm BEFORE.yaml AFTER.yaml takes two")
     job = load(options.jobs[0], registry)
-    made, measurements = _made(job, registry, options)
+    made, measurements = _make_tables(job, registry, options)
     uncertainties = _find_uncertainties(job, measurements, made, registry)
     written: Sequence[Path] = ()
     if options.output:
@@ -87,10 +87,10 @@ def run(options: Namespace) -> int:
 
 def _write_heading(job: Job, made: Made) -> str:
     control = f"{say(made.controller.title)}, {made.controller.confidence}"
-    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
+    return f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
 
 
-def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:
+def _make_tables(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:
     refuse_other_than_positions(
         job.axis,
         job.place_of("measurement.error"),
@@ -170,7 +170,7 @@ def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tupl
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
-    made, measurements = _made(before, registry, options)
+    made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, made.decoded, after.source.place)
     shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve)

@@ -61,7 +61,7 @@ def _list_further_words(command: str) -> list[str]:
 def _complete_identifiers(kind: Kind[Any]) -> Callable[..., Iterable[str]]:
     def found(prefix: str, **_: object) -> Iterable[str]:
         begun, comma, _last = prefix.rpartition(",")  # of a list, such as that of the formats
-        return [f"{begun}{comma}{identifier}" for identifier in find_plugins().identifiers(kind)]
+        return [f"{begun}{comma}{identifier}" for identifier in find_plugins().list_identifiers(kind)]
 
     return found
 

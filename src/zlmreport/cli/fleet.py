@@ -95,28 +95,28 @@ class _Watcher:
         """What the shell is told."""
         return _FAILED if self.notices or any(self.counts[what] for what in _NOT_DONE) else 0
 
-    def noticed(self, notice: NightNotice) -> None:
+    def note_notice(self, notice: NightNotice) -> None:
         self.notices.append(notice)
         self._progress.hide()
         for log in self._logs:
-            log.noticed(notice)
+            log.write_notice(notice)
         if self._options.quiet or self._options.json:
             print(make_visible(f"{self._fleet.path}: {notice.english}"), file=sys.stderr)
 
-    def learned(self, file: Path) -> None:
+    def note_priors(self, file: Path) -> None:
         self.priors.append(show_path(file))
         self._progress.hide()
         for log in self._logs:
-            log.learned(show_path(file))
+            log.write_priors(show_path(file))
 
-    def planned(self, jobs: Sequence[PlannedJob]) -> None:
+    def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)
         for log in self._logs:
-            log.begun(self._fleet.name, due, len(jobs))
+            log.write_beginning(self._fleet.name, due, len(jobs))
         if not self._options.quiet:
             self._progress = NightProgress(sys.stderr, due)
 
-    def happened(self, happened: Happened) -> None:
+    def note_happened(self, happened: Happened) -> None:
         self.counts[happened.what] += 1
         if self._options.json:
             self.jobs.append({"what": happened.what.value, **collect_of_job(happened)})
@@ -124,7 +124,7 @@ class _Watcher:
             return
         self._progress.hide()
         for log in self._logs:
-            log.happened(happened)
+            log.write_happened(happened)
         if self._options.quiet or self._options.json:
             for problem in happened.problems:
                 print(make_visible(str(problem)), file=sys.stderr)
@@ -141,7 +141,7 @@ class _Watcher:
         self._progress.hide()
         is_interrupted = isinstance(error, KeyboardInterrupt)
         for log in self._logs if error is None or is_interrupted else ():
-            log.ended(self.counts, time.monotonic() - self._begun, is_interrupted=is_interrupted)
+            log.write_end(self.counts, time.monotonic() - self._begun, is_interrupted=is_interrupted)
         if is_interrupted and self._options.json:
             print_json(_summarise(self._fleet, self, INTERRUPTED))
 
@@ -235,11 +235,11 @@ class TextLog:
         self._stream = stream
         self._upgraded = 0
 
-    def begun(self, fleet: str, due: int, jobs: int) -> None:
+    def write_beginning(self, fleet: str, due: int, jobs: int) -> None:
         """Write what is due."""
-        self._line(f"{fleet}: {_count_due(due, jobs)}")
+        self._write_line(f"{fleet}: {_count_due(due, jobs)}")
 
-    def happened(self, happened: Happened) -> None:
+    def write_happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was, also after a new release."""
         if happened.is_upgrade:
             self._upgraded += 1
@@ -248,26 +248,28 @@ class TextLog:
         why = f": {happened.why}" if happened.why else ""
         number = f"{happened.number}  " if happened.number else ""
         limits = "; a limit is not met" if happened.conforms is False else ""
-        self._line(f"{happened.what.value:{_WORD}} {number}{happened.job}{why}{limits}")
+        self._write_line(f"{happened.what.value:{_WORD}} {number}{happened.job}{why}{limits}")
         for problem in happened.problems:
-            self._line(f"{'':{_WORD}}   {problem}")
+            self._write_line(f"{'':{_WORD}}   {problem}")
 
-    def noticed(self, notice: NightNotice) -> None:
+    def write_notice(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
-        self._line(notice.english)
+        self._write_line(notice.english)
 
-    def learned(self, file: str) -> None:
+    def write_priors(self, file: str) -> None:
         """Write which file of priors is new."""
-        self._line(f"{'learned':{_WORD}} {file}: for model.priors of the next tests")
+        self._write_line(f"{'learned':{_WORD}} {file}: for model.priors of the next tests")
 
-    def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
+    def write_end(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         done = "interrupted after" if is_interrupted else "done in"
         if self._upgraded:
-            self._line(f"programs changed: {self._upgraded} made again, and none of their values changed")
-        self._line(f"{done} {write_duration(seconds)}: {', '.join(tell_counted(counts)) or 'no jobs'}")
+            self._write_line(
+                f"programs changed: {self._upgraded} made again, and none of their values changed"
+            )
+        self._write_line(f"{done} {write_duration(seconds)}: {', '.join(tell_counted(counts)) or 'no jobs'}")
 
-    def _line(self, text: str) -> None:
+    def _write_line(self, text: str) -> None:
         moment = dt.datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
         print(f"{moment}  {make_visible(text)}", file=self._stream, flush=True)
 
@@ -278,29 +280,29 @@ class JsonLog:
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
 
-    def begun(self, fleet: str, due: int, jobs: int) -> None:
+    def write_beginning(self, fleet: str, due: int, jobs: int) -> None:
         """Write what is due."""
-        self._line({"event": "begun", "fleet": fleet, "due": due, "jobs": jobs})
+        self._write_line({"event": "begun", "fleet": fleet, "due": due, "jobs": jobs})
 
-    def happened(self, happened: Happened) -> None:
+    def write_happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was."""
         if happened.what is not What.UNCHANGED:
-            self._line({"event": happened.what.value, **collect_of_job(happened)})
+            self._write_line({"event": happened.what.value, **collect_of_job(happened)})
 
-    def noticed(self, notice: NightNotice) -> None:
+    def write_notice(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
-        self._line({"event": "noticed", "about": notice.about.value, "message": notice.english})
+        self._write_line({"event": "noticed", "about": notice.about.value, "message": notice.english})
 
-    def learned(self, file: str) -> None:
+    def write_priors(self, file: str) -> None:
         """Write which file of priors is new."""
-        self._line({"event": "learned", "file": file})
+        self._write_line({"event": "learned", "file": file})
 
-    def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
+    def write_end(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         event = "interrupted" if is_interrupted else "ended"
-        self._line({"event": event, "seconds": round(seconds, 1), "counts": count_by_word(counts)})
+        self._write_line({"event": event, "seconds": round(seconds, 1), "counts": count_by_word(counts)})
 
-    def _line(self, content: Mapping[str, Any]) -> None:
+    def _write_line(self, content: Mapping[str, Any]) -> None:
         moment = dt.datetime.now(dt.UTC).isoformat(timespec="milliseconds")
         print(json.dumps({"time": moment, **content}), file=self._stream, flush=True)
 

@@ -17,7 +17,7 @@ from zlmreport.fleet.exports import write_calendar, write_metrics
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
-from zlmreport.fleet.state import FleetState, Rules, state_of
+from zlmreport.fleet.state import FleetState, Rules, describe_state
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, load_fleet
 from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import find_plugins
@@ -28,7 +28,7 @@ _INCOMPLETE = 4
 def report(options: Namespace) -> int:
     """Write the files anew, each whole or not at all; the ledger is only read."""
     fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
-    state = _state(fleet)
+    state = _write_state(fleet)
     folder: Path = options.output or fleet.output
     names = Names(find_plugins(files=options.plugin).standards)
     files = os.path.relpath(fleet.output, folder)
@@ -44,17 +44,17 @@ def report(options: Namespace) -> int:
     return 0
 
 
-def _state(fleet: FleetFile) -> FleetState:
+def _write_state(fleet: FleetFile) -> FleetState:
     found, unmatched = find_jobs(fleet)
     named = (write_path_in(fleet.path.parent, path) for path in found)
     jobs = [job for job in named if not is_retired(job, fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
-        night = ledger.last_night()
+        night = ledger.find_last_night()
         if unmatched and night is None:
             raise InputError(unmatched)
-        seen = night and night.seen_at(dt.datetime.now(dt.UTC))
-        return state_of(fleet.name, ledger.entries(), jobs, seen, rules)
+        seen = night and night.see_at(dt.datetime.now(dt.UTC))
+        return describe_state(fleet.name, ledger.list_entries(), jobs, seen, rules)
 
 
 def backup(options: Namespace) -> int:
@@ -63,7 +63,7 @@ def backup(options: Namespace) -> int:
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         try:
             options.output.parent.mkdir(parents=True, exist_ok=True)
-            ledger.backup(options.output)
+            ledger.write_backup(options.output)
         except OSError as error:
             message = f"cannot be written: {error.strerror or error}"
             raise AccessError.at(Place(str(options.output)), message) from error

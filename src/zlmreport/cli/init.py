@@ -81,7 +81,7 @@ def _tell_lines(looked: Looked, path: Path) -> Iterator[str]:
         for question in looked.proposal.asks:
             yield from wrap(question)
     yield ""
-    yield from looked.block(path.name)
+    yield from looked.write_block(path.name)
 
 
 def _summarise(read: MeasurementSet) -> str:
@@ -91,7 +91,7 @@ def _summarise(read: MeasurementSet) -> str:
     count, missing = int(np.isfinite(deviation).sum()), len(read.missing())
     if read.axis.measurand.coordinate is Coordinate.TIME:
         return _summarise_over_time(read, count)
-    travel = f"from {_number(at[0])} to {_number(at[-1])} {place.symbol}"
+    travel = f"from {_write_number(at[0])} to {_write_number(at[-1])} {place.symbol}"
     directions = "both directions" if read.is_bidirectional else "one direction"
     parts = [
         f"{_count_in_words(count, 'reading')} of {_count_in_words(len(at), 'target')} {travel}",
@@ -99,7 +99,7 @@ def _summarise(read: MeasurementSet) -> str:
     ]
     if count:
         smallest, largest = np.nanmin(deviation), np.nanmax(deviation)
-        parts.append(f"deviations {_number(smallest)} to {_number(largest)} {size.symbol}")
+        parts.append(f"deviations {_write_number(smallest)} to {_write_number(largest)} {size.symbol}")
     parts.append(f"{missing} missing" if missing else "nothing missing")
     return "; ".join(parts)
 
@@ -107,11 +107,11 @@ def _summarise(read: MeasurementSet) -> str:
 def _summarise_over_time(read: MeasurementSet, count: int) -> str:
     """Return in a line what was read over time, and what was logged beside it."""
     place, size = read.axis.position_unit, read.axis.deviation_unit
-    lasts = _number(place.from_si(float(read.target_positions[-1] - read.target_positions[0])))
+    lasts = _write_number(place.from_si(float(read.target_positions[-1] - read.target_positions[0])))
     parts = [f"{_count_in_words(count, 'reading')} over {lasts} {place.symbol}"]
     if count:
         smallest, largest = (size.from_si(float(end(read.deviation))) for end in (np.nanmin, np.nanmax))
-        parts.append(f"{_number(smallest)} to {_number(largest)} {size.symbol}")
+        parts.append(f"{_write_number(smallest)} to {_write_number(largest)} {size.symbol}")
     if read.conditions:
         parts.append(f"with {', '.join(read.conditions)}")
     return "; ".join(parts)
@@ -121,5 +121,5 @@ def _count_in_words(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
-def _number(value: float) -> str:
+def _write_number(value: float) -> str:
     return write_general_number(float(f"{value:.6g}"), DecimalSign.POINT)

@@ -37,7 +37,7 @@ from zlmreport.measurement.units import Unit
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Finding, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, Finding
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
     from zlmreport.language import Words
@@ -80,7 +80,7 @@ def do_all(
                 print()
             print(*lines(result), sep="\n", flush=True)
             printed = True
-    code = max(result.exit_code(fail_on_nonconformity=fail_on_nonconformity) for result in results)
+    code = max(result.choose_exit_code(fail_on_nonconformity=fail_on_nonconformity) for result in results)
     if options.json:
         print_json(summarise(results, code))
     return code
@@ -114,7 +114,7 @@ class JobResult:
             return False
         return True if verdicts and None not in verdicts else None
 
-    def exit_code(self, *, fail_on_nonconformity: bool = False) -> int:
+    def choose_exit_code(self, *, fail_on_nonconformity: bool = False) -> int:
         """Return the exit code of this job alone."""
         if self.error:
             return self.error.exit_code
@@ -253,14 +253,14 @@ def report(result: JobResult) -> Iterator[str]:
     if job is None or not result.evaluations:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
-    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  {_name_subject(job)}"
+    yield f"{Colour.BOLD.set(job.keys.certificate.number)}  {_name_subject(job)}"
     for path in result.files:
         yield f"  {show_path(path)}"
     for evaluation in result.evaluations:
         measurements = evaluation.measurements
         yield ""
         if job.measurements:
-            yield f"  {Colour.BOLD.of(measurements.axis.subject.in_language(Language.ENGLISH))}"
+            yield f"  {Colour.BOLD.set(measurements.axis.subject.in_language(Language.ENGLISH))}"
         yield from _tell_parameters(evaluation, Writer.of(measurements, Language.ENGLISH))
     yield from _tell_notices(result, writer)
 
@@ -272,8 +272,8 @@ def tell_findings(result: JobResult) -> Iterator[str]:
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
     faults = [each for _, measurements in _name_measured_sets(result) for each in _find_faults(measurements)]
     reserved = (*_tell_incomplete(result, writer), *_tell_unlikely(result, writer))
-    sound = Colour.YELLOW.of("can be evaluated, with reservations") if reserved else _SOUND
-    yield f"{Colour.BOLD.of(str(result.path))}  {Colour.RED.of('its data look wrong') if faults else sound}"
+    sound = Colour.YELLOW.set("can be evaluated, with reservations") if reserved else _SOUND
+    yield f"{Colour.BOLD.set(str(result.path))}  {Colour.RED.set('its data look wrong') if faults else sound}"
     for fault in faults:
         yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
     yield from reserved
@@ -300,7 +300,7 @@ def _find_faults(measurements: MeasurementSet) -> tuple[DataFault, ...]:
 def tell_requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:
     """Yield the lines on what a standard asks of a test."""
     yield f"  {designation}"
-    words = {True: "met", False: Colour.RED.of("not met"), None: Colour.YELLOW.of("open")}
+    words = {True: "met", False: Colour.RED.set("not met"), None: Colour.YELLOW.set("open")}
     yield from lay_out_table(
         (words[finding.met], f"{writer.say(finding.requirement)}: {writer.say(finding.found)}")
         for finding in found
@@ -361,7 +361,7 @@ def _measure_terminal() -> int:
     return shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns
 
 
-def _write_value(parameter: Parameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
+def _write_value(parameter: EvaluatedParameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
     """Return a value, and with its uncertainty both as the certificate prints them."""
     return (
         write_with_uncertainty(parameter, writer)
@@ -376,11 +376,11 @@ def _align_on_the_point(numbers: Sequence[str]) -> list[str]:
     return [number + " " * (max(decimals) - own) for number, own in zip(numbers, decimals, strict=True)]
 
 
-def _tell_verdict(parameter: Parameter, writer: Writer) -> str:
+def _tell_verdict(parameter: EvaluatedParameter, writer: Writer) -> str:
     if parameter.decision is None:
         return ""
     _, words = STATEMENTS[parameter.decision.conformity]
-    return _COLOURS[parameter.conforms].of(writer.say(words))
+    return _COLOURS[parameter.conforms].set(writer.say(words))
 
 
 def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
@@ -391,7 +391,7 @@ def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
     ]
     for evaluation in result.evaluations:
         notices.extend(
-            f"  {Colour.YELLOW.of('not met')}  {evaluation.designation}: "
+            f"  {Colour.YELLOW.set('not met')}  {evaluation.designation}: "
             f"{writer.say(finding.requirement)}: {writer.say(finding.found)}"
             for finding in evaluation.findings
             if finding.met is False
@@ -407,24 +407,24 @@ def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
     if isinstance(result.budget, Budget):
         for block in say_uncertainty(result.budget, (), writer):
             if isinstance(block, Notice):
-                yield f"  {Colour.YELLOW.of('open')}     {block.heading}"
+                yield f"  {Colour.YELLOW.set('open')}     {block.heading}"
 
 
 def _tell_unlikely(result: JobResult, writer: Writer) -> Iterator[str]:
     for doubt in result.doubts:
-        yield f"  {Colour.YELLOW.of('unlikely')} {writer.say(doubt)}"
+        yield f"  {Colour.YELLOW.set('unlikely')} {writer.say(doubt)}"
     for shown in result.evidence:
-        yield f"  {Colour.YELLOW.of('doubtful')} {writer.say(shown)}"
+        yield f"  {Colour.YELLOW.set('doubtful')} {writer.say(shown)}"
 
 
 def _tell_missing(result: JobResult, writer: Writer) -> Iterator[str]:
     for name, measurements in _name_measured_sets(result):
         own, before = Writer.of(measurements, writer.language), f"{name}: " if name else ""
         for notice in list_missing_readings(measurements, own):
-            yield f"  {Colour.YELLOW.of('missing')}  {before}{notice.heading}"
+            yield f"  {Colour.YELLOW.set('missing')}  {before}{notice.heading}"
             yield from (f"           {item}" for item in notice.items)
         for notice in make_exclusion_notice(measurements, own):
-            yield f"  {Colour.YELLOW.of('aside')}    {before}{notice.heading}"
+            yield f"  {Colour.YELLOW.set('aside')}    {before}{notice.heading}"
             yield from (f"           {item}" for item in notice.items)
 
 
@@ -435,7 +435,7 @@ def _tell_model(result: JobResult) -> Iterator[str]:
     from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
     from zlmreport.model.diagnosis.report import write_verdict_statement  # noqa: PLC0415
 
-    label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).of("model")
+    label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).set("model")
     yield f"  {label}  {write_verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
     if diagnosis.verdict is not Verdict.ADEQUATE:
         yield f"         see: zlmreport model diagnose {show_path(result.path)}"

@@ -35,7 +35,7 @@ _EIGHTHS = " ▏▎▍▌▋▊▉█"
 def lay_out_sections(sections: Iterable[Section]) -> Iterator[str]:
     """Yield sections, each after an empty line."""
     for section in sections:
-        yield from ("", Colour.BOLD.of(section.title))
+        yield from ("", Colour.BOLD.set(section.title))
         for block in section.blocks:
             yield from lay_out_blocks(block, section.title)
 
@@ -45,7 +45,7 @@ def lay_out_blocks(block: Block, title: str = "") -> Iterator[str]:
     match block:
         case Paragraph(text, mark):
             lines = wrap(say(text))
-            yield from (_COLOURS[mark].of(line) for line in lines) if mark else lines
+            yield from (_COLOURS[mark].set(line) for line in lines) if mark else lines
         case Notice(heading, items):
             is_titled = heading == title
             yield from () if is_titled else wrap(f"{say(heading)}:")

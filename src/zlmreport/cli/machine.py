@@ -47,7 +47,7 @@ def run(options: Namespace) -> int:
 
 
 def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
-    yield f"{Colour.BOLD.of(machine.number)}  chain {machine.machine.chain.letters} (workpiece to tool)"
+    yield f"{Colour.BOLD.set(machine.number)}  chain {machine.machine.chain.letters} (workpiece to tool)"
     yield from lay_out_sections(each for each in sections if each)
     yield from more
 
@@ -60,7 +60,7 @@ def _predict(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[It
     sections = [
         lay_out_errors(machine.machine, _SAY, is_full=False),
         lay_out_space(machine.machine, _SAY),
-        *(tests.test_section(each, _SAY) for each in compared),
+        *(tests.lay_out_test(each, _SAY) for each in compared),
     ]
     return _lay_out(machine, sections), collect_prediction(machine.machine, compared)
 
@@ -81,7 +81,7 @@ def _check(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Ite
 
 
 def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
-    found = diagnose(machine.study(), machine.catalogue)
+    found = diagnose(machine.make_study(), machine.catalogue)
     before, after = (
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (found.study, found.complete)
@@ -100,7 +100,7 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
 
 
 def _plan(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
-    found = plan_next_run(diagnose(machine.study(), machine.catalogue), machine.catalogue)
+    found = plan_next_run(diagnose(machine.make_study(), machine.catalogue), machine.catalogue)
     return _lay_out(machine, [plan_section(found, _SAY)]), plan_values(found)
 
 
@@ -124,12 +124,12 @@ def _write_certificate(
 
 def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Add effect after effect, and write them into the machine file."""
-    found = diagnose(machine.study(), machine.catalogue)
+    found = diagnose(machine.make_study(), machine.catalogue)
     if found.found and not options.dry_run:
         edit_effects(machine, (*machine.effect_names, *found.found))
     sections = [
         findings.lay_out_verdict(found, _SAY),
-        findings.step_section(found, _SAY),
+        findings.lay_out_steps(found, _SAY),
         findings.lay_out_model(found.complete, _SAY),
     ]
     return _lay_out(machine, sections), build_values(found)
@@ -158,7 +158,7 @@ def _remove(machine: MachineFile, registry: Registry, options: Namespace) -> tup
 def _change_effects(
     machine: MachineFile, registry: Registry, effects: Sequence[CircleEffect]
 ) -> tuple[Iterable[str], Any]:
-    before, after = machine.study(), machine.study(effects)
+    before, after = machine.make_study(), machine.make_study(effects)
     compared = [
         compare_circles(machine.machine, machine.measured, registry, study) for study in (before, after)
     ]

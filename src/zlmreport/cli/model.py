@@ -10,14 +10,14 @@ from typing import Any, TypeAlias
 
 from zlmreport import pipeline
 from zlmreport.cli.model_build import build_lines
-from zlmreport.cli.model_lines import change_lines, fit_lines, point_lines, tell_diagnosis, tell_history
+from zlmreport.cli.model_lines import change_lines, fit_lines, tell_diagnosis, tell_history, write_point_lines
 from zlmreport.cli.model_values import (
     ModelChange,
     change_values,
     collect_history,
     find_points_of,
     fit_values,
-    point_values,
+    list_point_values,
 )
 from zlmreport.cli.terminal import lay_out_table, print_json, show_path, show_progress
 from zlmreport.document.subjects.diagnosis import write_effect_argument
@@ -25,7 +25,7 @@ from zlmreport.document.subjects.forecast import StandardForecast, make_forecast
 from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.files import Document, read, say_reason, write
-from zlmreport.job.edit import Edit, NamedEffect, edit_effects
+from zlmreport.job.edit import Edit, WrittenEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -69,11 +69,11 @@ class _Session:
         """Writes values as the certificate does."""
         return Writer.of(self.measurements, Language.ENGLISH)
 
-    def study(self, job: Job | None = None) -> Study:
+    def make_study(self, job: Job | None = None) -> Study:
         """Return the study of the job, or of what it is to become."""
         return Study.of(job or self.job, self.measurements, self.registry.effects, self.sessions)
 
-    def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
+    def make_forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
         return make_forecasts(pipeline.choose_standards(self.job, self.registry), study, history)
 
@@ -97,19 +97,19 @@ def run(options: Namespace) -> int:
 
 def _fit(session: _Session, options: Namespace) -> _Answer:
     _demand_effects(session)
-    fitted = session.study().fitted()
+    fitted = session.make_study().fitted()
     points = find_points_of(fitted.fit, options.at)
     lines = (
         *fit_lines(fitted, session.job),
-        *point_lines(points, session.job.axis),
+        *write_point_lines(points, session.job.axis),
         "",
         _say_next("diagnose", session),
     )
-    return lines, lambda: fit_values(fitted) | point_values(points, session.job.axis)
+    return lines, lambda: fit_values(fitted) | list_point_values(points, session.job.axis)
 
 
 def _diagnose(session: _Session, _: Namespace) -> _Answer:
-    study, effects = session.study(), session.registry.effects
+    study, effects = session.make_study(), session.registry.effects
     with show_progress("diagnosing") as told:
         diagnosis = study.diagnosis(effects, told)
     with show_progress("simulating plans") as told:
@@ -126,9 +126,9 @@ def _diagnose(session: _Session, _: Namespace) -> _Answer:
 
 def _tell_history(session: _Session, _: Namespace) -> _Answer:
     _demand_effects(session)
-    study = session.study()
+    study = session.make_study()
     history = study.history()
-    forecasts = session.forecasts(study, history)
+    forecasts = session.make_forecasts(study, history)
     lines = (
         *tell_history(history, forecasts, session.job, session.writer),
         "",
@@ -162,7 +162,7 @@ def _remove(session: _Session, options: Namespace) -> _Answer:
 def _build(session: _Session, options: Namespace) -> _Answer:
     """Build the job's model step by step, and write it into the job at the end."""
     with show_progress("building") as told:
-        built = session.study().built(session.registry.effects, told)
+        built = session.make_study().built(session.registry.effects, told)
     edit = _edit_of(session, built)
     if edit is not None and not options.dry_run:
         edit.write()
@@ -181,7 +181,7 @@ def _edit_of(session: _Session, built: Built) -> Edit | None:
     return edit_effects(session.path, session.job, session.registry, add=named, remove=removed)
 
 
-def _name_as_in_a_job(effect: Effect, session: _Session) -> NamedEffect:
+def _name_as_in_a_job(effect: Effect, session: _Session) -> WrittenEffect:
     """Return an effect as a job names it: a formula of its candidates as it stands there."""
     job, registry = session.job, session.registry
     place = Place("zlmreport model build")
@@ -200,20 +200,20 @@ _ACTIONS = {
 }
 
 
-def _try_change(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> ModelChange:
+def _try_change(session: _Session, named: WrittenEffect | None, removed: tuple[str, ...]) -> ModelChange:
     """Return a change of the model with what it does; nothing is written."""
     edit = edit_effects(
         session.path, session.job, session.registry, add=[named] if named else [], remove=removed
     )
-    before = session.study().fitted()
-    study = session.study(edit.job)
+    before = session.make_study().fitted()
+    study = session.make_study(edit.job)
     try:
         history = study.history()
     except InputError as error:  # its places are those of the job as it would be
         place = session.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error
     added = named.choice.identifier if named else ""
-    return ModelChange(edit, added, removed, before, history, session.forecasts(study, history))
+    return ModelChange(edit, added, removed, before, history, session.make_forecasts(study, history))
 
 
 def _write_change(session: _Session, change: ModelChange) -> _Answer:

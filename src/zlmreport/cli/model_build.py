@@ -22,7 +22,7 @@ _LEFT = Words("Beside that something is left without a name: {shape}, {where}; r
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
-    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}"
+    yield f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}"
     yield from wrap(write_staircase(built), "")
     yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
     if edit is None:

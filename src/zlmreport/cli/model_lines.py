@@ -42,7 +42,7 @@ def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     yield from lay_out_sections(map(_drop_unused_columns, fit_sections(fitted, _ENGLISH)))
 
 
-def point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
+def write_point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
     """Yield a table of the deviation at the positions, a column for each direction."""
     if points is None:
         return
@@ -172,7 +172,7 @@ def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[st
         own = [each for each in make_parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
         yield from wrap(f"{change.added}: {', '.join(write_in_a_sentence(each, _ENGLISH) for each in own)}")
         if not _is_outstanding(change.added, after.fit):
-            yield f"  {Colour.YELLOW.of('nothing')} of it exceeds its uncertainty: it may not be there"
+            yield f"  {Colour.YELLOW.set('nothing')} of it exceeds its uncertainty: it may not be there"
     yield from _draw_fall(change.history, change.forecasts, writer)
     yield ""
     yield f"next: zlmreport model diagnose {shown}"
@@ -181,7 +181,7 @@ def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[st
 def _write_heading(job: Job, fit: Fit) -> str:
     """Return the first line: which job, which axis, which model."""
     model = " + ".join(fit.model.identifiers) or "no effects yet"
-    heading = f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+    heading = f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
     others = [each.files[0].name for each in job.sessions]
     runs = [fit.design.cycle[fit.design.session == number] for number in range(1, len(others) + 1)]
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]

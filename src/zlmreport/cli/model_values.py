@@ -109,7 +109,7 @@ def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
     }
 
 
-def point_values(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
+def list_point_values(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
     """Return the same for JSON, in full precision: positions in mm or degrees, deviations in µm or ″."""
     if points is None:
         return {}

@@ -31,7 +31,7 @@ _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 def run(options: Namespace) -> int:
     """Write the folder of a plugin; no file that is there already is touched."""
-    kind, name = _kind(options.kind), _name(options.name)
+    kind, name = _find_kind(options.kind), _check_name(options.name)
     folder, module = Path(name), name.replace("-", "_")
     documents = make_skeleton_of(kind, name)
     further = ""
@@ -101,13 +101,13 @@ def _make_from_formula(options: Namespace, kind: str, name: str) -> tuple[bytes,
     return text.encode(), f"\nin the job, instead of the formula: {write_in_job(formula)}"
 
 
-def _kind(named: str) -> str:
+def _find_kind(named: str) -> str:
     if named not in GUIDES:
         raise InputError.at(_PLACE, f"there is no kind {named[:60]!r}; {did_you_mean(named, list(GUIDES))}")
     return named
 
 
-def _name(named: str) -> str:
+def _check_name(named: str) -> str:
     """Return a name that is an identifier for jobs, and with underscores a module."""
     if not _NAME.fullmatch(named):
         raise InputError.at(

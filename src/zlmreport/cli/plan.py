@@ -62,7 +62,11 @@ def run(options: Namespace) -> int:
     if own:
         return _show_plan(options, job, registry, own)
     programs = choose_programs(
-        options.program, options.output, job.programs, registry.part_program, registry.programs_for()
+        options.program,
+        options.output,
+        job.programs,
+        registry.part_program,
+        registry.list_programs_for(),
     )
     demand_file(options, programs)
     effects = [each for each in registry.effects if is_for(each, job.axis.measurand)]
@@ -73,23 +77,31 @@ def run(options: Namespace) -> int:
         motion = partial(plan_motion_of, number, job.axis, planned.proposal.plan)
         if options.run is None:
             documents = (
-                *plan_files(options.output, job, planned),
+                *make_plan_files(options.output, job, planned),
                 *make_program_files(
-                    options.output, number, partial(write_program_of, motion), programs, registry.part_program
+                    options.output,
+                    number,
+                    partial(write_program_of, motion),
+                    programs,
+                    registry.part_program,
                 ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_find_motion_of_run, motion, options.run)
             documents = make_program_files(
-                options.output, of_run, partial(write_program_of, subject), programs, registry.part_program
+                options.output,
+                of_run,
+                partial(write_program_of, subject),
+                programs,
+                registry.part_program,
             )
     written = write_new(documents)
     if options.json:
         print_json(plan_values(job, planned, written))
         return 0
     number, size = job.keys.certificate.number, say(say_size_of_plan(planned))
-    print(f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {size}")
+    print(f"{Colour.BOLD.set(number)}  axis {job.axis.name}: {size}")
     print(*lay_out_sections(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
@@ -147,7 +159,7 @@ def _plan_of_extension(
     job: Job, registry: Registry
 ) -> tuple[Extension, ExtensionChoice, ExtensionPlan] | None:
     """Return the plan of the first extension of a job that plans its test; None if none does."""
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         plan = extension.plan(job, choice.options)
         if plan:
             return extension, choice, plan
@@ -163,7 +175,7 @@ def _show_plan(
     """Write and print a plan."""
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
-    known = registry.programs_for(extension.takes) if extension.takes else ()
+    known = registry.list_programs_for(extension.takes) if extension.takes else ()
     programs = choose_programs(options.program, options.output, choice.programs, find, known)
     number = job.keys.certificate.number
     documents: tuple[Document, ...] = ()
@@ -195,15 +207,15 @@ def _show_plan(
 
 def _tell_extensions(plan: ExtensionPlan) -> Iterator[str]:
     name, rest = plan.heading
-    yield f"{Colour.BOLD.of(name)}  {rest}"
+    yield f"{Colour.BOLD.set(name)}  {rest}"
     for word, beside, sentences in plan.parts:
         yield ""
-        yield f"{Colour.BOLD.of(word)}  {beside}"
+        yield f"{Colour.BOLD.set(word)}  {beside}"
         for sentence in sentences:
             yield from wrap(sentence)
 
 
-def plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, ...]:
+def make_plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, ...]:
     """Return the files of a plan: its targets, a form for the readings, and a picture of its sequence.
 
     The form has a row for each reading in the order in which they are to be taken, its deviation empty, and

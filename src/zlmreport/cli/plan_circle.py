@@ -27,7 +27,11 @@ from zlmreport.plugin.registry import Registry
 def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     """Write and print the path of a circular test: a program for each control and each feed."""
     programs = choose_programs(
-        options.program, options.output, job.programs, registry.part_program, registry.programs_for()
+        options.program,
+        options.output,
+        job.programs,
+        registry.part_program,
+        registry.list_programs_for(),
     )
     demand_file(options, programs)
     keys, number = job.keys, job.keys.certificate.number
@@ -53,7 +57,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     if options.json:
         print_json(collect_circle_plan(job, paths, written))
         return 0
-    print(f"{Colour.BOLD.of(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
+    print(f"{Colour.BOLD.set(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
     print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
@@ -69,7 +73,7 @@ def _write_program(registry: Registry, path: CirclePath, program: PartProgram, c
     """Return the program of a circle; raise `InputError` where its writer writes none."""
     write = find_circle_writer(program)
     if write is None:
-        known = [each.identifier for each in registry.programs_for() if find_circle_writer(each)]
+        known = [each.identifier for each in registry.list_programs_for() if find_circle_writer(each)]
         raise InputError.at(
             choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
         )

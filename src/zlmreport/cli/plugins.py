@@ -23,9 +23,9 @@ def run(options: Namespace) -> int:
 
 def list_plugins(registry: Registry) -> Iterator[str]:
     """Yield the lines on all plugins, kind by kind."""
-    offers = registry.offers()
+    offers = registry.list_offers()
     for kind in KINDS:
-        yield Colour.BOLD.of(f"{kind.label}s")
+        yield Colour.BOLD.set(f"{kind.label}s")
         rows = [
             (each.identifier, each.offered.title.in_language(Language.ENGLISH), _name_origin(each.plugin))
             for each in offers
@@ -33,7 +33,7 @@ def list_plugins(registry: Registry) -> Iterator[str]:
         ]
         yield from lay_out_table(rows or [("none", "", "")], indent="  ")
     if registry.failed:
-        yield Colour.RED.of("not loaded")
+        yield Colour.RED.set("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
         yield from lay_out_table(rows, indent="  ")
     if registry.disabled:

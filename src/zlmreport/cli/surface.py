@@ -75,12 +75,12 @@ def _space_evenly(spans: Sequence[tuple[float, float]], count: int) -> Sequence[
 def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     unit = plane.axis.position_unit
     where = ", ".join(write_general_number(unit.from_si(line.across)) for line in plane.lines)
-    yield Colour.BOLD.of(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
+    yield Colour.BOLD.set(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
     yield f"  {len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}"
     yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
     for line in plane.lines:
         design = line.observed.design
-        aside = "; ".join(say(wording.reading_at(design, reading)) for reading in line.aside().tolist())
+        aside = "; ".join(say(wording.reading_at(design, reading)) for reading in line.list_aside().tolist())
         if aside:
             at = f"{plane.second} = {write_general_number(unit.from_si(line.across))} {unit.symbol}"
             yield from wrap(f"set aside, for it stands off from its repeats, at {at}: {aside}")
@@ -102,7 +102,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
 def _write_equation(surface: Surface) -> str:
     """Return the polynomial in printed units, as it may be given to a control."""
     axis = surface.fit.design.axis
-    found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
+    found = surface.compute_coefficients().in_units(axis.position_unit, axis.deviation_unit)
     powers = [
         (axis.name if along else surface.readings.second, along or across) for along, across in found.powers
     ]
@@ -117,7 +117,7 @@ def _tell_interaction(surface: Surface) -> str:
     text = f"{where}: {value} ± {half} {unit.symbol} at the corners"
     if abs(found.value) <= found.expanded_uncertainty:
         return f"{text}; not needed"
-    return f"{text}; {Colour.YELLOW.of('the lines differ in slope')}, and the polynomial misses it"
+    return f"{text}; {Colour.YELLOW.set('the lines differ in slope')}, and the polynomial misses it"
 
 
 def _lay_out_table(plane: Plane, points: Points) -> Iterator[str]:

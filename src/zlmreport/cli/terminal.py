@@ -36,7 +36,7 @@ class Colour(Enum):
     YELLOW = "33"
     BOLD = "1"
 
-    def of(self, text: str) -> str:
+    def set(self, text: str) -> str:
         """Return a text in this colour where somebody sees it."""
         if not text or os.environ.get("NO_COLOR") or not sys.stdout.isatty():
             return text

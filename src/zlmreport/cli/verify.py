@@ -96,7 +96,7 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
     # What does not hold is no copy of anything: its digest would only be taken for a sign that it is.
     is_told = identity.digest and found.outcome is not VerificationOutcome.DOES_NOT_HOLD
     digest = f"  {make_visible(identity.digest)}" if is_told else ""
-    yield f"{Colour.BOLD.of(show_path(path))}  {_tell_verdict(found, say)}{digest}"
+    yield f"{Colour.BOLD.set(show_path(path))}  {_tell_verdict(found, say)}{digest}"
     if identity.number:
         issued = Words(", issued {date}").given(date=identity.issued)
         made_by = Words("made by {program}").given(program=identity.generator)
@@ -111,12 +111,12 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
     note = say(Words("note"))
     yield from lay_out_table(
         [
-            (say(_PARTS["signature"]), _COLOURS[signature.verdict].of(make_visible(say(signature.detail)))),
-            *_summary(say(_PARTS["files"]), found.files, stated, say),
+            (say(_PARTS["signature"]), _COLOURS[signature.verdict].set(make_visible(say(signature.detail)))),
+            *_say_summary(say(_PARTS["files"]), found.files, stated, say),
             *_tell_numbers(found.values, say),
-            *_summary(say(_PARTS["pages"]), found.pages, pages, say),
-            *_summary(say(_PARTS["document"]), found.document, parts, say),
-            *((note, Colour.YELLOW.of(make_visible(say(remark)))) for remark in found.remarks),
+            *_say_summary(say(_PARTS["pages"]), found.pages, pages, say),
+            *_say_summary(say(_PARTS["document"]), found.document, parts, say),
+            *((note, Colour.YELLOW.set(make_visible(say(remark)))) for remark in found.remarks),
         ],
         indent="  ",
     )
@@ -133,19 +133,19 @@ def _tell_verdict(found: Verification, say: _Say) -> str:
     match found.outcome:
         case VerificationOutcome.HOLDS if found.is_trusted:
             trusted = Words("signed by a key that is trusted")
-            return f"{Colour.GREEN.of(outcome)}: {say(trusted)}"
+            return f"{Colour.GREEN.set(outcome)}: {say(trusted)}"
         case VerificationOutcome.HOLDS:
             unknown = Words("consistent, origin unknown")
-            return f"{Colour.GREEN.of(outcome)}: {say(unknown)}"
+            return f"{Colour.GREEN.set(outcome)}: {say(unknown)}"
         case VerificationOutcome.UNDECIDED:
             names = say(Words(" and ")).join(say(_PARTS[each]) for each in found.undecided)
             open_parts = Words("{names} could not be compared whole")
-            return f"{Colour.YELLOW.of(outcome)}: {say(open_parts.given(names=names))}"
+            return f"{Colour.YELLOW.set(outcome)}: {say(open_parts.given(names=names))}"
     differences = Words("{number} difference", plural="{number} differences").given(number=count)
-    return f"{Colour.RED.of(outcome)}: {say(differences)}"
+    return f"{Colour.RED.set(outcome)}: {say(differences)}"
 
 
-def _summary(
+def _say_summary(
     label: str, findings: Sequence[CheckedStatement], what: Words, say: _Say
 ) -> Iterator[tuple[str, str]]:
     """Yield how many findings hold, and each that does not."""
@@ -157,7 +157,7 @@ def _summary(
         say(what.given(of=_count_of(len(findings) - len(others), len(findings)), number=len(findings))),
     )
     for each in others[:_MOST_LINES]:
-        verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
+        verdict = _COLOURS[each.verdict].set(say(_SAID[each.verdict]))
         yield "", f"{verdict}  {make_visible(f'{each.subject}: {say(each.detail)}')}"
     if len(others) > _MOST_LINES:
         more = Words("and {n} more: see --json")
@@ -183,7 +183,7 @@ def _tell_numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[
         for value in values
         if value.verdict is VerificationVerdict.DIFFERS and not _is_of_parameter(value)
     ]
-    yield from list(_summary("", elsewhere, given, say))[1:]
+    yield from list(_say_summary("", elsewhere, given, say))[1:]
 
 
 def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
@@ -196,7 +196,7 @@ def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
         places = ", ".join(_name_places([each.key for each in alike], say))
         yield make_visible(f"  {places}: '{_shorten(text)}'")
         yield from (
-            f"    {_COLOURS[VerificationVerdict.OPEN].of(make_visible(say(oddity)))}"
+            f"    {_COLOURS[VerificationVerdict.OPEN].set(make_visible(say(oddity)))}"
             for oddity in alike[0].oddities
         )
 
@@ -247,7 +247,7 @@ def _tell_parameters(standard: str, values: Sequence[ComparedValue], say: _Say) 
             (
                 make_visible(symbol),
                 *(_show_difference(value) if value else ("", "")),
-                _COLOURS[verdict].of(say(_SAID[verdict])) + make_visible(f"  {others}" if others else ""),
+                _COLOURS[verdict].set(say(_SAID[verdict])) + make_visible(f"  {others}" if others else ""),
             )
         )
     stated, recomputed = Words("stated"), Words("recomputed")

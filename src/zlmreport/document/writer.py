@@ -19,7 +19,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import CELSIUS, Scale, Unit, with_unit
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Parameter, Quantity
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Quantity
     from zlmreport.job.keys import JobKeys
 
 #: Behind the name of what the customer supplied, and of what an external provider did.
@@ -43,7 +43,7 @@ class Marks:
             frozenset(key for each in keys.external for key in each.keys),
         )
 
-    def after(self, *keys: str) -> str:
+    def write_after(self, *keys: str) -> str:
         """Return the marks behind the name of what comes from these keys: ``' †'``; empty for most.
 
         `keys`: Dotted. A group is marked if anything in it is somebody else's, and a key if its group is.
@@ -178,7 +178,7 @@ class Writer:
 _NONE = "0"
 
 
-def write_with_uncertainty(parameter: Parameter, writer: Writer) -> tuple[str, str]:
+def write_with_uncertainty(parameter: EvaluatedParameter, writer: Writer) -> tuple[str, str]:
     """Write a parameter and its U, without unit: rounded together to two significant digits of U.
 
     A value of which no uncertainty is known has the decimals of the readings (ILAC-P14:09/2020; EA-4/02

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TypeAlias
 
-from zlmreport.evaluation.evaluation import Conformity, Decision, Evaluation, Finding, Parameter
+from zlmreport.evaluation.evaluation import Conformity, Decision, EvaluatedParameter, Evaluation, Finding
 from zlmreport.language import Words
 from zlmreport.language.formatting import write_plain
 
@@ -45,7 +45,9 @@ class DecisionRule:
     #: acceptance limit fails.
     between: _Between | None = None
 
-    def decide(self, parameter: Parameter, *, uncertainty_is_complete: bool = True) -> Decision | None:
+    def decide(
+        self, parameter: EvaluatedParameter, *, uncertainty_is_complete: bool = True
+    ) -> Decision | None:
         """Return what the rule says of a parameter; None without a limit.
 
         A rule that uses U decides nothing where U is not known or not complete; simple acceptance decides by
@@ -57,14 +59,16 @@ class DecisionRule:
         uncertainty = parameter.standard_uncertainty if uncertainty_is_complete else None
         if uncertainty is None and self.factor:
             return _UNDECIDED
-        width = self.factor * self._unit(parameter) if self.factor else 0.0
-        conformity = self._conformity(abs(parameter.value), limit, width)
-        if self._turns_when_corrected(parameter, limit, conformity):
+        width = self.factor * self._choose_unit(parameter) if self.factor else 0.0
+        conformity = self._find_conformity(abs(parameter.value), limit, width)
+        if self._is_reversed_by_correction(parameter, limit, conformity):
             conformity = Conformity.UNDECIDED  # by a value that is known to be wrong nothing is stated
         risk = None if uncertainty is None else _compute_risk(parameter, limit, conformity)
         return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
 
-    def _turns_when_corrected(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
+    def _is_reversed_by_correction(
+        self, parameter: EvaluatedParameter, limit: float, conformity: Conformity
+    ) -> bool:
         """Return whether a value without its known error would have the contrary stated of it."""
         if not parameter.known_error or conformity.conforms is None:
             return False
@@ -72,16 +76,16 @@ class DecisionRule:
         if self.guard is Guard.EXPANDED_UNCERTAINTY:
             unit *= parameter.coverage_factor or 0.0
         corrected = abs(parameter.value + parameter.known_error)
-        right = self._conformity(corrected, limit, self.factor * unit)
+        right = self._find_conformity(corrected, limit, self.factor * unit)
         return right.conforms is not None and right.conforms is not conformity.conforms
 
-    def _unit(self, parameter: Parameter) -> float:
+    def _choose_unit(self, parameter: EvaluatedParameter) -> float:
         """Return what the guard band is counted in; a known error is in it whole, however it is counted."""
         if self.guard is Guard.EXPANDED_UNCERTAINTY:
             return parameter.expanded_uncertainty or 0.0
         return (parameter.standard_uncertainty or 0.0) + abs(parameter.known_error) / self.factor
 
-    def _conformity(self, amount: float, limit: float, width: float) -> Conformity:
+    def _find_conformity(self, amount: float, limit: float, width: float) -> Conformity:
         tolerated = limit * _ROUNDING_OF_DOUBLES
         if amount <= limit - width + tolerated:
             return Conformity.MET
@@ -91,7 +95,7 @@ class DecisionRule:
         return below if amount <= limit + tolerated else above
 
 
-def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
+def make_decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
     """Return a rule.
 
     Parameters
@@ -111,7 +115,7 @@ def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
     }[identifier]
 
 
-def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
+def with_decisions(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     """Return an evaluation with what the rule says of every parameter that has a limit."""
     complete = evaluation.uncertainty_is_complete
     undecided = {symbol for each in evaluation.findings for symbol in each.undecided}
@@ -126,12 +130,12 @@ def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible, *wide))
 
 
-def _is_accepting_nothing(parameter: Parameter) -> bool:
+def _is_accepting_nothing(parameter: EvaluatedParameter) -> bool:
     accepted = None if parameter.decision is None else parameter.decision.acceptance_limit
     return accepted is not None and accepted < 0
 
 
-def _find_impossible(parameter: Parameter) -> Finding:
+def _find_impossible(parameter: EvaluatedParameter) -> Finding:
     return Finding(
         _ROOM.given(symbol=write_plain(parameter.quantity.notation)),
         _NO_ROOM.given(symbol=write_plain(parameter.quantity.notation)),
@@ -139,17 +143,17 @@ def _find_impossible(parameter: Parameter) -> Finding:
     )
 
 
-def _is_wide(parameter: Parameter) -> bool:
+def _is_wide(parameter: EvaluatedParameter) -> bool:
     expanded = parameter.expanded_uncertainty
     return expanded is not None and parameter.limit is not None and expanded > parameter.limit
 
 
-def _find_wide(parameter: Parameter) -> Finding:
+def _find_wide(parameter: EvaluatedParameter) -> Finding:
     symbol = write_plain(parameter.quantity.notation)
     return Finding(_ROOM.given(symbol=symbol), _WIDE.given(symbol=symbol), met=False)
 
 
-def _compute_risk(parameter: Parameter, limit: float, conformity: Conformity) -> float | None:
+def _compute_risk(parameter: EvaluatedParameter, limit: float, conformity: Conformity) -> float | None:
     """Return the probability that a statement is wrong, for a normal distribution that U holds as U is held.
 
     About the value without its known errors. 95.45 % of it lie within U, as of the simulated errors; where

@@ -11,7 +11,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
 from zlmreport.evaluation.logged_conditions import (
     find_gaps,
     find_silent_sensors,
@@ -306,14 +306,14 @@ def find_contradicting_limits(evaluation: Evaluation) -> Iterator[Words]:
 
 def _list_parts(symbols: tuple[str, ...], evaluation: Evaluation) -> Iterator[str]:
     """Yield the symbols of parameters that are never larger, and those of which these say it."""
-    known: Mapping[str, Parameter] = {each.quantity.symbol: each for each in evaluation.parameters}
+    known: Mapping[str, EvaluatedParameter] = {each.quantity.symbol: each for each in evaluation.parameters}
     for symbol in symbols:
         yield symbol
         if symbol in known:
             yield from _list_parts(known[symbol].quantity.never_below, evaluation)
 
 
-def _write_limit(parameter: Parameter, evaluation: Evaluation) -> Words:
+def _write_limit(parameter: EvaluatedParameter, evaluation: Evaluation) -> Words:
     unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
     limit = float(f"{unit.from_si(parameter.limit or 0.0):.6g}")
     return Words(with_unit("{limit}", unit.symbol)).given(limit=limit)

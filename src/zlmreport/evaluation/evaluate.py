@@ -12,13 +12,13 @@ import numpy as np
 from zlmreport.evaluation.checks import deviation_in_words
 from zlmreport.evaluation.evaluation import (
     Arithmetic,
+    EvaluatedParameter,
     Evaluation,
     Finding,
-    Group,
-    Parameter,
     PositionColumn,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import PositionStatistics, compute_statistics_of
 from zlmreport.language import Words
@@ -54,7 +54,7 @@ def evaluate(
     options: Any,
     tolerances: Mapping[str, float],
 ) -> Evaluation:
-    """Evaluate one test by one standard; nothing is decided on its limits yet (`decision.decided`).
+    """Evaluate one test by one standard; nothing is decided on its limits yet.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ def evaluate(
             if limit is not None:
                 undefined.append(_report_undefined(quantity))
             continue
-        parameters.append(Parameter(quantity, value, limit))
+        parameters.append(EvaluatedParameter(quantity, value, limit))
     columns = tuple(
         PositionColumn(quantity, read_only_floats(arithmetic.positions[quantity.symbol]))
         for quantity in standard.position_quantities
@@ -154,7 +154,7 @@ def measure_reach(statistics: PositionStatistics) -> float:
 
 def is_negative(quantity: Quantity, value: float, farthest: float) -> bool:
     """Return whether a value is negative, beyond rounding, that is a spread or a range."""
-    return quantity.group is not Group.SYSTEMATIC and value < -1e-9 * farthest
+    return quantity.group is not QuantityGroup.SYSTEMATIC and value < -1e-9 * farthest
 
 
 def find_doubts(

@@ -92,7 +92,7 @@ class Finding:
     undecided: tuple[str, ...] = ()
 
 
-class Group(Enum):
+class QuantityGroup(Enum):
     """The three kinds of deviation that all standards tell apart (ZLM, G 1.3)."""
 
     SYSTEMATIC = "systematic"
@@ -132,7 +132,7 @@ class Quantity:
     symbol: str
     notation: str
     name: Words
-    group: Group
+    group: QuantityGroup
     formula: str
     meaning: Words
     can_be_limited: bool = True
@@ -190,7 +190,7 @@ class Least(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Parameter:
+class EvaluatedParameter:
     """One value of the results table.
 
     Attributes
@@ -247,11 +247,11 @@ class Parameter:
 class Change:
     """A parameter of one axis in two tests, as found and as left; one of the two may not define it."""
 
-    before: Parameter | None
-    after: Parameter | None
+    before: EvaluatedParameter | None
+    after: EvaluatedParameter | None
 
     @property
-    def either(self) -> Parameter:
+    def either(self) -> EvaluatedParameter:
         """One of the two, which are alike but for their values."""
         parameter = self.after or self.before
         assert parameter is not None  # noqa: S101 - a change is of a parameter that one of the tests defines
@@ -345,7 +345,7 @@ class Evaluation:
     position_index: str
     measurements: MeasurementSet
     statistics: PositionStatistics
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[EvaluatedParameter, ...]
     columns: tuple[PositionColumn, ...]
     findings: tuple[Finding, ...]
     notes: tuple[Words, ...]
@@ -354,7 +354,7 @@ class Evaluation:
     is_method: bool = False
     specification: str = ""
 
-    def parameter(self, symbol: str) -> Parameter | None:
+    def parameter(self, symbol: str) -> EvaluatedParameter | None:
         """Return a parameter of the axis; None where the test does not define it."""
         for parameter in self.parameters:
             if parameter.quantity.symbol == symbol:

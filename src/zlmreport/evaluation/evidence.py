@@ -162,8 +162,8 @@ def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) ->
     if count < 2 or measurements.reversal_is_relative:
         return
     there = np.isfinite(readings)
-    residuals = readings - _mean(readings, axis=-1)[..., np.newaxis]
-    of_runs = _mean(residuals.reshape(-1, count), axis=0)
+    residuals = readings - _compute_mean(readings, axis=-1)[..., np.newaxis]
+    of_runs = _compute_mean(residuals.reshape(-1, count), axis=0)
     inner = residuals - of_runs
     numbers = there.reshape(-1, count).sum(axis=0)
     freedom = int(there.sum()) - int((there.sum(axis=-1) > 0).sum()) - count + 1
@@ -204,14 +204,14 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
     if number.max() < _FEWEST_RUNS:
         return
     with np.errstate(all="ignore"):
-        median = _median(readings, axis=-1)[..., np.newaxis]
+        median = _compute_median(readings, axis=-1)[..., np.newaxis]
     distance = np.where(number >= _FEWEST_RUNS, readings - median, np.nan)
     # Whole runs that lie aside are drift, and not outliers: each reading against those of its own run too.
-    distance -= _median(distance.reshape(-1, distance.shape[-1]), axis=0)
+    distance -= _compute_median(distance.reshape(-1, distance.shape[-1]), axis=0)
     known = distance[np.isfinite(distance)]
     if not known.size:
         return
-    step = _step(measurements)
+    step = _find_step(measurements)
     # Half of the readings of a small cell lie nearer to its median than to its mean.
     scale = max(_NORMAL_MAD * float(np.median(np.abs(known[known != 0.0]))) if known.any() else 0.0, step)
     # Of readings that scatter from place to place as they may, a large one among large ones is none.
@@ -250,7 +250,7 @@ def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
     at = int(off.argmax())
     others = np.delete(off, slice(max(at - 1, 0), at + 2))
     least = max(_SPIKE_OF_USUAL * float(np.median(others)), _SPIKE_OF_OTHERS * float(others.max()))
-    if off[at] > least and off[at] > _SPIKE_OF_USUAL * _step(measurements):
+    if off[at] > least and off[at] > _SPIKE_OF_USUAL * _find_step(measurements):
         unit = measurements.axis.position_unit
         target = measurements.target_positions[measurements.target[there][at + 1]]
         yield _SPIKE.given(
@@ -272,7 +272,7 @@ def _find_copied_runs(measurements: MeasurementSet, readings: FloatArray) -> Ite
     exact = _group_identical(series)
     for group in exact:
         yield _IDENTICAL.given(runs=_list_run_numbers(measurements, group))
-    for alike in group_copies(series, _step(measurements)):
+    for alike in group_copies(series, _find_step(measurements)):
         if not any(set(alike) <= set(each) for each in exact):
             yield _NEARLY_IDENTICAL.given(runs=_list_run_numbers(measurements, alike))
 
@@ -296,7 +296,7 @@ def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) 
         return
     runs = range(readings.shape[-1])
     same = [run for run in runs if _are_identical(*readings[..., run])]
-    step = _step(measurements)
+    step = _find_step(measurements)
     by_chance = estimate_agreement_by_chance(readings.reshape(-1, len(runs)), step)
     near = [
         run
@@ -339,7 +339,7 @@ def _list_run_numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
 
 def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the target that lies apart from its neighbours in every run, far more than any other."""
-    positions, step = measurements.target_positions, _step(measurements)
+    positions, step = measurements.target_positions, _find_step(measurements)
     unit = measurements.axis.position_unit
     for stray in join_found_in_both(*(find_stray_target(positions, each, step) for each in readings)):
         target = float(positions[stray.position])
@@ -349,7 +349,7 @@ def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> I
         )
 
 
-def _step(measurements: MeasurementSet) -> float:
+def _find_step(measurements: MeasurementSet) -> float:
     """Return the step of the last digit of the readings, m or rad."""
     return measurements.axis.deviation_unit.to_si(find_last_digit(measurements))
 
@@ -423,12 +423,12 @@ def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Word
         )
 
 
-def _mean(values: FloatArray, axis: int) -> FloatArray:
+def _compute_mean(values: FloatArray, axis: int) -> FloatArray:
     there = np.isfinite(values)
     return np.asarray(np.where(there, values, 0.0).sum(axis=axis) / np.maximum(there.sum(axis=axis), 1))
 
 
-def _median(values: FloatArray, axis: int) -> FloatArray:
+def _compute_median(values: FloatArray, axis: int) -> FloatArray:
     """Return medians of what is there; 0 where nothing is."""
     empty = ~np.isfinite(values).any(axis=axis, keepdims=True)
     return np.asarray(np.nanmedian(np.where(empty, 0.0, values), axis=axis))

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
 from zlmreport.evaluation.uncertainty.wording import name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
@@ -204,7 +204,7 @@ def _find_unlikely_instrument(job: Job, measurements: MeasurementSet) -> Iterato
         yield _FAR_BELOW_STEP.given(value=stated[0], step=float(f"{step:.6g}"), unit=unit)
 
 
-def _name_in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words:
+def _name_in_a_line(parameters: Sequence[EvaluatedParameter], evaluation: Evaluation) -> Words:
     unit = evaluation.measurements.axis.deviation_unit
     places = {f"limit{index}": unit.from_si(each.limit or 0.0) for index, each in enumerate(parameters)}
     phrase = ", ".join(

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter, compare_parameters
+from zlmreport.evaluation.evaluation import Decision, EvaluatedParameter, Evaluation, compare_parameters
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
@@ -71,7 +71,7 @@ def _collect_expanded(uncertainty: float | None, unit: Unit) -> dict[str, float]
     return {} if uncertainty is None else {"expanded_uncertainty": unit.from_si(uncertainty)}
 
 
-def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> dict[str, Any]:
+def report_parameter(parameter: EvaluatedParameter, unit: Unit, language: Language) -> dict[str, Any]:
     """Return a parameter with its uncertainty, its limit and what is decided on it."""
     unit = parameter.quantity.unit_or(unit)
     values: dict[str, Any] = {

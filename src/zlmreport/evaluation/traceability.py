@@ -93,14 +93,14 @@ def find_doubts_of_artefacts(job: Job) -> Iterator[Words]:
 
 
 @dataclass(frozen=True, slots=True)
-class Chain:
+class TraceabilityChain:
     """The calibration certificates through which results are traceable, each once."""
 
     of_instruments: tuple[str, ...] = ()
     of_artefacts: tuple[str, ...] = ()  #: Of squares, straightedges, bars: what was measured against.
 
 
-def find_chain(job: Job) -> Chain:
+def find_chain(job: Job) -> TraceabilityChain:
     """Return the calibration certificates through which the results of a job are traceable.
 
     Of the instrument of every line of every part, and of the artefacts that were measured against; none
@@ -112,12 +112,14 @@ def find_chain(job: Job) -> Chain:
     named = [(each.keys.instrument and each.keys.instrument.certificate) or "" for each in lines]
     is_dated = all(keys.measurement.date for keys in of_all)
     if not is_dated or any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
-        return Chain()
+        return TraceabilityChain()
     of_artefacts = [each for part in job.parts for each in _list_artefacts(part)]
     if not all(map(is_reference, (*named, *of_artefacts))):
-        return Chain()
+        return TraceabilityChain()
     own = dict.fromkeys(named)
-    return Chain(tuple(own), tuple(each for each in dict.fromkeys(of_artefacts) if each not in own))
+    return TraceabilityChain(
+        tuple(own), tuple(each for each in dict.fromkeys(of_artefacts) if each not in own)
+    )
 
 
 def _list_artefacts(job: Job) -> Iterator[str]:

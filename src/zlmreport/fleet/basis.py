@@ -138,9 +138,9 @@ class Disk:
         look = self._look(file.path)
         if look is None:
             return False
-        return look == file.look or self.digest(file.path) == file.sha256
+        return look == file.look or self.compute_digest(file.path) == file.sha256
 
-    def digest(self, path: str) -> str | None:
+    def compute_digest(self, path: str) -> str | None:
         """Return the digest of a file; None if it cannot be read."""
         if path not in self._digests:
             self._digests[path] = None
@@ -209,12 +209,12 @@ def find_program_versions(
         packages.setdefault(name, set()).add(point.module.partition(".")[0])
         releases[name] = point.dist.version if point.dist else ""
     found = {
-        name: f"{releases.get(name, '')} {_digest(_list_code_of(sorted(own)))}"
+        name: f"{releases.get(name, '')} {_compute_digest(_list_code_of(sorted(own)))}"
         for name, own in packages.items()
     }
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
     for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
-        found[str(path)] = f" {_digest([path])}"
+        found[str(path)] = f" {_compute_digest([path])}"
     combined = hashlib.sha256(repr(sorted(found.items())).encode()).hexdigest()
     return {**dict(sorted(found.items())), _ALL: f" {combined[:16]}"}
 
@@ -229,7 +229,7 @@ def name_programs_of(job: Job, formats: Iterable[str], registry: Registry) -> fr
     keys: list[tuple[kinds.Kind[Any], str]] = [(kinds.SOURCE, each.identifier) for each in job.sources]
     keys.extend((kinds.STANDARD, choice.identifier) for part in job.parts for choice in part.standards)
     keys.extend((kinds.RENDERER, identifier) for identifier in formats)
-    plugins = [registry.origin(kind, identifier) for kind, identifier in keys]
+    plugins = [registry.find_origin(kind, identifier) for kind, identifier in keys]
     names = {plugin.distribution or plugin.module for plugin in plugins}
     return frozenset(names | {OWN} | ({_ALL} if any(part.effects for part in job.parts) else set()))
 
@@ -246,7 +246,7 @@ def _list_code_of(packages: Iterable[str]) -> Iterator[Path]:
             yield Path(spec.origin)
 
 
-def _digest(files: Iterable[Path]) -> str:
+def _compute_digest(files: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in files:
         digest.update(path.name.encode() + b"\0" + path.read_bytes())

@@ -144,7 +144,7 @@ class Database:
     address: str  #: Path of an SQLite file, or a URL.
 
     @contextlib.contextmanager
-    def transaction(self) -> Iterator[Connection]:
+    def begin_transaction(self) -> Iterator[Connection]:
         """Yield a connection whose work is kept whole or not at all.
 
         Raises `AccessError` if the database cannot be used; `IntegrityError` if the work is against the rules
@@ -174,7 +174,7 @@ def open_database(address: str, *, create: bool) -> Database:
         url = URL.create("sqlite")
     database = Database(_make_engine(url, address), address)
     try:
-        with database.transaction() as connection:
+        with database.begin_transaction() as connection:
             METADATA.create_all(connection)
             _demand_format(connection, address)
     except ZlmreportError:
@@ -188,7 +188,7 @@ def copy(database: Database, to: Path) -> None:
     with TemporaryDirectory(dir=to.parent, prefix=f".{to.name}.") as folder:
         file = Path(folder) / to.name
         made = create_engine(URL.create("sqlite", database=str(file)))
-        with database.transaction() as source, made.begin() as target:
+        with database.begin_transaction() as source, made.begin() as target:
             METADATA.create_all(target)
             for table in METADATA.sorted_tables:
                 for rows in source.execute(select(table)).mappings().partitions(_ROWS):

@@ -34,7 +34,7 @@ class Laid:
     names: Mapping[Path, Path]  #: The hidden file of each, by the file that it becomes.
     known: tuple[KnownFile, ...]  #: What the ledger keeps of them.
 
-    def name(self) -> None:
+    def name_files(self) -> None:
         """Give the files their names."""
         take_names(self.names)
 
@@ -136,20 +136,22 @@ class Desk:
         """The fleet file."""
         return self.known.fleet
 
-    def kept(self, planned: PlannedJob, result: MadeCertificate | Failed) -> Happened:
+    def keep(self, planned: PlannedJob, result: MadeCertificate | Failed) -> Happened:
         """Keep what a job came to."""
         if isinstance(result, Failed):
-            return self.failed(planned, result)
+            return self.note_failure(planned, result)
         try:
-            return self._draft(planned, result) if result.is_draft else self._issued(planned, result)
+            return self._keep_draft(planned, result) if result.is_draft else self._issue(planned, result)
         except NumberTakenError:
             message = f"the number {result.subject.number} was given to another certificate tonight"
             problem = Problem(Place(str(planned.path)), message)
-            return self.failed(planned, Failed((problem,), result.subject))
+            return self.note_failure(planned, Failed((problem,), result.subject))
         except OSError as error:
-            return self.failed(planned, Failed(as_problems(planned.path, error).problems, result.subject))
+            return self.note_failure(
+                planned, Failed(as_problems(planned.path, error).problems, result.subject)
+            )
 
-    def failed(self, planned: PlannedJob, result: Failed) -> Happened:
+    def note_failure(self, planned: PlannedJob, result: Failed) -> Happened:
         """Note that a job came to nothing."""
         subject = replace(result.subject, number=result.subject.number or planned.number)
         message = "\n".join(map(str, result.problems))
@@ -158,11 +160,11 @@ class Desk:
             before, digest = self.known.standings.get(planned.job), digest_inputs(planned.path, self.known)
             is_again = before and before.state in {State.STOPPED, State.SET_ASIDE} and before.digest == digest
             state, hint = (State.SET_ASIDE, _ASIDE) if is_again else (State.STOPPED, "")
-        self.night.add(replace(self._entry(planned, subject, state, message + hint), digest=digest))
+        self.night.add(replace(self._make_entry(planned, subject, state, message + hint), digest=digest))
         problems = tuple(replace(each, message=each.message + hint) for each in result.problems)
         return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=problems)
 
-    def vanished(self, job: str) -> Happened:
+    def note_vanished(self, job: str) -> Happened:
         """Note that the file of a job is gone."""
         standing = self.known.standings[job]
         if standing.state is not State.VANISHED:
@@ -172,19 +174,19 @@ class Desk:
         problem = Problem(Place(str(self.fleet.path)), f"{job}: {_GONE}")
         return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
-    def _draft(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
+    def _keep_draft(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
         before = self.known.standings.get(planned.job)
         if before and before.state is State.DRAFT and before.number == planned.number:
             message = before.message  # made again for another reason, it still differs for the first
         else:
             message = planned.why if planned.issued else _UNKNOWN
         with lay(self.fleet.output, made.files) as files:
-            entry = self._entry(planned, made.subject, State.DRAFT, message, made)
+            entry = self._make_entry(planned, made.subject, State.DRAFT, message, made)
             self.night.add(entry, files.known, made.basis)
-            files.name()
+            files.name_files()
         return _record_happened(What.DRAFT, planned, made, made.files)
 
-    def _issued(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
+    def _issue(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
         output = self.fleet.output
         missing = [file for file in made.files if not (output / file.path).exists()]
         known = {file.path: file for file in (planned.issued.files if planned.issued else ())}
@@ -194,9 +196,9 @@ class Desk:
                 known[file.path] = KnownFile(file.role, file.path, file.sha256, look)
         with lay(output, missing) as files:
             known |= {file.path: file for file in files.known}
-            entry = self._entry(planned, made.subject, State.MADE, "", made)
+            entry = self._make_entry(planned, made.subject, State.MADE, "", made)
             self.night.issue(entry, tuple(known.values()), made.basis, made.lesson)
-            files.name()
+            files.name_files()
         self._forget_draft(planned)
         what = What.ISSUED if not planned.issued else What.RESTORED if missing else What.CONFIRMED
         return _record_happened(what, planned, made, missing)
@@ -209,7 +211,7 @@ class Desk:
                 with contextlib.suppress(OSError):
                     (self.fleet.output / file.path).unlink(missing_ok=True)
 
-    def _entry(
+    def _make_entry(
         self,
         planned: PlannedJob,
         subject: Subject,

@@ -70,7 +70,7 @@ class Night:
         self, entry: LedgerEntry, files: Sequence[KnownFile] = (), basis: CertificateBasis | None = None
     ) -> None:
         """Add an entry that issues nothing: a draft or a failure."""
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             self._insert(connection, entry, files, basis)
 
     def issue(
@@ -95,7 +95,7 @@ class Night:
             .values(files=kept)
         )
         try:
-            with self.database.transaction() as connection:
+            with self.database.begin_transaction() as connection:
                 identity = self._insert(connection, entry, files, basis, lesson)
                 if not connection.execute(renewal).rowcount:
                     first = insert(CERTIFICATES).values(number=entry.number, entry=identity, files=kept)
@@ -103,12 +103,12 @@ class Night:
         except IntegrityError as error:
             raise NumberTakenError(entry.number) from error
 
-    def stated(self, job: str) -> tuple[RecordedParameter, ...]:
+    def find_stated_parameters(self, job: str) -> tuple[RecordedParameter, ...]:
         """Return what the latest certificate of a job states."""
         own = (ENTRIES.c.fleet == self.fleet, ENTRIES.c.job == job, ENTRIES.c.state == State.MADE.value)
         latest = select(func.max(ENTRIES.c.id)).where(*own).scalar_subquery()
         query = select(PARAMETERS).where(PARAMETERS.c.entry == latest).order_by(PARAMETERS.c.row)
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             return tuple(map(_read_parameter, connection.execute(query)))
 
     def beat(self, now: str) -> None:
@@ -124,7 +124,7 @@ class Night:
 
         `is_all`: Whether a condition that is not among them has ended.
         """
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             rows = connection.execute(select(NEWS).where(NEWS.c.fleet == self.fleet)).all()
             known = {(row.kind, row.subject): row for row in rows if row.ended is None}
             now = {(each.kind.value, each.subject): each for each in news}
@@ -150,20 +150,20 @@ class Night:
             if new:
                 connection.execute(insert(NEWS), new)
 
-    def subjects(self, kind: NewsKind) -> frozenset[str]:
+    def list_subjects(self, kind: NewsKind) -> frozenset[str]:
         """Return the subjects of all news of a kind that there ever was."""
         query = select(NEWS.c.subject).where(NEWS.c.fleet == self.fleet, NEWS.c.kind == kind.value)
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             return frozenset(connection.scalars(query))
 
-    def untold(self, way: str, *, was_tried: bool) -> tuple[News, ...]:
+    def list_untold(self, way: str, *, was_tried: bool) -> tuple[News, ...]:
         """Return what nobody heard of by a way, oldest first; by a new one, what is new or still so.
 
         `was_tried`: Whether nobody was reached by it in the night before.
         """
         query = select(NEWS).where(NEWS.c.fleet == self.fleet).order_by(NEWS.c.id)
         ended = select(func.max(NIGHTS.c.id)).where(NIGHTS.c.fleet == self.fleet, NIGHTS.c.ended.is_not(None))
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             rows = connection.execute(query).all()
             last_ended = connection.scalar(ended) or 0
         if not was_tried and not any(way in row.told for row in rows):
@@ -172,7 +172,7 @@ class Night:
 
     def tell(self, way: str) -> None:
         """Note that all news was told by a way."""
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             rows = connection.execute(select(NEWS).where(NEWS.c.fleet == self.fleet)).all()
             for row in rows:
                 if way not in row.told:
@@ -184,7 +184,7 @@ class Night:
         self._note(ended=ended)
 
     def _note(self, **values: object) -> None:
-        with self.database.transaction() as connection:
+        with self.database.begin_transaction() as connection:
             connection.execute(update(NIGHTS).where(NIGHTS.c.id == self.identity).values(**values))
 
     def _insert(
@@ -286,11 +286,11 @@ class Ledger(Closable):
         """Close the database."""
         self._database.engine.dispose()
 
-    def backup(self, to: Path) -> None:
+    def write_backup(self, to: Path) -> None:
         """Copy the whole ledger into an SQLite file; raise `OSError` if that cannot be written."""
         copy(self._database, to)
 
-    def entries(self) -> Iterator[LedgerEntry]:
+    def list_entries(self) -> Iterator[LedgerEntry]:
         """Yield the whole history of the fleet with parameters, oldest first; drafts and failures too."""
         own = ENTRIES.c.fleet == self._fleet
         entries = (
@@ -305,7 +305,7 @@ class Ledger(Closable):
             .where(own)
             .order_by(PARAMETERS.c.entry, PARAMETERS.c.row)
         )
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             stated = {
                 entry: tuple(map(_read_parameter, rows))
                 for entry, rows in itertools.groupby(connection.execute(parameters), lambda row: row.entry)
@@ -314,10 +314,10 @@ class Ledger(Closable):
         for row in rows:
             yield _make_entry(row, stated.get(row.id, ()))
 
-    def last_night(self) -> PastNight | None:
+    def find_last_night(self) -> PastNight | None:
         """Return the last night of the fleet; None before the first."""
         query = select(NIGHTS).where(NIGHTS.c.fleet == self._fleet).order_by(NIGHTS.c.id.desc()).limit(1)
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             night = connection.execute(query).one_or_none()
             if night is None:
                 return None
@@ -329,7 +329,7 @@ class Ledger(Closable):
         ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
         return PastNight(dt.datetime.fromisoformat(night.began), ended, notices, came_to, beat)
 
-    def standings(self) -> Mapping[str, Standing]:
+    def list_standings(self) -> Mapping[str, Standing]:
         """Return what the ledger knows of each job, by its path."""
         latest = select(func.max(ENTRIES.c.id)).where(ENTRIES.c.fleet == self._fleet).group_by(ENTRIES.c.job)
         query = (
@@ -337,7 +337,7 @@ class Ledger(Closable):
             .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
             .where(ENTRIES.c.id.in_(latest))
         )
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             return {
                 row.job: Standing(
                     row.number,
@@ -352,30 +352,30 @@ class Ledger(Closable):
                 for row in connection.execute(query)
             }
 
-    def longest(self) -> Mapping[str, float]:
+    def list_longest_times(self) -> Mapping[str, float]:
         """Return the longest time that each job ever took, s."""
         query = (
             select(ENTRIES.c.job, func.max(ENTRIES.c.seconds))
             .where(ENTRIES.c.fleet == self._fleet, ENTRIES.c.seconds.is_not(None))
             .group_by(ENTRIES.c.job)
         )
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             return {row[0]: row[1] for row in connection.execute(query)}
 
-    def certificates(self) -> Mapping[str, Issued]:
+    def list_certificates(self) -> Mapping[str, Issued]:
         """Return every certificate that was issued by its number, those of other fleets too."""
         query = (
             select(CERTIFICATES, ENTRIES.c.fleet, ENTRIES.c.job, NIGHTS.c.began)
             .join(ENTRIES, CERTIFICATES.c.entry == ENTRIES.c.id)
             .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
         )
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             return {
                 row.number: Issued(row.fleet, row.job, row.began, _read_files(row.files))
                 for row in connection.execute(query)
             }
 
-    def lessons(self) -> Iterator[Taught]:
+    def list_lessons(self) -> Iterator[Taught]:
         """Yield what certificates teach, in the order of measurement: of each job the latest of a test."""
         made = (ENTRIES.c.fleet == self._fleet, ENTRIES.c.state == State.MADE.value)
         latest = select(func.max(ENTRIES.c.id)).where(*made).group_by(ENTRIES.c.job, ENTRIES.c.measured)
@@ -384,14 +384,14 @@ class Ledger(Closable):
             .where(ENTRIES.c.id.in_(latest), ENTRIES.c.lesson.is_not(None))
             .order_by(ENTRIES.c.measured, ENTRIES.c.number)
         )
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             for row in connection.execute(query):
                 files = CertificateBasis.from_json(row.basis).files if row.basis else ()
                 readings = frozenset(file.sha256 for file in files if file.role == "readings")
                 yield Taught(Subject(**_read_subject(row)), readings, row.lesson)
 
     @contextlib.contextmanager
-    def night(self, began: str, fleet_file: str) -> Iterator[Night]:
+    def hold_night(self, began: str, fleet_file: str) -> Iterator[Night]:
         """Let one night at a time write to the ledger, whichever fleet it is.
 
         `began`: Date and time, ISO 8601 in UTC.
@@ -406,26 +406,26 @@ class Ledger(Closable):
                 stack.enter_context(lock(self._database, holder))
                 stuck = None
             except TakenError:
-                stuck = self._stuck(began)
+                stuck = self._find_stuck(began)
                 if stuck is None:
                     raise
                 _kill(stuck.process)
                 _enter_soon(stack, self._database, holder)
-            yield self._begun(began, stuck.began if stuck else "")
+            yield self._begin(began, stuck.began if stuck else "")
 
-    def _begun(self, began: str, took_over: str) -> Night:
+    def _begin(self, began: str, took_over: str) -> Night:
         """Begin a night; whoever does holds the lock of the ledger."""
-        before = self.last_night()
+        before = self.find_last_night()
         own = {"fleet": self._fleet, "began": began, "host": socket.gethostname(), "process": os.getpid()}
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             identity = _add_row(connection, insert(NIGHTS).values(beat=began, **own))
         was_interrupted = before is not None and before.ended is None
         return Night(self._database, self._fleet, identity, began, was_interrupted, took_over)
 
-    def _stuck(self, now: str) -> Row[Any] | None:
+    def _find_stuck(self, now: str) -> Row[Any] | None:
         """Return the night at work if it is of this host, and has been silent for too long."""
         query = select(NIGHTS).order_by(NIGHTS.c.id.desc()).limit(1)
-        with self._database.transaction() as connection:
+        with self._database.begin_transaction() as connection:
             night = connection.execute(query).one_or_none()
         if night is None or night.ended or night.host != socket.gethostname() or not night.beat:
             return None

@@ -43,7 +43,7 @@ MARK = ".draft"
 _TITLE = Words("Draft, not issued: {title}")
 
 
-def draft(certificate: Certificate) -> Certificate:
+def make_draft(certificate: Certificate) -> Certificate:
     """Return a certificate as a draft: its number stands already for a document with another content."""
 
     def marked(title: str) -> str:
@@ -144,7 +144,7 @@ def make_certificate(task: Task) -> MadeCertificate | Failed:
                 task.job, registry, choose_formats_once(fleet.formats, registry), defaults=fleet.defaults
             )
             subject = Subject.of(job)
-            return replace(_made(task, job, fleet, begun), seconds=time.monotonic() - start)
+            return replace(_make(task, job, fleet, begun), seconds=time.monotonic() - start)
         except MemoryError:
             message = f"was stopped: it needs more than {task.limits.megabytes} MB, the limit of a job"
             return Failed((Problem(Place(str(task.job)), message),), subject, is_stopped=True)
@@ -157,7 +157,7 @@ def warm(plugins: tuple[Path, ...]) -> None:
     find_plugins_once(plugins)
 
 
-def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertificate:
+def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertificate:
     registry = find_plugins_once(task.plugins)
     programs = _find_programs(task, job, registry)
     named = digest_named_files(job)
@@ -171,18 +171,18 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
     # Files that have the number already, though no ledger may know them.
     paths = {suffix: fleet.output / folder / f"{certificate.number}{suffix}" for suffix in suffixes}
     there = {suffix: path.read_bytes() for suffix, path in paths.items() if path.is_file()}
-    digests = {suffix: _digest(content) for suffix, content in there.items()}
+    digests = {suffix: _compute_digest(content) for suffix, content in there.items()}
     issued = {**digests, **task.issued}
     is_draft = any(
         issued.get(suffix, digest) != digest
-        for suffix, digest in zip(suffixes, map(_digest, contents), strict=True)
+        for suffix, digest in zip(suffixes, map(_compute_digest, contents), strict=True)
     )
     parameters = tuple(list_parameters_of(certificate))
     is_whole = all(task.issued.get(suffix, "") == digests.get(suffix) for suffix in suffixes)
     if is_draft and is_whole and task.stated is not None and _are_alike(task.stated, parameters):
         is_draft, contents = False, [there[suffix] for suffix in suffixes]
     if is_draft:
-        rendered = pipeline.render(draft(certificate), renderers, registry)
+        rendered = pipeline.render(make_draft(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
     stem = certificate.number + (MARK if is_draft else "")
     files = tuple(list_files_behind(certificate, named, job, fleet, begun))
@@ -244,10 +244,10 @@ def _round_parameter(parameter: RecordedParameter) -> str:
 
 def digest_defaults(fleet: FleetFile) -> str:
     """Return the digest of a fleet's defaults; empty without any."""
-    return _digest(fleet.defaults.as_yaml().encode()) if fleet.defaults else ""
+    return _compute_digest(fleet.defaults.as_yaml().encode()) if fleet.defaults else ""
 
 
-def _digest(content: bytes) -> str:
+def _compute_digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 

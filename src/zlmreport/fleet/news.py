@@ -82,12 +82,12 @@ def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
     for term in state.overdue:
         entry = term.entry
         told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
-        yield News(NewsKind.OVERDUE, entry.term(term.due.isoformat()), f"{entry.of_axis}: {told}")
+        yield News(NewsKind.OVERDUE, entry.name_term(term.due.isoformat()), f"{entry.of_axis}: {told}")
     for entry in state.drafts:
         yield News(NewsKind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
 
-def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
+def write_digest(fleet: FleetFile, news: Sequence[News]) -> Message:
     """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 changed``."""
     language = fleet.keys.language
     counted = Counter(each.kind for each in news)
@@ -207,7 +207,7 @@ class Ways:
     #: What is to be said of those that nobody was reached by tonight.
     untold: dict[str, NightNotice] = field(default_factory=dict)
 
-    def of(self, occasion: Occasion) -> Iterator[NewsChannel]:
+    def list_for(self, occasion: Occasion) -> Iterator[NewsChannel]:
         """Yield those that tell of an occasion, and may still work."""
         return (way for way in self.all if occasion in way.tells and way.name not in self.untold)
 

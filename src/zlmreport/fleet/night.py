@@ -22,11 +22,11 @@ from zlmreport.fleet.ledger import Ledger, Night, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, digest_defaults
 from zlmreport.fleet.news import (
     Ways,
-    digest,
     find_news_of,
     find_news_of_job,
     find_news_of_night,
     find_ways_of,
+    write_digest,
 )
 from zlmreport.fleet.notices import (
     find_left_documents,
@@ -38,7 +38,7 @@ from zlmreport.fleet.notices import (
 )
 from zlmreport.fleet.plan import Due, Evening, PlannedJob, find_reasons, plan
 from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, compute_due_date
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, list_job_files
 from zlmreport.language import Words, same
@@ -53,16 +53,16 @@ _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 class Watch(Protocol):
     """Whoever watches a night."""
 
-    def planned(self, jobs: Sequence[PlannedJob]) -> None:
+    def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
         """Take note of what is due."""
 
-    def happened(self, happened: Happened) -> None:
+    def note_happened(self, happened: Happened) -> None:
         """Take note of what happened to a job."""
 
-    def noticed(self, notice: NightNotice) -> None:
+    def note_notice(self, notice: NightNotice) -> None:
         """Take note of something that concerns the whole night, and is not as it should be."""
 
-    def learned(self, file: Path) -> None:
+    def note_priors(self, file: Path) -> None:
         """Take note of a new file of priors."""
 
 
@@ -77,7 +77,7 @@ def prepare_evening(
         defaults=digest_defaults(fleet),
     )
     at_work = tuple(path for path in jobs if not is_retired(write_path_in(fleet.path.parent, path), fleet))
-    return Evening(fleet, at_work, ledger.standings(), ledger.certificates(), now)
+    return Evening(fleet, at_work, ledger.list_standings(), ledger.list_certificates(), now)
 
 
 def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[PlannedJob, ...]:
@@ -114,13 +114,13 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     jobs, unmatched = find_jobs(fleet)
     ways, language = find_ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
         known = prepare_evening(fleet, jobs, ledger, plugins)
         gone = find_vanished(known)
         if unmatched and not gone:
             raise InputError(unmatched)
         lacking = find_missing(known, gone)
-        with ledger.night(read_clock(), str(fleet.path)) as night, _show_alive(fleet):
+        with ledger.hold_night(read_clock(), str(fleet.path)) as night, _show_alive(fleet):
             if lacking:
                 place, notice = lacking
                 noticed = (*say_of_last(night, last), notice)
@@ -136,10 +136,12 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
             night.notice(noticed)
             night.report(tuple(find_news_of_night(noticed, language)), is_all=False)  # it may be killed, too
             for notice in noticed:
-                watch.noticed(notice)
+                watch.note_notice(notice)
             witness = _Witness(watch, known, ways)
-            for notice in _work_through(known, order, witness, _Work(night, gone, ends, ledger.longest())):
-                watch.noticed(notice)
+            for notice in _work_through(
+                known, order, witness, _Work(night, gone, ends, ledger.list_longest_times())
+            ):
+                watch.note_notice(notice)
                 noticed = (*noticed, notice)
             if witness.saw_something or night.was_interrupted or (last and last.notices):
                 noticed = (*noticed, *_teach(fleet, ledger, watch))
@@ -147,9 +149,9 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
             if witness.saw_something or noticed or (last and (last.notices or not last.ended)):
                 began = dt.datetime.fromisoformat(night.began)
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
-                names = [known.job_of(path) for path in known.jobs]
+                names = [known.name_job(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
-                state = state_of(fleet.name, ledger.entries(), names, now, rules)
+                state = describe_state(fleet.name, ledger.list_entries(), names, now, rules)
                 night.report(tuple(find_news_of(state, language)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
@@ -182,13 +184,13 @@ class _Witness:
     ways: Ways
     saw_something: bool = False
 
-    def happened(self, happened: Happened) -> None:
+    def note_happened(self, happened: Happened) -> None:
         self.saw_something |= happened.what is not What.UNCHANGED
-        self.watch.happened(happened)
+        self.watch.note_happened(happened)
         message = find_news_of_job(happened, self.known)
         if message:
-            for way in self.ways.of(message.occasion):
-                self.ways.tell(way, message, self.watch.noticed)
+            for way in self.ways.list_for(message.occasion):
+                self.ways.tell(way, message, self.watch.note_notice)
 
 
 def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[NightNotice]:
@@ -196,20 +198,20 @@ def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[NightNoti
     if fleet.keys.priors is None:
         return
     try:
-        for path in write(make_priors(ledger.lessons(), fleet.keys.priors)):
-            watch.learned(path)
+        for path in write(make_priors(ledger.list_lessons(), fleet.keys.priors)):
+            watch.note_priors(path)
     except AccessError as error:
         notice = NightNotice(About.PRIORS, _UNTAUGHT.given(problem=str(error.problems[0])))
-        watch.noticed(notice)
+        watch.note_notice(notice)
         yield notice
 
 
 def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch, last: PastNight | None) -> None:
     """Tell people what is new, each way once; what could not be told is told by the next night."""
     untold = [each.english for each in last.notices if each.about is About.UNTOLD] if last else []
-    for way in ways.of(Occasion.DIGEST):
-        news = night.untold(way.name, was_tried=any(way.name in each for each in untold))
-        if news and ways.tell(way, digest(fleet, news), watch.noticed):
+    for way in ways.list_for(Occasion.DIGEST):
+        news = night.list_untold(way.name, was_tried=any(way.name in each for each in untold))
+        if news and ways.tell(way, write_digest(fleet, news), watch.note_notice):
             night.tell(way.name)
 
 
@@ -245,16 +247,16 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         )
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
-        witness.watch.planned(planned)
+        witness.watch.note_plan(planned)
         desk = Desk(known, night)
         for happened in (
-            *map(desk.vanished, work.gone),
-            *find_overdue(known, night.subjects(NewsKind.OVERDUE), night.began),
+            *map(desk.note_vanished, work.gone),
+            *find_overdue(known, night.list_subjects(NewsKind.OVERDUE), night.began),
         ):
-            witness.happened(happened)
+            witness.note_happened(happened)
         for each in planned:
             if each.due not in _MADE:
-                witness.happened(_record_not_made(each, desk))
+                witness.note_happened(_record_not_made(each, desk))
         tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
         remaining = [
             (each, _make_task(each, known, order.plugins, work)) for each in reversed(tasks.values())
@@ -265,12 +267,12 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
                 yield remaining.pop()[1]
 
         if executor:
-            for task, result in executor.results(waiting()):
-                happened = desk.kept(tasks[task.job.absolute()], result)
+            for task, result in executor.make_all(waiting()):
+                happened = desk.keep(tasks[task.job.absolute()], result)
                 is_upgrade = task.stated is not None and happened.what is What.CONFIRMED
-                witness.happened(replace(happened, is_upgrade=is_upgrade))
+                witness.note_happened(replace(happened, is_upgrade=is_upgrade))
         for each, _ in reversed(remaining):
-            witness.happened(Happened(What.LEFT, each.job, each.number, each.why))
+            witness.note_happened(Happened(What.LEFT, each.job, each.number, each.why))
     yield from say_left(len(remaining), due)
     yield from find_left_documents(known, planned)
 
@@ -288,7 +290,7 @@ def _record_not_made(planned: PlannedJob, desk: Desk) -> Happened:
         why = desk.known.standings[planned.job].message.partition(": ")[2]  # behind its place
         problem = Problem(Place(str(planned.path)), why)
         return Happened(What.SET_ASIDE, planned.job, planned.number, planned.why, problems=(problem,))
-    return desk.failed(planned, Failed(planned.problems))
+    return desk.note_failure(planned, Failed(planned.problems))
 
 
 def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
@@ -303,7 +305,7 @@ def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Hap
     for job, standing in latest.values():
         subject = standing.subject
         due = compute_due_date(subject.measured, subject.interval or known.fleet.keys.interval)
-        if due and due <= now[:10] and subject.term(due) not in told:
+        if due and due <= now[:10] and subject.name_term(due) not in told:
             why = (
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
             )
@@ -323,7 +325,7 @@ def _make_task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], w
         plugins=plugins,
         programs=known.now.programs,
         limits=Limits(limits.seconds or patience, limits.megabytes),
-        stated=work.night.stated(planned.job) if _is_upgrade(planned, known) else None,
+        stated=work.night.find_stated_parameters(planned.job) if _is_upgrade(planned, known) else None,
         confine=find_confinement(),
     )
 

@@ -69,7 +69,7 @@ _MORE = Words("{numbers} and {more} more")
 
 def find_vanished(known: Evening) -> tuple[str, ...]:
     """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
-    there = set(map(known.job_of, known.jobs))
+    there = set(map(known.name_job, known.jobs))
     return tuple(
         job for job in sorted(known.standings) if job not in there and not is_retired(job, known.fleet)
     )
@@ -118,7 +118,7 @@ def find_missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotic
     if known.standings or is_empty:
         return None
     stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
-    found, jobs = sum(_number(path, fleet) in stems for path in known.jobs), len(known.jobs)
+    found, jobs = sum(_find_number(path, fleet) in stems for path in known.jobs), len(known.jobs)
     if found > _FEW and 2 * found > jobs:
         places = {"folder": str(fleet.output), "fleet": str(fleet.path)}
         return Place(str(fleet.ledger)), NightNotice(
@@ -171,7 +171,7 @@ def _has_other_than_reports(fleet: FleetFile) -> bool:
     return any(path.name not in fleet.reports for path in fleet.output.iterdir())
 
 
-def _number(path: Path, fleet: FleetFile) -> str:
+def _find_number(path: Path, fleet: FleetFile) -> str:
     try:
         return number_of(path, fleet.defaults)[0]
     except ZlmreportError:

@@ -126,14 +126,14 @@ def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSec
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
     if state.terms:
-        soon = _DUE.of(_list_terms(state.soon, cells), cells)
+        soon = _DUE.lay_out(_list_terms(state.soon, cells), cells)
         nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
         tables = (render(soon),) if state.soon else ()
         yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
     common = find_shared(state.effects)
     if common:
         found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
-        tables = (render(_SHARED.of(found, cells)),)
+        tables = (render(_SHARED.lay_out(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
     shown = (render(make_tools(state, cells)), render(list_machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
@@ -155,7 +155,7 @@ class _Table(Generic[T]):
     columns: tuple[tuple[Words, Callable[[CellWriter, T], OverviewCellContext]], ...]
     style: str = ""
 
-    def of(
+    def lay_out(
         self, groups: Iterable[tuple[OverviewCellContext, Iterable[T]]], cells: CellWriter
     ) -> OverviewTableContext:
         """Return the table of groups, each with its first cell and what its rows are about."""
@@ -186,12 +186,12 @@ def _make_date(moment: str) -> OverviewCellContext:
 
 
 _VALUES = (
-    (words.PARAMETER, CellWriter.parameter),
-    (words.VALUE, CellWriter.value),
-    (words.LIMIT, CellWriter.limit),
+    (words.PARAMETER, CellWriter.write_parameter),
+    (words.VALUE, CellWriter.write_value),
+    (words.LIMIT, CellWriter.write_limit),
 )
-_COURSE = (words.COURSE, CellWriter.course)
-_OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, CellWriter.latest))
+_COURSE = (words.COURSE, CellWriter.write_course)
+_OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, CellWriter.write_latest))
 _OF_TERMS: tuple[tuple[Words, Callable[[CellWriter, DueDate], OverviewCellContext]], ...] = (
     (words.MEASURED_ON, lambda _, term: _make_date(term.entry.measured)),
     (words.DUE, lambda _, term: _make_date(term.due.isoformat())),
@@ -220,14 +220,19 @@ _CHANGED = _Table(
     words.CHANGED,
     words.CHANGED_CAPTION,
     words.AXIS,
-    (*_VALUES, _COURSE, (words.CHANGE, CellWriter.change), (words.CAME_WITH, CellWriter.came_with)),
+    (
+        *_VALUES,
+        _COURSE,
+        (words.CHANGE, CellWriter.write_change),
+        (words.CAME_WITH, CellWriter.write_what_came_with),
+    ),
 )
 _DRIFTING = _Table(
     "drifting",
     words.DRIFTING,
     words.DRIFTING_CAPTION,
     words.AXIS,
-    (*_VALUES, _COURSE, (words.DRIFT, CellWriter.drift), (words.REACHED, CellWriter.reached)),
+    (*_VALUES, _COURSE, (words.DRIFT, CellWriter.write_drift), (words.REACHED, CellWriter.write_day_reached)),
 )
 _OVERDUE = _Table("overdue", words.OVERDUE, words.OVERDUE_CAPTION, words.CERTIFICATE, _OF_TERMS)
 _DUE = _Table(
@@ -251,7 +256,7 @@ _SHARED: _Table[Shared] = _Table(
     words.TYPE,
     (
         (words.EFFECT, lambda _, each: OverviewCellContext(each.effect, note=each.name.replace("_", " "))),
-        (words.MEAN, lambda cells, each: cells.mean(each.mean, each.expanded_uncertainty, each.unit)),
+        (words.MEAN, lambda cells, each: cells.write_mean(each.mean, each.expanded_uncertainty, each.unit)),
         (
             words.MACHINES_OF_TYPE,
             lambda _, each: OverviewCellContext(str(len(each.machines)), note=", ".join(each.machines)),
@@ -267,14 +272,14 @@ def list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableCo
         (OverviewCellContext(each.entry.job, note=each.entry.of_axis), [each]) for each in state.failures
     ]
     tables = (
-        _NOTICED.of(noticed, cells),
-        _FAILED.of(failed, cells),
-        _NOT_MET.of(_list_axes(state.not_met, cells), cells),
-        _UNDECIDED.of(_list_axes(state.undecided, cells), cells),
-        _CHANGED.of(_list_axes(state.changed, cells), cells),
-        _DRIFTING.of(_list_drifts(state.drifting, cells), cells),
-        _OVERDUE.of(_list_terms(state.overdue, cells), cells),
-        _DRAFTS.of([(cells.issued(each), [each]) for each in state.drafts], cells),
+        _NOTICED.lay_out(noticed, cells),
+        _FAILED.lay_out(failed, cells),
+        _NOT_MET.lay_out(_list_axes(state.not_met, cells), cells),
+        _UNDECIDED.lay_out(_list_axes(state.undecided, cells), cells),
+        _CHANGED.lay_out(_list_axes(state.changed, cells), cells),
+        _DRIFTING.lay_out(_list_drifts(state.drifting, cells), cells),
+        _OVERDUE.lay_out(_list_terms(state.overdue, cells), cells),
+        _DRAFTS.lay_out([(cells.write_issued(each), [each]) for each in state.drafts], cells),
     )
     return (each for each in tables if each.groups)
 
@@ -282,13 +287,13 @@ def list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableCo
 def _list_axes(
     trends: Sequence[Trend], cells: CellWriter
 ) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
-    return ((cells.axis(each[0]), each) for each in group_by_axis(trends).values())
+    return ((cells.write_axis(each[0]), each) for each in group_by_axis(trends).values())
 
 
 def _list_terms(
     terms: Sequence[DueDate], cells: CellWriter
 ) -> Iterator[tuple[OverviewCellContext, list[DueDate]]]:
-    return ((cells.issued(each.entry), [each]) for each in terms)
+    return ((cells.write_issued(each.entry), [each]) for each in terms)
 
 
 def _list_drifts(
@@ -297,7 +302,7 @@ def _list_drifts(
     for head, of_axis in _list_axes(trends, cells):
         # An axis of which nothing is limited still shows its first parameter.
         shown = [each for each in of_axis if each.series.latest.limit is not None] or of_axis[:1]
-        also = cells.symbols(each for each in of_axis if each not in shown)
+        also = cells.join_symbols(each for each in of_axis if each not in shown)
         note = f"{head.note}; {cells.say(words.ALSO.given(symbols=also))}" if also else head.note
         yield replace(head, note=note), shown
 
@@ -318,12 +323,12 @@ def list_machines(state: FleetState, cells: CellWriter) -> OverviewMachinesConte
 
 
 _OF_AXES: tuple[tuple[Words, Callable[[CellWriter, Trend], OverviewCellContext]], ...] = (
-    (words.PARAMETER, CellWriter.brief),
-    (words.VALUE, CellWriter.value),
-    (words.LIMIT, CellWriter.limit),
-    (words.STATE, CellWriter.state),
+    (words.PARAMETER, CellWriter.write_in_brief),
+    (words.VALUE, CellWriter.write_value),
+    (words.LIMIT, CellWriter.write_limit),
+    (words.STATE, CellWriter.write_state),
     _COURSE,
-    (words.CHANGE_OR_DRIFT, CellWriter.change_in_brief),
+    (words.CHANGE_OR_DRIFT, CellWriter.write_change_in_brief),
 )
 
 
@@ -339,12 +344,12 @@ def _make_machine(
         facts = _list_facts_of(trends, [mark for mark, _, marked in marks if key in marked], due.get(key))
         for number, trend in enumerate(shown):
             beside = tuple(cell(cells, trend) for _, cell in _OF_AXES)
-            head = None if number else cells.quantity(trend)
-            measured = OverviewCellContext() if number else cells.measured(trend, due.get(key))
+            head = None if number else cells.write_quantity(trend)
+            measured = OverviewCellContext() if number else cells.write_day_measured(trend, due.get(key))
             row = (*beside, measured)
             rows.append(OverviewRowContext(head, len(shown), row, facts))
     counted = words.COUNTED_AXES.given(number=len(axes))
-    name = cells.machine(next(iter(axes.values()))[0].series)
+    name = cells.name_machine(next(iter(axes.values()))[0].series)
     return OverviewMachineContext(name, cells.say(counted), tuple(rows))
 
 

@@ -36,19 +36,19 @@ class Names:
 
     standards: Sequence[Standard]
 
-    def designation(self, standard: str) -> str:
+    def name_standard(self, standard: str) -> str:
         """Return a standard as printed: ``ISO 230-2:2014``."""
-        found = self._standard(standard)
+        found = self._find_standard(standard)
         return found.designation if found else standard
 
-    def notation(self, standard: str, symbol: str) -> str:
+    def name_symbol(self, standard: str, symbol: str) -> str:
         """Return a symbol as printed, in notation."""
-        quantity = self._quantity(standard, symbol)
+        quantity = self._find_quantity(standard, symbol)
         return quantity.notation if quantity else symbol
 
     def as_printed(self, trend: Trend) -> Trend:
         """Return a trend with the sign that the standard prints."""
-        quantity = self._quantity(trend.series.standard, trend.series.symbol)
+        quantity = self._find_quantity(trend.series.standard, trend.series.symbol)
         if quantity is None or quantity.printed_sign > 0:
             return trend
         calibrations = tuple(
@@ -59,11 +59,11 @@ class Names:
         step = trend.step and replace(trend.step, change=-trend.step.change)
         return replace(trend, series=replace(trend.series, calibrations=calibrations), line=line, step=step)
 
-    def _standard(self, identifier: str) -> Standard | None:
+    def _find_standard(self, identifier: str) -> Standard | None:
         return next((each for each in self.standards if each.identifier == identifier), None)
 
-    def _quantity(self, standard: str, symbol: str) -> Quantity | None:
-        found = self._standard(standard)
+    def _find_quantity(self, standard: str, symbol: str) -> Quantity | None:
+        found = self._find_standard(standard)
         quantities = found.quantities if found else ()
         return next((each for each in quantities if each.symbol == symbol), None)
 
@@ -89,22 +89,24 @@ class CellWriter:
         """Return a phrase in the page's language."""
         return phrase.in_language(self.language)
 
-    def parameter(self, trend: Trend) -> OverviewCellContext:
+    def write_parameter(self, trend: Trend) -> OverviewCellContext:
         """Return the symbol, with the standard below."""
         series = trend.series
-        notation = self.names.notation(series.standard, series.symbol)
+        notation = self.names.name_symbol(series.standard, series.symbol)
         return OverviewCellContext(
-            set_symbol(notation), style="parameter", note=self.names.designation(series.standard)
+            set_symbol(notation), style="parameter", note=self.names.name_standard(series.standard)
         )
 
-    def value(self, trend: Trend) -> OverviewCellContext:
+    def write_value(self, trend: Trend) -> OverviewCellContext:
         """Return the latest value with its expanded uncertainty."""
         latest = trend.series.latest
         if latest.expanded_uncertainty is None:
-            return OverviewCellContext(self._number(latest.value, _DECIMALS, latest.unit), style="number")
-        return self.mean(latest.value, latest.expanded_uncertainty, latest.unit)
+            return OverviewCellContext(
+                self._write_number(latest.value, _DECIMALS, latest.unit), style="number"
+            )
+        return self.write_mean(latest.value, latest.expanded_uncertainty, latest.unit)
 
-    def limit(self, trend: Trend) -> OverviewCellContext:
+    def write_limit(self, trend: Trend) -> OverviewCellContext:
         """Return the limit."""
         latest = trend.series.latest
         if latest.limit is None:
@@ -114,7 +116,7 @@ class CellWriter:
         )
         return OverviewCellContext(text, style="number")
 
-    def state(self, trend: Trend) -> OverviewCellContext:
+    def write_state(self, trend: Trend) -> OverviewCellContext:
         """Return whether the limit is met: a shape and a word."""
         latest = trend.series.latest
         if latest.limit is None:
@@ -126,9 +128,9 @@ class CellWriter:
         }[latest.conforms]
         return OverviewCellContext(self.say(word), style=f"state {style}")
 
-    def course(self, trend: Trend) -> OverviewCellContext:
+    def write_course(self, trend: Trend) -> OverviewCellContext:
         """Return the small graph, which leads to the trend in full."""
-        alternative = self.alternative(trend)
+        alternative = self.describe_graph(trend)
         image = draw_trend(trend, self.period, alternative, self.language.decimal_sign)
         anchor = self.anchors.get(make_key_of(trend.series), "")
         return OverviewCellContext(
@@ -138,31 +140,33 @@ class CellWriter:
             title=alternative,
         )
 
-    def drift(self, trend: Trend) -> OverviewCellContext:
+    def write_drift(self, trend: Trend) -> OverviewCellContext:
         """Return the drift of a parameter that drifts, and else why none is stated."""
         series = trend.series
         dates = len({each.measured for each in series.calibrations})
         if trend.line is None:
             too_few = words.TOO_FEW.given(number=dates, least=LEAST_DATES)
-            return self._quiet(too_few, self._visible(trend))
+            return self._write_quietly(too_few, self._say_visible_step(trend))
         if not trend.drifts:
-            return self._quiet(words.STEADY, self._visible(trend))
+            return self._write_quietly(words.STEADY, self._say_visible_step(trend))
         chance = words.CHANCE.given(
             p=write_p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
             number=len(series.calibrations),
         )
         slope, rises = trend.line.slope, trend.line.slope > 0
-        pair = self._pair(slope, trend.line.expanded_slope_uncertainty, series.unit, "+" if rises else "")
+        pair = self._write_pair(
+            slope, trend.line.expanded_slope_uncertainty, series.unit, "+" if rises else ""
+        )
         said, style = words.PER_YEAR.given(change=pair), "state drifts" if rises else "state drifts falls"
         return OverviewCellContext(self.say(said), style=style, note=self.say(chance))
 
-    def _visible(self, trend: Trend) -> str:
+    def _say_visible_step(self, trend: Trend) -> str:
         """Say how large a step would have to be; nothing where that is not known, or not asked."""
         if trend.smallest is None:
             return ""
-        return self.say(words.VISIBLE.given(size=self._number(trend.smallest, 1, trend.series.unit)))
+        return self.say(words.VISIBLE.given(size=self._write_number(trend.smallest, 1, trend.series.unit)))
 
-    def change(self, trend: Trend) -> OverviewCellContext:
+    def write_change(self, trend: Trend) -> OverviewCellContext:
         """Return by how much a parameter changed, since when, and how likely that is a step."""
         step = trend.step
         if step is None:
@@ -171,43 +175,43 @@ class CellWriter:
         note = words.STEP_SINCE.given(since=since, percent=min(99, round(100 * step.probability)))
         style = "state drifts" if step.change > 0 else "state drifts falls"
         return OverviewCellContext(
-            self._signed(step.change, trend.series.unit), style=style, note=self.say(note)
+            self._write_signed(step.change, trend.series.unit), style=style, note=self.say(note)
         )
 
-    def change_or_drift(self, trend: Trend) -> OverviewCellContext:
+    def write_change_or_drift(self, trend: Trend) -> OverviewCellContext:
         """Return the change of a parameter that changed, and else its drift."""
-        return self.change(trend) if trend.step or trend.is_wilder else self.drift(trend)
+        return self.write_change(trend) if trend.step or trend.is_wilder else self.write_drift(trend)
 
-    def came_with(self, trend: Trend) -> OverviewCellContext:
+    def write_what_came_with(self, trend: Trend) -> OverviewCellContext:
         """Return what else changed: a parameter of the error model, the instrument."""
         cause = find_cause_of(trend, self.effects)
         if cause is None:
             return OverviewCellContext("–", style="quiet")
-        effect = f"{cause.effect} {self._signed(cause.change, cause.unit)}" if cause.effect else ""
+        effect = f"{cause.effect} {self._write_signed(cause.change, cause.unit)}" if cause.effect else ""
         instrument = words.INSTRUMENT.given(before=cause.before, after=cause.after) if cause.after else None
         note = self.say(instrument) if instrument else ""
         return OverviewCellContext(effect or ("" if note else "–"), note=note)
 
-    def mean(self, value: float, expanded_uncertainty: float, unit: str) -> OverviewCellContext:
+    def write_mean(self, value: float, expanded_uncertainty: float, unit: str) -> OverviewCellContext:
         """Return a mean of several machines, or a single value, with its uncertainty."""
-        return OverviewCellContext(self._pair(value, expanded_uncertainty, unit), style="number")
+        return OverviewCellContext(self._write_pair(value, expanded_uncertainty, unit), style="number")
 
-    def _signed(self, value: float, unit: str) -> str:
-        return f"{'+' if value > 0 else '−'} {self._number(abs(value), 1, unit)}"
+    def _write_signed(self, value: float, unit: str) -> str:
+        return f"{'+' if value > 0 else '−'} {self._write_number(abs(value), 1, unit)}"
 
-    def _number(self, value: float, decimals: int, unit: str) -> str:
+    def _write_number(self, value: float, decimals: int, unit: str) -> str:
         return with_unit(
             write_fixed_number(value, decimals, self.language.decimal_sign), find_printed_symbol(unit)
         )
 
-    def _pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
+    def _write_pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
         number, stated = round_pair(value, expanded_uncertainty, self.language.decimal_sign)
         return with_unit(f"{sign}{number} ± {stated}", find_printed_symbol(unit))
 
-    def _quiet(self, said: Words, note: str = "") -> OverviewCellContext:
+    def _write_quietly(self, said: Words, note: str = "") -> OverviewCellContext:
         return OverviewCellContext(self.say(said), style="quiet", note=note)
 
-    def reached(self, trend: Trend) -> OverviewCellContext:
+    def write_day_reached(self, trend: Trend) -> OverviewCellContext:
         """Return when the limit is met."""
         line, last = trend.line, trend.series.calibrations[-1]
         if trend.forecast:
@@ -219,20 +223,20 @@ class CellWriter:
             note = self.say(interval.given(**bounds))
             return OverviewCellContext(_write_month(trend.forecast.expected), style="due", note=note)
         if trend.series.latest.limit is None:
-            return self._quiet(words.WITHOUT_LIMIT)
+            return self._write_quietly(words.WITHOUT_LIMIT)
         if line is not None and line.slope * line.at(last.measured) < 0:
-            return self._quiet(words.GETS_SMALLER)
-        return self._quiet(words.FAR_AWAY.given(years=MOST_YEARS_AHEAD))
+            return self._write_quietly(words.GETS_SMALLER)
+        return self._write_quietly(words.FAR_AWAY.given(years=MOST_YEARS_AHEAD))
 
-    def axis(self, trend: Trend) -> OverviewCellContext:
+    def write_axis(self, trend: Trend) -> OverviewCellContext:
         """Return machine and axis."""
-        return OverviewCellContext(trend.series.axis, note=self.machine(trend.series))
+        return OverviewCellContext(trend.series.axis, note=self.name_machine(trend.series))
 
-    def machine(self, series: Series) -> str:
+    def name_machine(self, series: Series) -> str:
         """Return the machine, or that it is not named."""
         return series.machine or self.say(words.NO_MACHINE)
 
-    def quantity(self, trend: Trend) -> OverviewCellContext:
+    def write_quantity(self, trend: Trend) -> OverviewCellContext:
         """Return the axis; of an error that is not its positioning the symbol, with what it is."""
         axis = trend.series.axis
         try:
@@ -241,34 +245,34 @@ class CellWriter:
             return OverviewCellContext(axis)
         return OverviewCellContext(axis, note=self.say(found.measurand.title))
 
-    def brief(self, trend: Trend) -> OverviewCellContext:
+    def write_in_brief(self, trend: Trend) -> OverviewCellContext:
         """Return the symbol and its standard on one line."""
-        cell = self.parameter(trend)
+        cell = self.write_parameter(trend)
         return replace(cell, style="parameter brief")
 
-    def change_in_brief(self, trend: Trend) -> OverviewCellContext:
+    def write_change_in_brief(self, trend: Trend) -> OverviewCellContext:
         """Return the change or the drift without what stands below it."""
-        return replace(self.change_or_drift(trend), note="")
+        return replace(self.write_change_or_drift(trend), note="")
 
-    def measured(self, trend: Trend, due: date | None) -> OverviewCellContext:
+    def write_day_measured(self, trend: Trend, due: date | None) -> OverviewCellContext:
         """Return when it was measured last, with the certificate behind it, and when it is due."""
         latest = trend.series.calibrations[-1]
-        links = self.links(latest.entry)[:1]
+        links = self.list_links(latest.entry)[:1]
         day = latest.measured.isoformat()
         shown = tuple(replace(each, text=day) for each in links)
         note = self.say(words.DUE_ON.given(due=due.isoformat())) if due else ""
         return OverviewCellContext("" if shown else day, style="date", note=note, links=shown)
 
-    def latest(self, trend: Trend) -> OverviewCellContext:
+    def write_latest(self, trend: Trend) -> OverviewCellContext:
         """Return the number and the date of the latest certificate, with links to its files."""
         entry = trend.series.calibrations[-1].entry
-        return OverviewCellContext(entry.number, note=entry.measured, links=self.links(entry))
+        return OverviewCellContext(entry.number, note=entry.measured, links=self.list_links(entry))
 
-    def issued(self, entry: LedgerEntry) -> OverviewCellContext:
+    def write_issued(self, entry: LedgerEntry) -> OverviewCellContext:
         """Return the number and the axis of a certificate, with links to its files."""
-        return OverviewCellContext(entry.number, note=entry.of_axis, links=self.links(entry))
+        return OverviewCellContext(entry.number, note=entry.of_axis, links=self.list_links(entry))
 
-    def links(self, entry: LedgerEntry) -> tuple[LinkContext, ...]:
+    def list_links(self, entry: LedgerEntry) -> tuple[LinkContext, ...]:
         """Return a link to each file of a certificate, by the name of its format."""
         formats = [Path(file).suffix.removeprefix(".").upper() or file for file in entry.files]
         return tuple(
@@ -276,28 +280,28 @@ class CellWriter:
             for text, file in zip(formats, entry.files, strict=True)
         )
 
-    def symbols(self, trends: Iterable[Trend]) -> str:
+    def join_symbols(self, trends: Iterable[Trend]) -> str:
         """Return the symbols of trends as a plain line."""
-        notations = [self.names.notation(each.series.standard, each.series.symbol) for each in trends]
+        notations = [self.names.name_symbol(each.series.standard, each.series.symbol) for each in trends]
         return ", ".join(dict.fromkeys(map(write_plain, notations)))
 
-    def alternative(self, trend: Trend) -> str:
+    def describe_graph(self, trend: Trend) -> str:
         """Return what a graph of a trend shows, in a sentence or two."""
         series = trend.series
         text = self.say(
             words.ALTERNATIVE.given(
                 number=len(series.calibrations),
-                symbol=write_plain(self.names.notation(series.standard, series.symbol)),
+                symbol=write_plain(self.names.name_symbol(series.standard, series.symbol)),
                 first=series.calibrations[0].measured.isoformat(),
                 last=series.calibrations[-1].measured.isoformat(),
-                value=self._number(series.latest.value, _DECIMALS, series.unit),
+                value=self._write_number(series.latest.value, _DECIMALS, series.unit),
             )
         )
         if series.latest.limit is not None:
-            limit = self._number(series.latest.limit, _DECIMALS, series.unit)
+            limit = self._write_number(series.latest.limit, _DECIMALS, series.unit)
             text += self.say(words.ALTERNATIVE_LIMIT.given(limit=limit))
         if trend.drifts and trend.line:
-            change = self._number(trend.line.slope, _DECIMALS, series.unit)
+            change = self._write_number(trend.line.slope, _DECIMALS, series.unit)
             text += self.say(words.ALTERNATIVE_DRIFT.given(change=change))
         return text
 

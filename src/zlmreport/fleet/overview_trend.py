@@ -24,13 +24,13 @@ def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
     """Return what is shown of a trend when its small graph is chosen."""
     series = trend.series
     key = cells.anchors[make_key_of(series)]
-    image = draw_trend(trend, cells.period, cells.alternative(trend), cells.language.decimal_sign, LARGE)
-    title = words.TREND.given(axis=series.axis, machine=cells.machine(series))
+    image = draw_trend(trend, cells.period, cells.describe_graph(trend), cells.language.decimal_sign, LARGE)
+    title = words.TREND.given(axis=series.axis, machine=cells.name_machine(series))
     effects = [each for each in cells.effects if each.axis_key == series.axis_key]
     return OverviewTrendContext(
         key=key,
         title=cells.say(title),
-        subtitle=f"{cells.symbols([trend])}, {cells.names.designation(series.standard)}",
+        subtitle=f"{cells.join_symbols([trend])}, {cells.names.name_standard(series.standard)}",
         close=cells.say(words.CLOSE),
         drawing=make_drawing(image),
         facts=tuple(_list_facts(trend, cells)),
@@ -46,12 +46,12 @@ def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
 def _list_facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:
     """Yield what the tests say of a change and of a drift, and when the limit is reached."""
     if trend.step or trend.is_wilder:
-        changed, came_with = cells.change(trend), cells.came_with(trend)
+        changed, came_with = cells.write_change(trend), cells.write_what_came_with(trend)
         yield cells.say(words.CHANGE_FACT), _write_in_a_line(changed)
         yield cells.say(words.CAME_WITH), _write_in_a_line(came_with)
-    yield cells.say(words.DRIFT_FACT), _write_in_a_line(cells.drift(trend))
+    yield cells.say(words.DRIFT_FACT), _write_in_a_line(cells.write_drift(trend))
     if trend.drifts:
-        yield cells.say(words.REACHED), _write_in_a_line(cells.reached(trend))
+        yield cells.say(words.REACHED), _write_in_a_line(cells.write_day_reached(trend))
 
 
 def _write_in_a_line(cell: OverviewCellContext) -> str:
@@ -63,9 +63,9 @@ def _lay_out_tests(key: str, series: Series, cells: CellWriter) -> OverviewTable
     rows = []
     for each in reversed(series.calibrations):
         alone = Trend(replace(series, calibrations=(each,)))
-        certificate = OverviewCellContext(each.entry.number, links=cells.links(each.entry))
+        certificate = OverviewCellContext(each.entry.number, links=cells.list_links(each.entry))
         instrument = OverviewCellContext(each.entry.instrument or "–")
-        value = (cells.value(alone), cells.limit(alone), cells.state(alone))
+        value = (cells.write_value(alone), cells.write_limit(alone), cells.write_state(alone))
         head = OverviewCellContext(each.measured.isoformat())
         rows.append(OverviewGroupContext(head, ((*value, certificate, instrument),)))
     headings = (words.MEASURED_ON, words.VALUE, words.LIMIT, words.STATE, words.CERTIFICATE)
@@ -89,7 +89,7 @@ def _lay_out_effects(key: str, effects: Sequence[Series], cells: CellWriter) -> 
         effect, _, name = each.symbol.partition(".")
         trend = Trend(each)
         head = OverviewCellContext(effect, note=name.replace("_", " "))
-        rows.append(OverviewGroupContext(head, ((cells.value(trend), cells.course(trend)),)))
+        rows.append(OverviewGroupContext(head, ((cells.write_value(trend), cells.write_course(trend)),)))
     return OverviewTableContext(
         key=f"{key}-effects",
         style="effects",

@@ -62,7 +62,7 @@ class Evening:
     certificates: Mapping[str, Issued]  #: Every certificate that was issued, by its number.
     now: CertificateBasis  #: Programs, formats and defaults of tonight.
 
-    def job_of(self, path: Path) -> str:
+    def name_job(self, path: Path) -> str:
         """Return a job file as the ledger names it."""
         return write_path_in(self.fleet.path.parent, path)
 
@@ -71,7 +71,7 @@ def find_reasons(evening: Evening) -> Mapping[Path, str]:
     """Return why each job is due; nothing for one that is not. No job is read that is as it was."""
     sources, shelf = Disk(evening.fleet.path.parent), Disk(evening.fleet.output)
     return {
-        path: _say_why(evening.standings.get(evening.job_of(path)), evening, sources, shelf)
+        path: _say_why(evening.standings.get(evening.name_job(path)), evening, sources, shelf)
         for path in evening.jobs
     }
 
@@ -118,7 +118,7 @@ def find_damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterat
 
 def _plan_job(path: Path, why: str, evening: Evening) -> PlannedJob:
     """Return what is due about a job, with what its number means."""
-    job = evening.job_of(path)
+    job = evening.name_job(path)
     standing = evening.standings.get(job)
     if not why and standing:
         return PlannedJob(path, job, Due.NOTHING, number=standing.number)

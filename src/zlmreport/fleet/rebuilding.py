@@ -46,12 +46,12 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
     problems: list[Problem] = []
     others = dict(files)
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
-        known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
+        known = [each for each in ledger.list_certificates().values() if each.fleet == fleet.name]
         if known:
             certificates = count_in_words(len(known), "certificate")
             message = f"the ledger knows {certificates} of this fleet; move it away first"
             raise InputError.at(Place(str(fleet.ledger)), message)
-        with ledger.night(now, str(fleet.path)) as night:
+        with ledger.hold_night(now, str(fleet.path)) as night:
             for job in list_job_files(fleet):
                 number = ""
                 with contextlib.suppress(ZlmreportError):  # the next night says what is wrong with it

@@ -127,14 +127,14 @@ class PastNight:
     notices: tuple[NightNotice, ...] = ()  #: What concerned all of it.
     came_to: Mapping[State, int] = field(default_factory=dict)  #: How many jobs became what in it.
     beat: datetime | None = None  #: When it gave its last sign of life.
-    is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `seen_at`.
+    is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `see_at`.
 
     @property
     def seconds(self) -> float | None:
         """How long it took."""
         return (self.ended - self.began).total_seconds() if self.ended else None
 
-    def seen_at(self, now: datetime) -> Self:
+    def see_at(self, now: datetime) -> Self:
         """Return the same as it is now: at work if it has not ended, and gave a sign of life lately."""
         is_at_work = self.ended is None and self.beat is not None and now - self.beat < SILENT
         return replace(self, is_at_work=is_at_work)
@@ -223,7 +223,7 @@ class Subject:
         """What tells an axis from others: the machine, and its name."""
         return self.machine, self.axis
 
-    def term(self, due: str) -> str:
+    def name_term(self, due: str) -> str:
         """Return what tells, in the news, that the axis is overdue since a day from any other event."""
         return f"{self.machine}|{self.axis}|{due}"
 

@@ -50,39 +50,39 @@ class ScatterLikelihood:
         """The root of the mean variance."""
         return math.sqrt(float(self.weights @ self.deviations**2))
 
-    def after(self, squares: float, degrees: int) -> ScatterLikelihood:
+    def update(self, squares: float, degrees: int) -> ScatterLikelihood:
         """Return what is known after tests with a sum of squares of so many degrees of freedom."""
-        logarithms = self._logarithms(squares, degrees)
+        logarithms = self._compute_logarithms(squares, degrees)
         likely = np.exp(logarithms - logarithms.max())
         kept = likely > _NEGLIGIBLE
         weights = likely[kept]
         return ScatterLikelihood(self.deviations[kept], weights / weights.sum(), self.degrees + degrees)
 
-    def exceeds(self, change: float) -> float:
+    def compute_chance_of_change(self, change: float) -> float:
         """Return the chance that a normal value of this scatter exceeds a change."""
         return float(self.weights @ [normal_tail(each) for each in (change / self.deviations).tolist()])
 
-    def squares_exceed(self, squares: float, degrees: int) -> float:
+    def compute_chance_of_squares(self, squares: float, degrees: int) -> float:
         """Return the chance that a sum of squares of so many degrees of freedom exceeds one."""
         ratios = squares / self.deviations**2
         return float(self.weights @ [chi_square_tail(each, degrees) for each in ratios.tolist()])
 
-    def quantile(self, chance: float) -> float:
+    def compute_quantile(self, chance: float) -> float:
         """Return the change that a normal value of this scatter exceeds with a chance below one half."""
         normal = NormalDist().inv_cdf(1 - chance)
         low, high = normal * float(self.deviations[0]), normal * float(self.deviations[-1])
         while high > low * (1 + _PRECISION):
             middle = math.sqrt(low * high)
-            low, high = (middle, high) if self.exceeds(middle) > chance else (low, middle)
+            low, high = (middle, high) if self.compute_chance_of_change(middle) > chance else (low, middle)
         return high
 
-    def evidence(self, squares: float, degrees: int) -> float:
+    def compute_evidence(self, squares: float, degrees: int) -> float:
         """Return the logarithm of how likely a sum of squares is, but for what only the degrees decide."""
-        logarithms = self._logarithms(squares, degrees)
+        logarithms = self._compute_logarithms(squares, degrees)
         largest = float(logarithms.max())
         return largest + math.log(float(np.exp(logarithms - largest).sum()))
 
-    def _logarithms(self, squares: float, degrees: int) -> FloatArray:
+    def _compute_logarithms(self, squares: float, degrees: int) -> FloatArray:
         logarithms: FloatArray = (
             np.log(self.weights) - degrees * np.log(self.deviations) - squares / (2 * self.deviations**2)
         )

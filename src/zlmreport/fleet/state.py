@@ -113,7 +113,7 @@ class Rules:
     is_retired: Callable[[str], bool] = lambda _: False  #: Whether a job is gone on purpose.
 
 
-def state_of(
+def describe_state(
     name: str,
     entries: Iterable[LedgerEntry],
     jobs: Sequence[str],

@@ -74,8 +74,10 @@ class ParameterCourse:
             return None
         wider = math.sqrt(1 + 1 / len(self.since))
         level = self.share * compute_level_of(len(self.since))
-        threshold = max(wider * self.scatter.quantile(level), _compute_least(wider * self.scatter.deviation))
-        return max(SMALL, threshold + wider * self.scatter.quantile(_MISSED))
+        threshold = max(
+            wider * self.scatter.compute_quantile(level), _compute_least(wider * self.scatter.deviation)
+        )
+        return max(SMALL, threshold + wider * self.scatter.compute_quantile(_MISSED))
 
 
 def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0) -> ParameterCourse:
@@ -104,7 +106,7 @@ def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float
             if not is_latest:
                 first, base = index, [index]
     since = [values[each] for each in base]
-    scatter = fleet.after(sum_squares_about_mean(since), len(since) - 1)
+    scatter = fleet.update(sum_squares_about_mean(since), len(since) - 1)
     return ParameterCourse(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
@@ -120,13 +122,13 @@ def is_standing_out(
     if abs(change) < SMALL:
         return False
     squares = sum_squares_about_mean(before)
-    scatter = fleet.after(squares, number - 1)
+    scatter = fleet.update(squares, number - 1)
     level = share * compute_level_of(number) * (1 if change * mean >= 0 else _AWAY)
     wider = math.sqrt(1 + 1 / number)
     if (
         scatter.degrees < 1
         or abs(change) <= _compute_least(wider * scatter.deviation)
-        or scatter.exceeds(abs(change) / wider) >= level
+        or scatter.compute_chance_of_change(abs(change) / wider) >= level
     ):
         return False
     if number < 3:
@@ -134,12 +136,15 @@ def is_standing_out(
     middle = (number - 1) / 2
     spread = math.fsum((each - middle) ** 2 for each in range(number))
     slope = math.fsum((each - middle) * y for each, y in enumerate(before)) / spread
-    about = fleet.after(max(0.0, squares - slope**2 * spread), number - 2)
-    if slope * change <= 0 or about.exceeds(abs(slope) * math.sqrt(spread)) > _STEEP / 2:
+    about = fleet.update(max(0.0, squares - slope**2 * spread), number - 2)
+    if slope * change <= 0 or about.compute_chance_of_change(abs(slope) * math.sqrt(spread)) > _STEEP / 2:
         return True
     ahead = number - middle
     rest = abs(change) - abs(slope) * ahead
-    return rest > SMALL and about.exceeds(rest / math.sqrt(1 + 1 / number + ahead**2 / spread)) < level
+    return (
+        rest > SMALL
+        and about.compute_chance_of_change(rest / math.sqrt(1 + 1 / number + ahead**2 / spread)) < level
+    )
 
 
 def compute_level_of(number: int) -> float:
@@ -190,7 +195,7 @@ def _compute_odds(values: Sequence[float], shape: Sequence[float], fleet: Scatte
     gain = 1 + _EXPECTED**2 * length
     squares = sum_squares_about_mean(values)
     rest = max(0.0, squares - along**2 * _EXPECTED**2 / gain)
-    more = fleet.evidence(rest, number - 1) - fleet.evidence(squares, number - 1)
+    more = fleet.compute_evidence(rest, number - 1) - fleet.compute_evidence(squares, number - 1)
     return math.exp(min(600.0, more - 0.5 * math.log(gain)))
 
 
@@ -231,5 +236,5 @@ def _is_wilder(values: Sequence[float], fleet: ScatterLikelihood) -> bool:
     if len(before) < _WINDOW:
         return False
     squares, degrees = sum_squares_about_mean(latest), _WINDOW - 1
-    known = fleet.after(sum_squares_about_mean(before), len(before) - 1)
-    return squares > SMALL**2 * degrees and known.squares_exceed(squares, degrees) < _SCATTER_LEVEL
+    known = fleet.update(sum_squares_about_mean(before), len(before) - 1)
+    return squares > SMALL**2 * degrees and known.compute_chance_of_squares(squares, degrees) < _SCATTER_LEVEL

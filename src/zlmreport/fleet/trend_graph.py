@@ -83,12 +83,12 @@ class _Frame:
     def right(self) -> float:
         return self.size.width
 
-    def x(self, day: float) -> float:
+    def place_x(self, day: float) -> float:
         part = (day - self.period.first.toordinal()) / (self.period.days * (1 + _AHEAD))
         first, last = self.size.left + self.size.right, self.size.width - self.size.right
         return first + part * (last - first)
 
-    def y(self, value: float) -> float:
+    def place_y(self, value: float) -> float:
         part = (value - self.lower) / (self.upper - self.lower)
         return self.bottom * (1 - part)
 
@@ -116,7 +116,7 @@ def draw_trend(
         _draw_limit(canvas, frame, limit)
     _draw_scale(canvas, frame, trend, sign)
     if frame.lower <= 0:
-        across = _draw_line((size.left, frame.y(0)), (frame.right, frame.y(0)))
+        across = _draw_line((size.left, frame.place_y(0)), (frame.right, frame.place_y(0)))
         canvas.outline("zero", across, Stroke(_GREY, 0.6), None)
     _draw_band(canvas, frame, calibrations)
     _draw_steps(canvas, frame, trend)
@@ -148,7 +148,7 @@ def _draw_scale(canvas: SvgCanvas, frame: _Frame, trend: Trend, sign: DecimalSig
     size, unit = frame.size, find_printed_symbol(trend.series.unit)
     ticks, decimals = round_ticks(frame.lower, frame.upper, size.ticks)
     for value in ticks:
-        y = frame.y(value)
+        y = frame.place_y(value)
         across = _draw_line((size.left, y), (frame.right, y))
         canvas.outline("grid", across, Stroke(_GREY, 0.3), None)
         is_top = value == ticks[-1]
@@ -156,7 +156,7 @@ def _draw_scale(canvas: SvgCanvas, frame: _Frame, trend: Trend, sign: DecimalSig
         baseline = min(max(y + 0.35 * size.text, 0.8 * size.text), frame.bottom)
         _write(canvas, (size.left - _GAP, baseline), label, size.text, share=1.0)
     for day, label in _list_dates(frame):
-        x, baseline = frame.x(day.toordinal()), size.height - 0.2 * size.text
+        x, baseline = frame.place_x(day.toordinal()), size.height - 0.2 * size.text
         if size is LARGE:
             canvas.outline("grid", _draw_line((x, 0), (x, frame.bottom)), Stroke(_GREY, 0.3), None)
         share = 0.5 if size is LARGE else float(day == frame.period.last)
@@ -187,7 +187,7 @@ def _write(canvas: SvgCanvas, place: tuple[float, float], text: str, size: float
 def _draw_limit(canvas: SvgCanvas, frame: _Frame, limit: float) -> None:
     left, right = frame.size.left, frame.right
     for bound, edge in ((limit, 0.0), (-limit, frame.bottom)):
-        y = frame.y(bound)
+        y = frame.place_y(bound)
         if 0 <= y < frame.bottom:
             beyond = _draw_line((left, edge), (right, edge), (right, y), (left, y), closed=True)
             canvas.outline("beyond", beyond, None, Fill(_ALARM, 0.1))
@@ -200,9 +200,9 @@ def _draw_band(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibrat
         uncertainty = each.parameter.expanded_uncertainty
         if uncertainty is None:
             continue
-        x = frame.x(each.measured.toordinal())
-        upper.append((x, frame.y(each.parameter.value + uncertainty)))
-        lower.append((x, frame.y(each.parameter.value - uncertainty)))
+        x = frame.place_x(each.measured.toordinal())
+        upper.append((x, frame.place_y(each.parameter.value + uncertainty)))
+        lower.append((x, frame.place_y(each.parameter.value - uncertainty)))
     if len(upper) == 1:
         half = _SINGLE * frame.size.point
         upper = [(upper[0][0] + step, upper[0][1]) for step in (-half, half)]
@@ -217,7 +217,7 @@ def _draw_steps(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
     calibrations = trend.series.calibrations
     for index in sorted({each.index for each in (*steps, *([trend.step] if trend.step else ()))}):
         days = [calibrations[each].measured.toordinal() for each in (index - 1, index)]
-        x = frame.x(sum(days) / 2)
+        x = frame.place_x(sum(days) / 2)
         canvas.outline("step", _draw_line((x, 0), (x, frame.bottom)), Stroke(_ALARM, 0.9, (1.5, 1.5)), None)
 
 
@@ -227,12 +227,15 @@ def _draw_drift(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
         return
     first = calibrations[0].measured
     last = date.fromordinal(frame.period.last.toordinal() + round(frame.period.days * _AHEAD))
-    ends = [(frame.x(day.toordinal()), frame.y(line.at(day))) for day in (first, last)]
+    ends = [(frame.place_x(day.toordinal()), frame.place_y(line.at(day))) for day in (first, last)]
     canvas.outline("drift", _draw_line(*ends), Stroke(_ALARM, 1.2, (5.0, 1.6, 1.2, 1.6)), None)
 
 
 def _draw_values(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibration]) -> None:
-    places = [(frame.x(each.measured.toordinal()), frame.y(each.parameter.value)) for each in calibrations]
+    places = [
+        (frame.place_x(each.measured.toordinal()), frame.place_y(each.parameter.value))
+        for each in calibrations
+    ]
     if len(places) > 1:
         canvas.outline("course", _draw_line(*places), Stroke(_INK, 0.9), None)
     for each, (x, y) in zip(calibrations, places, strict=True):

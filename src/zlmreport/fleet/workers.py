@@ -50,7 +50,7 @@ class _Ended:
     was_ready: bool
     called: str  # the plugin that was at work; empty for none
 
-    def failed(self, task: Task) -> Failed:
+    def make_failure(self, task: Task) -> Failed:
         """Return the answer of a task that had two such workers, the second while nothing else was done."""
         code = self.code
         how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
@@ -78,7 +78,7 @@ class Pool:
 
     def __enter__(self) -> Self:
         """Start the workers: they load the plugins while the night is planned."""
-        self._staff.extend(self._hired() for _ in range(self.workers))
+        self._staff.extend(self._hire() for _ in range(self.workers))
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -87,19 +87,19 @@ class Pool:
             self._dismiss(worker)
         self._staff.clear()
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         """Yield what became of each task, as it is done; tasks are taken as workers have time for them."""
         killers: list[Task] = []
-        for task, result in self._worked(iter(tasks), self.workers):
+        for task, result in self._work_through(iter(tasks), self.workers):
             if isinstance(result, Failed | MadeCertificate):
                 yield task, result
             else:
                 killers.append(task)
         for task in killers:
-            for _, again in self._worked(iter([task]), 1):
-                yield task, again.failed(task) if isinstance(again, _Ended) else again
+            for _, again in self._work_through(iter([task]), 1):
+                yield task, again.make_failure(task) if isinstance(again, _Ended) else again
 
-    def _worked(
+    def _work_through(
         self, tasks: Iterator[Task], most: int
     ) -> Iterator[tuple[Task, MadeCertificate | Failed | _Ended]]:
         """Yield each task with its result, or with how the worker that had it ended."""
@@ -112,11 +112,11 @@ class Pool:
                 busy[worker.line] = worker
             if not busy:
                 return
-            for worker in self._finished(busy):
+            for worker in self._await_answers(busy):
                 del busy[worker.line]
-                task, result = self._received(worker)
+                task, result = self._receive(worker)
                 is_spent = not worker.process.is_alive() or worker.done >= LIFE
-                follower = self._replaced(worker) if is_spent else worker
+                follower = self._replace(worker) if is_spent else worker
                 # The next task first, so that the worker need not wait for what is done with the result.
                 if not free and len(busy) < most and (following := next(tasks, None)) is not None:
                     self._give(follower, following)
@@ -125,7 +125,7 @@ class Pool:
                     free.append(follower)
                 yield task, result
 
-    def _finished(self, busy: dict[Connection, _Worker]) -> list[_Worker]:
+    def _await_answers(self, busy: dict[Connection, _Worker]) -> list[_Worker]:
         """Wait for workers that answer or have ended; those whose time is over are killed, and count."""
         while True:
             first = min(worker.deadline for worker in busy.values())
@@ -145,7 +145,7 @@ class Pool:
         with contextlib.suppress(OSError):  # one that is gone is noticed where its answer is awaited
             worker.line.send(task)
 
-    def _received(self, worker: _Worker) -> tuple[Task, MadeCertificate | Failed | _Ended]:
+    def _receive(self, worker: _Worker) -> tuple[Task, MadeCertificate | Failed | _Ended]:
         """Return a worker's answer, or how it ended if it is gone."""
         task, worker.task = worker.task, None
         if task is None:
@@ -161,7 +161,7 @@ class Pool:
         worker.done += 1
         return task, result
 
-    def _hired(self) -> _Worker:
+    def _hire(self) -> _Worker:
         context = get_context("forkserver")
         context.set_forkserver_preload([_serve.__module__])  # what all need is loaded once, plugins apart
         ours, theirs = context.Pipe()
@@ -171,9 +171,9 @@ class Pool:
         theirs.close()
         return _Worker(process, ours, is_ready, Presence(memoryview(memory).cast("B")))
 
-    def _replaced(self, worker: _Worker) -> _Worker:
+    def _replace(self, worker: _Worker) -> _Worker:
         self._dismiss(worker)
-        new = self._hired()
+        new = self._hire()
         self._staff[self._staff.index(worker)] = new
         return new
 
@@ -242,7 +242,7 @@ class _Lost:
 
     reason: str
 
-    def failed(self, task: Task) -> Failed:
+    def make_failure(self, task: Task) -> Failed:
         message = " ".join(f"no worker lived to make this certificate: {self.reason}".split())
         return Failed((Problem(Place(str(task.job)), message[:_LONGEST_MESSAGE]),))
 
@@ -277,48 +277,46 @@ class Cluster:
             self._client.close()
             self._client = None
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         """Yield what became of each task, as it is done; tasks are taken as workers have time for them.
 
         A worker that is killed takes with it what waited there, too, and a scheduler suspects them all. So
         each of them is tried once more, alone, when nothing else is under way.
         """
         suspected = []
-        for task, result in self._done(tasks):
+        for task, result in self._work_through(tasks):
             if isinstance(result, _Lost):
                 suspected.append(task)
             else:
                 yield task, result
         for suspect in suspected:
-            for task, result in self._done([suspect]):
-                yield task, result.failed(task) if isinstance(result, _Lost) else result
+            for task, result in self._work_through([suspect]):
+                yield task, result.make_failure(task) if isinstance(result, _Lost) else result
 
-    def _done(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed | _Lost]]:
+    def _work_through(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed | _Lost]]:
         from distributed import wait as first_of  # noqa: PLC0415 - as above
 
         waiting = iter(tasks)
         under_way: dict[Any, tuple[Task, float]] = {}
-        with self._scheduler():
+        with self._watch_scheduler():
             self._send(waiting, under_way)
         while under_way:
             done: set[Any] = set()
-            with self._scheduler():
+            with self._watch_scheduler():
                 with contextlib.suppress(TimeoutError), self._client.as_current():
                     done = first_of(list(under_way), timeout=BEAT, return_when="FIRST_COMPLETED").done
-                ended = [(future, self._result(future)) for future in done]
-                ended += [
-                    (future, self._stopped(future, task)) for future, task in _find_late(under_way, done)
-                ]
+                ended = [(future, self._receive(future)) for future in done]
+                ended += [(future, self._stop(future, task)) for future, task in _find_late(under_way, done)]
             self.beat()
             for future, result in ended:
                 task, _ = under_way.pop(future)
-                with self._scheduler():
+                with self._watch_scheduler():
                     future.release()
                     self._send(waiting, under_way)
                 yield task, result
 
     @contextlib.contextmanager
-    def _scheduler(self) -> Iterator[None]:
+    def _watch_scheduler(self) -> Iterator[None]:
         """Say that the scheduler is gone where it is, whatever was asked of it."""
         try:
             yield
@@ -333,7 +331,7 @@ class Cluster:
             future = self._client.submit(make_certificate, task, pure=False)
             under_way[future] = task, time.monotonic()
 
-    def _stopped(self, future: Any, task: Task) -> Failed:
+    def _stop(self, future: Any, task: Task) -> Failed:
         """Take a task away from its worker by starting that anew; what waited there is made once more."""
         workers = [address for address, keys in self._client.processing().items() if future.key in keys]
         future.cancel(force=True)
@@ -341,7 +339,7 @@ class Cluster:
             self._client.restart_workers(workers, timeout=_PATIENCE)
         return report_late(task)
 
-    def _result(self, future: Any) -> MadeCertificate | Failed | _Lost:
+    def _receive(self, future: Any) -> MadeCertificate | Failed | _Lost:
         if future.status == "finished":
             result: MadeCertificate | Failed = future.result()
             return result

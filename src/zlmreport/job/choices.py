@@ -166,7 +166,7 @@ class EffectChoice:
         """The identifier of the installed effect: that of ``scale-joint-2`` is ``scale-joint``."""
         return self.identifier.removesuffix(f"-{self.number}") if self.number > 1 else self.identifier
 
-    def numbered(self, number: int) -> EffectChoice:
+    def renumber(self, number: int) -> EffectChoice:
         """Return the same effect for another time in a list."""
         return replace(self, identifier=number_effect(self.installed, number), number=number)
 
@@ -235,7 +235,7 @@ def _choose_effects(
         if choice:
             taken = [each.identifier for each in found]
             if effect.several and choice.identifier in taken:
-                choice = choice.numbered(find_next_number(choice.installed, found))
+                choice = choice.renumber(find_next_number(choice.installed, found))
             found.append(choice)
             yield choice
 

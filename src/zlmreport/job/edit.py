@@ -39,7 +39,7 @@ EFFECTS, CANDIDATES = ListKey("model", "effects"), ListKey("model", "candidates"
 
 
 @dataclass(frozen=True, slots=True)
-class NamedEffect:
+class WrittenEffect:
     """An effect as somebody writes it: its name, or the name with keys; and what that means."""
 
     node: Node  #: As it is written into a job.
@@ -68,7 +68,7 @@ class Edit:
         rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
 
 
-def read_named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
+def read_named_effect(text: str, registry: Installed, place: Place) -> WrittenEffect:
     """Return an effect that a person names: ``backlash``, or ``polynomial: {order: 5}`` as in a job.
 
     Raises `InputError` if there is no such effect, or it has no such key, with the nearest that there is.
@@ -79,7 +79,7 @@ def read_named_effect(text: str, registry: Installed, place: Place) -> NamedEffe
     choices = choose_effects_of(Items(place, (node,)), registry, problems, within=str(EFFECTS))
     if problems:
         raise InputError(Problem(place, each.message) for each in problems)
-    return NamedEffect(node, choices[0])
+    return WrittenEffect(node, choices[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +98,7 @@ def edit_effects(
     job: Job,
     registry: Installed,
     *,
-    add: Sequence[NamedEffect] = (),
+    add: Sequence[WrittenEffect] = (),
     remove: Collection[str] = (),
 ) -> Edit:
     """Return the change of a job that adds effects at the end of its model, and takes effects out.

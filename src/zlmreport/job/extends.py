@@ -132,10 +132,10 @@ def compose(path: Path, content: bytes | None = None, defaults: Defaults | None 
     other in a circle.
     """
     reader = _Reader({} if content is None else {os.path.realpath(path): content})
-    keys = reader.keys(path, (), None)
+    keys = reader.read_keys(path, (), None)
     if defaults is None:
         return Composition(keys, tuple(reader.files.values()))
-    together = merge(reader.defaults(defaults), keys)
+    together = merge(reader.read_defaults(defaults), keys)
     job, shared = defaults.as_files(path)
     return Composition(together, (job, *reader.files.values(), shared))
 
@@ -151,7 +151,7 @@ class _Reader:
     files: dict[str, SourceFile] = field(default_factory=dict)
     _known: dict[str, Keys] = field(default_factory=dict)
 
-    def keys(self, path: Path, chain: tuple[Path, ...], named_at: Place | None) -> Keys:
+    def read_keys(self, path: Path, chain: tuple[Path, ...], named_at: Place | None) -> Keys:
         """Return the keys of a file and of all that it extends.
 
         `chain` is the row of files by which it was come to, and `named_at` where the last of them names it.
@@ -165,17 +165,17 @@ class _Reader:
         if identity not in self._known:
             content = self.given[identity] if identity in self.given else demand(path, LARGEST, named_at)
             self.files[identity] = SourceFile.of(path, content)
-            self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
+            self._known[identity] = self._add_bases(parse(content, str(path)), (*chain, path))
         return self._known[identity]
 
-    def defaults(self, defaults: Defaults) -> Keys:
+    def read_defaults(self, defaults: Defaults) -> Keys:
         """Return default keys and all that they extend."""
-        return self._with_bases(defaults.keys, (defaults.path,)).without("extends")
+        return self._add_bases(defaults.keys, (defaults.path,)).without("extends")
 
-    def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
+    def _add_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
         bases = make_keys_of(own.place)
         for name in _list_extended(own):
-            base = self.keys(_find_base(name, chain[-1]), chain, name.place)
+            base = self.read_keys(_find_base(name, chain[-1]), chain, name.place)
             bases = merge(bases, base.without("extends"))
         return merge(bases, own)
 

@@ -82,11 +82,11 @@ class Extent(NamedTuple):
         ]
         return "·".join(parts) or "a number"
 
-    def combined(self, other: Extent, sign: int = 1) -> Extent:
+    def combine(self, other: Extent, sign: int = 1) -> Extent:
         """Return the extent of a product, or with −1 of a quotient."""
         return Extent(*(mine + sign * its for mine, its in zip(self, other, strict=True)))
 
-    def raised(self, power: Fraction) -> Extent:
+    def raise_to(self, power: Fraction) -> Extent:
         """Return the extent of a power."""
         return Extent(*(each * power for each in self))
 
@@ -256,7 +256,7 @@ def convert_formula_to_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree
 def _derive_extent(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
     """Return what the value of any other operation is made of."""
     if operation in {"*", "/"}:
-        return extents[0].combined(extents[1], 1 if operation == "*" else -1)
+        return extents[0].combine(extents[1], 1 if operation == "*" else -1)
     if operation in {"^", "sqrt"}:
         return _derive_raised(operation, trees, extents)
     if operation in _PURE and extents[0] != NUMBER:
@@ -266,7 +266,7 @@ def _derive_extent(operation: str, trees: tuple[Tree, ...], extents: list[Extent
 
 def _derive_raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
     if operation == "sqrt":
-        return extents[0].raised(Fraction(1, 2))
+        return extents[0].raise_to(Fraction(1, 2))
     if extents[1] != NUMBER:
         raise FormulaError(f"a power is a number, not {extents[1]}")
     if extents[0] == NUMBER:
@@ -274,7 +274,7 @@ def _derive_raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent
     power = _find_constant(trees[1])
     if power is None:
         raise FormulaError(f"a power of {extents[0]} must be written as a number")
-    return extents[0].raised(Fraction(power).limit_denominator(64))
+    return extents[0].raise_to(Fraction(power).limit_denominator(64))
 
 
 def _derive_alike(

@@ -191,7 +191,9 @@ class Formula:
                 raise FormulaError(f"{name} is the size of a wave, which has two parts; give neither")
         return found
 
-    def values(self, readings: Mapping[str, FloatArray | float], searched: Mapping[str, float]) -> FloatArray:
+    def compute_values(
+        self, readings: Mapping[str, FloatArray | float], searched: Mapping[str, float]
+    ) -> FloatArray:
         """Return what each linear parameter is multiplied with, SI, shape (N, len(linear)).
 
         `readings`: Of each variable and each column that stands in it, SI but temperatures in °C, shape (N,).
@@ -203,7 +205,7 @@ class Formula:
             found[:, place] = compute(tree, known)
         return found
 
-    def sensible(self, name: str) -> FloatArray | None:
+    def list_sensible(self, name: str) -> FloatArray | None:
         """Return the only values, SI, of a searched parameter that make sense; None where any does."""
         own = self.keys.parameters[name]
         values = np.array(own.values)
@@ -212,7 +214,7 @@ class Formula:
             values = np.arange(low, high + own.step / 2, own.step)
         return values / self.units[name].per_si if len(values) else None
 
-    def stated(self, name: str, of_axis: Mapping[str, float | None]) -> float | None:
+    def find_stated(self, name: str, of_axis: Mapping[str, float | None]) -> float | None:
         """Return the value, SI, of a parameter that follows from keys of the axis; None where it does not.
 
         `of_axis`: The keys, SI.
@@ -226,7 +228,7 @@ class Formula:
             return None
         return float(compute(tree, values))  # type: ignore[arg-type]  # none of them is None
 
-    def possible(self, name: str, rise: float | None) -> tuple[float, float]:
+    def bound(self, name: str, rise: float | None) -> tuple[float, float]:
         """Return between which values, SI, physics allows a parameter; infinite where it does not care.
 
         `rise`: The largest logged rise of a temperature, K; None where none was logged: what depends on it
@@ -245,7 +247,7 @@ class Formula:
         """
         free = [name for name in self.searched if name not in self.given]
         names = [*self.linear, *free]
-        tried = [self._slopes(free, *positions) for positions in _POSITIONS]
+        tried = [self._compute_slopes(free, *positions) for positions in _POSITIONS]
         finite = [each for each in tried if np.all(np.isfinite(each))]
         if not finite:
             raise FormulaError("it has no finite value at usual readings, or none within the ranges")
@@ -256,12 +258,12 @@ class Formula:
         if np.linalg.svd(together / lengths, compute_uv=False)[-1] < _DEPENDENT:
             raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
 
-    def _slopes(self, free: list[str], first: float, last: float) -> FloatArray:
+    def _compute_slopes(self, free: list[str], first: float, last: float) -> FloatArray:
         """Return what each parameter changes at readings between two positions, m or rad, shape (N, k)."""
         random = np.random.default_rng(_SEED)
-        theta = {name: self._middle(name) for name in self.searched}
-        places = np.append(random.uniform(first, last, _SAMPLES), self._around(theta, TRAVEL))
-        moments = np.append(random.uniform(1.0, 3600.0, _SAMPLES), self._around(theta, TIME))
+        theta = {name: self._find_middle(name) for name in self.searched}
+        places = np.append(random.uniform(first, last, _SAMPLES), self._place_around(theta, TRAVEL))
+        moments = np.append(random.uniform(1.0, 3600.0, _SAMPLES), self._place_around(theta, TIME))
         count = max(len(places), len(moments))
         readings: dict[str, Any] = {
             **_TRIED,
@@ -276,13 +278,13 @@ class Formula:
             "air_index": random.uniform(-1e-6, 1e-6, count),
             **{name: random.uniform(-1e-5, 1e-5, count) for name in TABLES},
         }
-        columns = self.values(readings, theta)
+        columns = self.compute_values(readings, theta)
         slopes = [columns]
         for name in free:
-            low, high = self._ends(name)
+            low, high = self._find_ends(name)
             # Where a step is moved by little, no reading passes it.
             for step in (_STEP * (abs(theta[name]) or 1.0), (high - low) / 4):
-                moved = self.values(readings, {**theta, name: theta[name] + step})
+                moved = self.compute_values(readings, {**theta, name: theta[name] + step})
                 with np.errstate(invalid="ignore"):  # far away, an exponential is infinite
                     slope = ((moved - columns) / step).sum(axis=1, keepdims=True)
                 if slope.any():
@@ -290,12 +292,12 @@ class Formula:
             slopes.append(slope)
         return np.concatenate(slopes, axis=1)
 
-    def _around(self, theta: Mapping[str, float], extent: Extent) -> FloatArray:
+    def _place_around(self, theta: Mapping[str, float], extent: Extent) -> FloatArray:
         """Return positions, or times, close to those that stand in it: a narrow form shows nowhere else."""
         own = [value for name, value in theta.items() if self.units[name].extent == extent]
         return np.array([place + share * width for place in own for width in own for share in _NEAR])
 
-    def _ends(self, name: str) -> tuple[float, float]:
+    def _find_ends(self, name: str) -> tuple[float, float]:
         """Return the ends of a range, SI; of one that is open, what is likely there."""
         own, per_si = self.keys.parameters[name], self.units[name].per_si
         low, high = own.range or ((min(own.values), max(own.values)) if own.values else (None, None))
@@ -305,10 +307,10 @@ class Formula:
             max(likely[1], 2 * low / per_si if low else 0.0) if high is None else high / per_si,
         )
 
-    def _middle(self, name: str) -> float:
+    def _find_middle(self, name: str) -> float:
         if name in self.given:
             return self.given[name]
-        low, high = self._ends(name)
+        low, high = self._find_ends(name)
         return 0.5 * low + 0.5 * high or 0.25 * low + 0.75 * high
 
 
@@ -362,7 +364,7 @@ def _derive_units(
         "D": UnitOf(NUMBER),
         "t": UnitOf(TIME),
         "run": UnitOf(NUMBER),
-        "v": UnitOf(TRAVEL.combined(TIME, -1), 60.0 * per_si),
+        "v": UnitOf(TRAVEL.combine(TIME, -1), 60.0 * per_si),
         "air_index": UnitOf(NUMBER),
         "angular_error": UnitOf(NUMBER),
     }
@@ -377,7 +379,7 @@ def _derive_units(
     for name in names:
         column = find_column_of(name)
         own = TEMPERATURE if (column or name).endswith("temperature") else NUMBER
-        found.setdefault(name, UnitOf(own.combined(TIME, -1) if column else own))
+        found.setdefault(name, UnitOf(own.combine(TIME, -1) if column else own))
     return found
 
 

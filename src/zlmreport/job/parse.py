@@ -145,16 +145,16 @@ def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
         with contextlib.suppress(
             yaml.YAMLError, ValueError, OverflowError, InputError
         ):  # which are told below
-            root = reader.document()
+            root = reader.read_document()
             if isinstance(root, Keys) and not reader.problems:
                 return Keys(Place(file, 1, 1), root.entries)
     reader = _Reader(yaml.SafeLoader(text), file)
     try:
-        root = reader.document()
+        root = reader.read_document()
     except yaml.MarkedYAMLError as error:
         raise InputError([*reader.problems, make_complaint(error, file)]) from error
     except (ValueError, OverflowError) as error:  # of an escape or a version beyond all bounds
-        raise InputError([*reader.problems, reader.stuck()]) from error
+        raise InputError([*reader.problems, reader.find_stuck()]) from error
     if not isinstance(root, Keys):
         reader.problems.append(Problem(Place(file, 1, 1), _say_no_keys(root)))
     if reader.problems or not isinstance(root, Keys):
@@ -176,34 +176,34 @@ class _Reader:
         self.problems: list[Problem] = []
         self._parser = parser
         #: Returns the next event; which kinds may come, the parser's grammar says, and no type.
-        self._next: Callable[[], Any] = parser.get_event
+        self._take_next: Callable[[], Any] = parser.get_event
         self._file = file
         self._values = 0
         self._anchors: dict[str, tuple[Node, int] | None] = {}
 
-    def document(self) -> Node | None:
+    def read_document(self) -> Node | None:
         """Return the document's value; None if there is no document."""
         root = None
         documents = 0
         while self._parser.check_event():
-            event = self._next()
+            event = self._take_next()
             if isinstance(event, yaml.DocumentStartEvent):
                 documents += 1
                 if documents > 1:
                     self._refuse(event, "a second document begins here; a job is one: remove the line ---")
                     break
-                root = self._node(self._next(), 0)
+                root = self._read_node(self._take_next(), 0)
         return root
 
-    def stuck(self) -> Problem:
+    def find_stuck(self) -> Problem:
         """Return the problem of a character that the parser cannot get past."""
         return Problem(place(self._parser.get_mark(), self._file), NOT_YAML)
 
-    def _node(self, event: Any, depth: int) -> Node:
+    def _read_node(self, event: Any, depth: int) -> Node:
         if isinstance(event, yaml.AliasEvent):
-            return self._aliased(event)
+            return self._find_aliased(event)
         if depth > DEEPEST:
-            raise self._error(event, f"is nested deeper than {DEEPEST} levels")
+            raise self._make_error(event, f"is nested deeper than {DEEPEST} levels")
         self._count(event, 1)
         if event.tag is not None:
             self._refuse(event, f"a job uses no tags (here {event.tag}); put a text in quotes instead")
@@ -212,32 +212,32 @@ class _Reader:
             self._anchors[event.anchor] = None
         node: Node
         if isinstance(event, yaml.MappingStartEvent):
-            node = self._keys(event, depth)
+            node = self._read_keys(event, depth)
         elif isinstance(event, yaml.SequenceStartEvent):
-            node = self._items(event, depth)
+            node = self._read_items(event, depth)
         else:
-            node = self._scalar(event)
+            node = self._read_scalar(event)
         if event.anchor:
             self._anchors[event.anchor] = (node, self._values - before + 1)
         return node
 
-    def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
+    def _read_scalar(self, event: yaml.ScalarEvent) -> Scalar:
         for unseen in _find_hidden(event.value):
             self._refuse(event, f"{describe_character(unseen[0])} in a text; remove it")
             break
-        return Scalar(self._place(event), event.value, plain=not event.style)
+        return Scalar(self._find_place(event), event.value, plain=not event.style)
 
-    def _items(self, start: yaml.Event, depth: int) -> Items:
+    def _read_items(self, start: yaml.Event, depth: int) -> Items:
         items = []
-        while not isinstance(event := self._next(), yaml.SequenceEndEvent):
-            items.append(self._node(event, depth + 1))
-        return Items(self._place(start), tuple(items))
+        while not isinstance(event := self._take_next(), yaml.SequenceEndEvent):
+            items.append(self._read_node(event, depth + 1))
+        return Items(self._find_place(start), tuple(items))
 
-    def _keys(self, start: yaml.Event, depth: int) -> Keys:
+    def _read_keys(self, start: yaml.Event, depth: int) -> Keys:
         entries: dict[str, KeyEntry] = {}
-        while not isinstance(event := self._next(), yaml.MappingEndEvent):
-            key = self._node(event, depth + 1)
-            value = self._node(self._next(), depth + 1)
+        while not isinstance(event := self._take_next(), yaml.MappingEndEvent):
+            key = self._read_node(event, depth + 1)
+            value = self._read_node(self._take_next(), depth + 1)
             if not isinstance(key, Scalar):
                 self._refuse(event, "a key is a plain word, not a group or a list")
             elif key.text == "<<":
@@ -249,16 +249,16 @@ class _Reader:
                 if isinstance(value, Scalar) and value.plain and not value.text:
                     value = Scalar(key.place, "")
                 entries[key.text] = KeyEntry(key.text, key.place, value)
-        return Keys(self._place(start), MappingProxyType(entries))
+        return Keys(self._find_place(start), MappingProxyType(entries))
 
-    def _aliased(self, event: yaml.AliasEvent) -> Node:
+    def _find_aliased(self, event: yaml.AliasEvent) -> Node:
         if event.anchor not in self._anchors:
-            raise self._error(
+            raise self._make_error(
                 event, f"*{event.anchor} names nothing that stands above it; put a text in quotes"
             )
         anchored = self._anchors[event.anchor]
         if anchored is None:
-            raise self._error(event, f"*{event.anchor} stands inside the value that it names")
+            raise self._make_error(event, f"*{event.anchor} stands inside the value that it names")
         node, size = anchored
         self._count(event, size)
         return node
@@ -266,17 +266,17 @@ class _Reader:
     def _count(self, event: yaml.Event, values: int) -> None:
         self._values += values
         if self._values > MOST_VALUES:
-            raise self._error(
+            raise self._make_error(
                 event, f"the file comes to more than {MOST_VALUES} values here; a job has about 50"
             )
 
     def _refuse(self, event: yaml.Event, message: str) -> None:
-        self.problems.append(Problem(self._place(event), message))
+        self.problems.append(Problem(self._find_place(event), message))
 
-    def _error(self, event: yaml.Event, message: str) -> InputError:
-        return InputError([*self.problems, Problem(self._place(event), message)])
+    def _make_error(self, event: yaml.Event, message: str) -> InputError:
+        return InputError([*self.problems, Problem(self._find_place(event), message)])
 
-    def _place(self, event: yaml.Event) -> Place:
+    def _find_place(self, event: yaml.Event) -> Place:
         return place(event.start_mark, self._file)
 
 

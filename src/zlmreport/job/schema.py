@@ -89,7 +89,7 @@ def make_job_schema(registry: Installed) -> Schema:
         definitions.update(own["$defs"])
         schema["properties"].update(own["properties"])
     for name, takes in _find_listed_programs(registry).items():
-        programs = registry.programs_for(takes)
+        programs = registry.list_programs_for(takes)
         definitions[name] = {
             "description": definitions[name]["description"],
             "anyOf": [

@@ -66,7 +66,7 @@ class CourseKeys(JobPart):
     logged: bool = Field(default=True, description="Whether it is logged; it acts in any case.")
 
 
-class NoiseKeys(JobPart):
+class SimulatedNoiseKeys(JobPart):
     """Everything random about the readings: standard deviations, micrometres (arc seconds)."""
 
     reading: NotNegative = Field(0.0, description="Of a single reading.", examples=[0.5])
@@ -124,7 +124,9 @@ class SimulationKeys(JobPart):
         description="Effects with the values of their parameters, in users' units.",
         examples=[[{"backlash": {"lost_motion": 4}}]],
     )
-    noise: NoiseKeys = Field(default_factory=NoiseKeys, description="Everything random about the readings.")
+    noise: SimulatedNoiseKeys = Field(
+        default_factory=SimulatedNoiseKeys, description="Everything random about the readings."
+    )
     conditions: dict[str, CourseKeys] = Field(
         {},
         description="By the names of measurement files: axis_temperature, air_pressure …",

@@ -57,16 +57,16 @@ class Enclosure:
     files: Mapping[str, Path]
     nowhere: Path  #: A folder that is not there: where every other reference leads.
 
-    def path_of(self, file: Path) -> str | None:
+    def find_path(self, file: Path) -> str | None:
         """Return the path of one of the files from the job's folder."""
         return next((path for path, where in self.files.items() if where == file), None)
 
-    def path_named(self, reference: str, naming_file: Path) -> Path:
+    def find_path_named(self, reference: str, naming_file: Path) -> Path:
         """Return the file that a reference means; one that leads past the folder's files leads nowhere.
 
         A reference to a file whose path is not known is answered by the file's name, if only one has it.
         """
-        folder = posixpath.dirname(self.path_of(naming_file) or "")
+        folder = posixpath.dirname(self.find_path(naming_file) or "")
         found = self.files.get(posixpath.normpath(posixpath.join(folder, reference)))
         if found:
             return found
@@ -81,7 +81,7 @@ def resolve_path_named(reference: str, naming_file: Path) -> Path:
     Raises `ValueError` if it lies outside of the folder to which the program is confined.
     """
     enclosure = _ENCLOSURE.get()
-    path = enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
+    path = enclosure.find_path_named(reference, naming_file) if enclosure else naming_file.parent / reference
     reason = "\0" not in reference and say_outside(path)
     if reason:
         raise ValueError(f"{quoted(reference)} must not be used: {reason}")
@@ -95,7 +95,7 @@ def find_path_from_job(file: Path, job: Path, from_root: str | None = None) -> s
     """
     enclosure = _ENCLOSURE.get()
     if enclosure:
-        return enclosure.path_of(file)
+        return enclosure.find_path(file)
     if from_root:
         return posixpath.normpath(from_root)
     if not file.is_relative_to(job.parent):

@@ -93,7 +93,7 @@ class Words:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class PhraseRow:
     """Phrases one behind the other, parted by commas."""
 
     phrases: tuple[Words, ...]

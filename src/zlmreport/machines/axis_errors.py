@@ -28,7 +28,7 @@ from zlmreport.machines.curve import (
     make_measured_curve,
     with_scale_error,
 )
-from zlmreport.machines.keys import LineKeys, StatedKeys
+from zlmreport.machines.keys import ErrorLineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import find_unit_of
 from zlmreport.measurement.arrays import FloatArray
@@ -51,7 +51,7 @@ _BESIDE = {"U": "X", "V": "Y", "W": "Z"}
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
-def find_line_of(at: LineKeys | None) -> ErrorLine:
+def find_line_of(at: ErrorLineKeys | None) -> ErrorLine:
     """Return where an error was measured."""
     if at is None:
         return ErrorLine({})
@@ -80,7 +80,7 @@ def find_error_of(job: Job) -> str:
 def find_line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
     at = job.keys.measurement.at
-    return find_line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
+    return find_line_of(ErrorLineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
 
 
 def _say_meant(name: str) -> str:
@@ -244,7 +244,7 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
             place, f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes"
         )
     unit = find_unit_of(name)
-    line = find_line_of(LineKeys.model_validate(found.measurements.at or {}))
+    line = find_line_of(ErrorLineKeys.model_validate(found.measurements.at or {}))
     own = next((each for of in found.evaluations for each in of.parameters if each.symbol == name), None)
     if name in SQUARENESS:
         if own is None or own.expanded_uncertainty is None:
@@ -311,12 +311,16 @@ def _read_stated(
     u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
     source = stated.source or "stated"
     if name in SQUARENESS:
-        number = _number(value)
+        number = _read_number(value)
         if number is None:
             problems.append(Problem(node.place, f"{name}: a number is expected, arc seconds, such as 2.5"))
             return None
         return AxisErrorCurve(name, np.zeros(1), np.array([unit.to_si(number)]), np.eye(1) * u, line, source)
-    pairs = [(_number(at), _number(each)) for at, each in value.items()] if isinstance(value, Mapping) else []
+    pairs = (
+        [(_read_number(at), _read_number(each)) for at, each in value.items()]
+        if isinstance(value, Mapping)
+        else []
+    )
     places = [at for at, _ in pairs if at is not None]
     values = [each for _, each in pairs if each is not None]
     if (
@@ -338,7 +342,7 @@ def _read_stated(
     return AxisErrorCurve(name, np.array(places) / 1e3, unit.to_si(np.array(values)), own, line, source)
 
 
-def _number(value: Any) -> float | None:
+def _read_number(value: Any) -> float | None:
     """Return a number, or what reads as one."""
     try:
         number = float(value.text if isinstance(value, Scalar) else value)

@@ -122,7 +122,7 @@ def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[Beg
         name for name in (plain, *(f"{plain}-{number}" for number in range(2, 1000))) if name not in taken
     )
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
-    source = list(looked.block(name, indent="  "))
+    source = list(looked.write_block(name, indent="  "))
     head = [
         f"# Of {file.name}; what is marked '{FILL_IN[:-1]}' only who measured can say.",
         "schema: zlmreport/job/1",
@@ -249,7 +249,7 @@ def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[Begun
 def _write_source(looked: Looked, file: Path, directory: Path) -> str:
     """Return the source of a job in a folder on a line."""
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
-    _, *keys = looked.block(name)
+    _, *keys = looked.write_block(name)
     return f"{{{', '.join(each.strip() for each in keys)}}}"
 
 

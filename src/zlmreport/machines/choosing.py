@@ -7,7 +7,13 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.forms import CircleForm, find_best_of_kinds, form_at, list_forms_of, make_whole_form
+from zlmreport.machines.forms import (
+    CircleForm,
+    find_best_of_kinds,
+    list_forms_of,
+    make_form_at,
+    make_whole_form,
+)
 from zlmreport.machines.machine import Machine
 from zlmreport.machines.study import Chosen, CircleStudy, study_bare
 from zlmreport.measurement.arrays import FloatArray
@@ -47,12 +53,12 @@ def add_effect(study: CircleStudy, effect: CircleEffect, form: CircleForm | None
     chosen = form or find_best_form(study, effect)
     if not effect.is_single:
         chosen = make_whole_form(effect, study.design, chosen.searched)
-    return study.having(Chosen(effect, chosen, _compute_tangents(study, effect, chosen)))
+    return study.with_effect(Chosen(effect, chosen, _compute_tangents(study, effect, chosen)))
 
 
 def add_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleStudy:
     """Return a study with one effect more, in just this form."""
-    return study.having(Chosen(effect, form, _compute_tangents(study, effect, form)))
+    return study.with_effect(Chosen(effect, form, _compute_tangents(study, effect, form)))
 
 
 class _Fit:
@@ -60,14 +66,14 @@ class _Fit:
 
     def __init__(self, study: CircleStudy) -> None:
         self._whitened = study.whitened
-        read = self._whitened.of(study.deviation[:, np.newaxis])
+        read = self._whitened.whiten(study.deviation[:, np.newaxis])
         self._left = read - self._whitened.taken @ (self._whitened.taken.T @ read)
         self._variance = study.noise.sigma**2
 
-    def gained(self, form: CircleForm) -> float:
+    def compute_gain(self, form: CircleForm) -> float:
         """Return 2·ln of the likelihood ratio of a form, less the price of its terms."""
-        columns = self._whitened.of(form.columns)
-        matrix = self._whitened.product(columns, columns)
+        columns = self._whitened.whiten(form.columns)
+        matrix = self._whitened.multiply(columns, columns)
         products = (columns.T @ self._left)[:, 0]
         ratio = float(products @ np.linalg.pinv(matrix, rcond=1e-10) @ products) / self._variance
         return ratio - _PRICE_OF_TERM * len(form.terms)
@@ -77,9 +83,9 @@ def find_best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
     """Return the form of an effect that fits best, its searched values refined."""
     fit = _Fit(study)
     forms = [form for form in list_forms_of(effect, study.design) if form.terms]
-    worth = np.array([fit.gained(form) for form in forms])
+    worth = np.array([fit.compute_gain(form) for form in forms])
     kinds = [refine_form(study, effect, form) for form in find_best_of_kinds(effect, forms, worth)]
-    return max(kinds, key=fit.gained)
+    return max(kinds, key=fit.compute_gain)
 
 
 def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:
@@ -88,7 +94,7 @@ def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> C
     best = form.searched
 
     def of(searched: Searched) -> CircleForm:
-        return form_at(effect, study.design, searched, form)
+        return make_form_at(effect, study.design, searched, form)
 
     values_of = _list_refined_values(study, effect)
     for place in [*values_of] * (_SWEEPS if len(values_of) > 1 else 1):
@@ -97,7 +103,7 @@ def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> C
         low, high = values[max(nearest - 1, 0)], values[min(nearest + 1, len(values) - 1)]
         for _ in range(_ROUNDS):
             tried = [_move_value(best, place, value) for value in np.linspace(low, high, _VALUES).tolist()]
-            best = max(tried, key=lambda searched: fit.gained(of(searched)))
+            best = max(tried, key=lambda searched: fit.compute_gain(of(searched)))
             step = (high - low) / (_VALUES - 1)
             low, high = max(best[place] - step, low), min(best[place] + step, high)
     return of(best)
@@ -105,7 +111,7 @@ def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> C
 
 def measure_sharpness(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> float:
     """Return ln of the share of a step of the grid to which refined searched values are known; 0 at most."""
-    after = add_form(study, effect, form).estimates_of(effect.identifier)
+    after = add_form(study, effect, form).list_estimates_of(effect.identifier)
     found = {each.name: each.expanded_uncertainty for each in after if each.term is None}
     total = 0.0
     for place, values in _list_refined_values(study, effect).items():
@@ -145,7 +151,7 @@ def _compute_tangents(
     for place in places:
         step = _STEP * abs(form.searched[place])
         ends = [
-            form_at(
+            make_form_at(
                 effect,
                 study.design,
                 _move_value(form.searched, place, form.searched[place] + way * step),

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.design import join_side_by_side
 from zlmreport.machines.machine import Machine, TestPrediction, predict
@@ -40,7 +40,7 @@ class StandardNumbers:
 
     standard: str
     designation: str
-    measured: tuple[Parameter, ...]
+    measured: tuple[EvaluatedParameter, ...]
     predicted: Mapping[str, float]  #: By symbol, m.
     left: Mapping[str, float]
 
@@ -102,7 +102,7 @@ def _compare_circle(
     made: Sequence[Mapping[str, FloatArray]],
 ) -> ComparedTest:
     circle, effects = measured.circle, made[index]
-    prediction = predict(machine, circle.course())
+    prediction = predict(machine, circle.make_course())
     left = circle.deviation - prediction.values - sum(effects.values(), np.zeros(len(circle.angle)))
     shown = centre(circle, left)
     standard = np.hypot(prediction.standard_uncertainty, estimate_scatter_within(circle, shown))
@@ -115,7 +115,7 @@ def _compare_circle(
             {each.quantity.symbol: each.value for each in rest.parameters},
         )
         for own, predicted, rest in zip(
-            *(measured.evaluations(each, registry) for each in (circle.deviation, prediction.values, left)),
+            *(measured.evaluate(each, registry) for each in (circle.deviation, prediction.values, left)),
             strict=True,
         )
     )
@@ -141,7 +141,7 @@ def _compute_made_by_effects(
         return found
     design = join_side_by_side(circles)
     for each in study.effects:
-        values = {one.name: one.value for one in study.estimates_of(each.effect.identifier)}
+        values = {one.name: one.value for one in study.list_estimates_of(each.effect.identifier)}
         fitted = {term.name for term in each.form.terms}
         terms = each.effect.terms(design, each.form.searched)
         curve = sum(

@@ -153,9 +153,9 @@ def contest(
     random = np.random.default_rng(seed)
     drawn = random.choice(len(noise.shapes), TRIALS, p=noise.weights)
     shapes = [noise.shapes[index] for index in drawn.tolist()]
-    simulated = model.noise.simulated(shapes, model.known, random)
+    simulated = model.noise.simulate(shapes, model.known, random)
     together = np.column_stack([deviation / noise.sigma, simulated])
-    arenas = [_Arena(model.under(each), together) for each in noise.shapes]
+    arenas = [_Arena(model.whiten(each), together) for each in noise.shapes]
     null = np.array([arena.null for arena in arenas])
     weight = _compute_shares(null)
     by_effect, best = [], []
@@ -164,12 +164,13 @@ def contest(
         place = {id(term): index for index, term in enumerate(terms)}
         subsets = [[place[id(term)] for term in form.terms] for form in forms]
         columns = np.column_stack([term.column for term in terms])
-        found = np.array([arena.evidence(columns, subsets) for arena in arenas])
+        found = np.array([arena.compute_evidence(columns, subsets) for arena in arenas])
         by_effect.append(_average(found, weight))
         weighed = _average_over_noises(found, weight)[:, 0]
         best.append((effect, find_best_of_kinds(effect, forms, weighed)))
     by_shape = [
-        _average(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
+        _average(np.array([[arena.compute_evidence_of_curve(each.columns)] for arena in arenas]), weight)
+        for each in nameless
     ]
     named = 2.0 * np.array(by_effect).reshape(len(best), -1)
     curves = 2.0 * np.array(by_shape).reshape(len(nameless), -1)
@@ -205,7 +206,7 @@ def contest(
 def _weigh_refined(arenas: Sequence[_Arena], weight: FloatArray, form: CircleForm, prior: float) -> float:
     """Return the evidence of one form alone; `prior`: ln of the probability that it was given before."""
     whole = [list(range(len(form.terms)))]
-    found = np.array([arena.evidence(form.columns, whole) for arena in arenas])
+    found = np.array([arena.compute_evidence(form.columns, whole) for arena in arenas])
     return float(2.0 * (_average_over_noises(found, weight)[0, 0] + prior))
 
 
@@ -214,15 +215,15 @@ class _Arena:
 
     def __init__(self, whitened: Whitened, together: FloatArray) -> None:
         self._whitened = whitened
-        own = whitened.of(together)
+        own = whitened.whiten(together)
         self._left = own - whitened.taken @ (whitened.taken.T @ own)
         self._squares = bound_square(np.sum(own * self._left, axis=0), np.sum(own**2, axis=0))
         self._freedom = whitened.freedom
         self.null = -0.5 * whitened.log_determinant - 0.5 * self._freedom * np.log(self._squares)
 
-    def evidence(self, columns: FloatArray, subsets: Sequence[Sequence[int]]) -> FloatArray:
+    def compute_evidence(self, columns: FloatArray, subsets: Sequence[Sequence[int]]) -> FloatArray:
         """Return ln of the Bayes factor of subsets of columns, their size averaged over: (subsets, B)."""
-        own = self._whitened.of(columns / np.sqrt(np.mean(columns**2, axis=0)))
+        own = self._whitened.whiten(columns / np.sqrt(np.mean(columns**2, axis=0)))
         inside, products = self._whitened.taken.T @ own, own.T @ self._left
         lengths, gram = np.sum(own**2, axis=0), own.T @ own - inside.T @ inside
         found = np.zeros((len(subsets), len(self._squares)))
@@ -247,9 +248,9 @@ class _Arena:
         prior = -0.5 * number * np.log1p(worth)
         return _compute_log_mean(prior[..., np.newaxis] - 0.5 * self._freedom * np.log(inside))
 
-    def curve(self, columns: FloatArray) -> FloatArray:
+    def compute_evidence_of_curve(self, columns: FloatArray) -> FloatArray:
         """Return the same of a random curve: its coefficients are averaged over, whatever their number."""
-        own = self._whitened.of(columns)
+        own = self._whitened.whiten(columns)
         strengths, products = _make_independent(own, self._whitened.taken.T @ own, own.T @ self._left)
         logs = []
         for size in SIZES:

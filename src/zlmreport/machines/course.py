@@ -19,7 +19,7 @@ from zlmreport.model.effects.circle_design import AXES
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class ToolCourse:
     """Where the tool went."""
 
     position: FloatArray  #: (N, 3): x, y, z of the machine, m.
@@ -65,7 +65,7 @@ class CircularTest:
         first, second = self.nominal.axes
         return AXES.index(first), AXES.index(second)
 
-    def course(self) -> Course:
+    def make_course(self) -> ToolCourse:
         """Return where the tool went."""
         first, second = self.axes
         cosine, sine = np.cos(self.angle), np.sin(self.angle)
@@ -74,9 +74,9 @@ class CircularTest:
         motion = np.zeros_like(sensing)
         motion[:, first], motion[:, second] = -self.sense * np.sign(sine), self.sense * np.sign(cosine)
         position = np.asarray(self.nominal.centre) + self.nominal.radius * sensing
-        return Course(position, sensing, motion, self.tool)
+        return ToolCourse(position, sensing, motion, self.tool)
 
-    def turns(self) -> Sequence[IntArray]:
+    def list_turns(self) -> Sequence[IntArray]:
         """Return the indices of the readings of each turn, counter-clockwise ones first, in their order."""
         return [
             np.flatnonzero((self.sense == sense) & (self.run == number))
@@ -84,7 +84,7 @@ class CircularTest:
             for number in np.unique(self.run[self.sense == sense])
         ]
 
-    def of(self, kept: BoolArray | IntArray) -> CircularTest:
+    def keep(self, kept: BoolArray | IntArray) -> CircularTest:
         """Return the circle with some of its readings."""
         own = {name: getattr(self, name)[kept] for name in ("angle", "sense", "run", "deviation", "time")}
         return replace(self, **own)
@@ -95,7 +95,7 @@ class StraightTest:
     """A test along a line or a diagonal: what a scale, a laser or a step gauge read there."""
 
     name: str
-    course: Course
+    course: ToolCourse
     at: FloatArray  #: (N,): Place along the line, m.
     deviation: FloatArray  #: (N,): Mean of the repeats, m.
     standard_uncertainty: FloatArray  #: (N,): Of these means, from their scatter, m.

@@ -19,7 +19,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import compensate_machine
-from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
+from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
@@ -172,13 +172,13 @@ def _compute_means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatA
 
 def _compute_taken(machine: Machine, corrected: Machine, circle: CircularTest) -> FloatArray:
     """Return what tables take away of a circle, (N,), m."""
-    course = circle.course()
+    course = circle.make_course()
     return np.asarray(predict(machine, course).values - predict(corrected, course).values)
 
 
 def _fit_part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> tuple[float, float]:
     """Return what part of the tables went, and its U; U is infinite where the circles do not see them."""
-    design = thinned(changes)
+    design = make_thinned_design(changes)
     column = design.thin(np.concatenate(taken))
     went = design.thin(np.concatenate([each.deviation for each in changes]))
     beside = np.column_stack(list(_list_free(design)))
@@ -187,7 +187,7 @@ def _fit_part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> t
         return 0.0, float("inf")
     model = NoiseModel(CircleNoise(design), np.column_stack([column, beside]), np.zeros((design.count, 0)))
     noise = find_noise(model, went)
-    solved = [model.solved(shape, went) for shape in noise.shapes]
+    solved = [model.solve(shape, went) for shape in noise.shapes]
     values = np.array([float(each[0]) for each, _ in solved])
     variances = noise.sigma**2 * np.array([float(each[0, 0]) for _, each in solved])
     part = float(noise.weights @ values)

@@ -43,7 +43,7 @@ class CrossWanted:
     place: Place
     is_command: bool
 
-    def option(self, name: str, value: str) -> str:
+    def write_option(self, name: str, value: str) -> str:
         """Return how a value is stated."""
         return f"--{name} {value}" if self.is_command else f'{name}="{value}"'
 
@@ -125,7 +125,7 @@ def choose_cross_control(registry: Registry, wanted: CrossWanted) -> Any:
     if not wanted.controller:
         raise InputError.at(
             wanted.place,
-            f"which control? State {wanted.option('controller', 'NAME')}: {', '.join(known)}",
+            f"which control? State {wanted.write_option('controller', 'NAME')}: {', '.join(known)}",
         )
     found = registry.controller(wanted.controller, wanted.place)
     if found.identifier not in known:
@@ -143,7 +143,7 @@ def _sign(control: Any, wanted: CrossWanted) -> int:
         if wanted.moves:
             raise InputError.at(wanted.place, f"the sign of {control.identifier} is known; leave moves out")
         return 1
-    plus, minus = (wanted.option("moves", each) for each in _MOVES)
+    plus, minus = (wanted.write_option("moves", each) for each in _MOVES)
     if not wanted.moves:
         trial = "--trial" if wanted.is_command else "zlmreport machine compensate --trial"
         raise InputError.at(

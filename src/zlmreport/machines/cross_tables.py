@@ -57,7 +57,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
         if worth:
             taken += [each.name for each in worth]
             stretch = _find_stretch(machine, moving, worth, place)
-            tables.append(_make_table((moving, off), worth, _rows(stretch, step)))
+            tables.append(_make_table((moving, off), worth, _make_rows(stretch, step)))
     if not tables:
         raise InputError.at(
             place,
@@ -82,7 +82,7 @@ def _is_acting_across(error: str, moving: str, off: str) -> bool:
     return error == f"E{off}{moving}"
 
 
-def _rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray:
+def _make_rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray:
     """Return rows over a stretch, equally far apart: as stated, or at measured places and between them."""
     low, high, spacing = stretch
     count = max(round((high - low) / (step or spacing)), 1)
@@ -99,7 +99,7 @@ def _make_table(axes: tuple[str, str], curves: Sequence[AxisErrorCurve], positio
             slope = find_square_slope(each.name)[2] * float(each.values[0])
             values = values + slope * positions
         else:
-            values = values + each.reading(positions, np.zeros(len(positions))) @ each.values
+            values = values + each.weigh_nodes(positions, np.zeros(len(positions))) @ each.values
     return CrossTable(*axes, positions, values - values[0], slope)
 
 
@@ -127,7 +127,7 @@ def compensate_machine(machine: Machine, tables: Iterable[CrossTable]) -> Machin
         own = curves.get(name)
         nodes = np.union1d(own.nodes if own else table.positions, table.positions)
         nothing = np.zeros(len(nodes))
-        held = own.reading(nodes, nothing) if own else np.zeros((len(nodes), 0))
+        held = own.weigh_nodes(nodes, nothing) if own else np.zeros((len(nodes), 0))
         values, factor = -table.at(nodes), np.zeros((len(nodes), 0))
         if own:
             values, factor = values + held @ own.values, held @ own.factor
@@ -181,9 +181,9 @@ def _forecast_circle(
     machine: Machine, after: Machine, measured: MeasuredCircle, registry: Registry
 ) -> CircleForecast:
     circle = measured.circle
-    taken = predict(machine, circle.course()).values - predict(after, circle.course()).values
+    taken = predict(machine, circle.make_course()).values - predict(after, circle.make_course()).values
     sides: list[FloatArray] = [circle.deviation, circle.deviation - taken]
-    before, now = (_collect_numbers(measured.evaluations(each, registry)) for each in sides)
+    before, now = (_collect_numbers(measured.evaluate(each, registry)) for each in sides)
     sizes = [compute_root_mean_square(centre(circle, each)) for each in sides]
     return CircleForecast(
         circle.name, sizes[0], sizes[1], tuple((name, before[name], now[name]) for name in before)

@@ -1,9 +1,9 @@
 """A component error over its axis, as it was measured, with its covariance.
 
 A curve is known at its nodes and linear between them; where both directions of travel were measured, each
-has its own. Nothing is extrapolated: beyond the nodes the end value stands and `outside` says so. All that is
-read from a curve is a linear function of its nodes, so that the covariance of these is carried through
-exactly.
+has its own. Nothing is extrapolated: beyond the nodes the end value stands and `find_outside` says so. All
+that is read from a curve is a linear function of its nodes, so that the covariance of these is carried
+through exactly.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ class AxisErrorCurve:
         """The largest expanded uncertainty of a value, k = 2, m or rad."""
         return float(2.0 * np.sqrt(np.sum(self.factor**2, axis=1)).max(initial=0.0))
 
-    def reading(self, position: FloatArray, direction: FloatArray) -> FloatArray:
+    def weigh_nodes(self, position: FloatArray, direction: FloatArray) -> FloatArray:
         """Return how the value at some positions is made of those of the nodes, shape (N, len(values)).
 
         `direction`, (N,): of travel, +1 or −1; 0 takes the mean of both.
@@ -101,7 +101,7 @@ class AxisErrorCurve:
         forward = (1.0 + np.sign(direction))[:, np.newaxis] / 2.0
         return np.concatenate([forward * plain, (1.0 - forward) * plain], axis=1)
 
-    def outside(self, position: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+    def find_outside(self, position: FloatArray) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
         """Return which positions lie beyond what was measured, shape (N,)."""
         if self.is_single:
             return np.zeros(len(position), dtype=np.bool_)

@@ -49,10 +49,10 @@ def clear_of_reversals(circle: CircularTest) -> CircularTest:
     """
     beside = np.abs((circle.angle + np.pi / 4) % (np.pi / 2) - np.pi / 4)
     kept = beside > _BESIDE_REVERSAL
-    return circle.of(kept) if np.count_nonzero(kept) >= 0.8 * len(kept) else circle
+    return circle.keep(kept) if np.count_nonzero(kept) >= 0.8 * len(kept) else circle
 
 
-def thinned(circles: Sequence[CircularTest]) -> ThinnedDesign:
+def make_thinned_design(circles: Sequence[CircularTest]) -> ThinnedDesign:
     """Return the design of circles with fewer readings: means of neighbours in time."""
     fine = join_side_by_side(circles)
     turns = len(fine.turns)
@@ -79,7 +79,7 @@ def join_side_by_side(circles: Sequence[CircularTest]) -> CircleDesign:
     for index, circle in enumerate(circles):
         count = len(circle.angle)
         turn, travelled, angle = np.zeros(count), np.zeros(count), np.zeros(count)
-        for own in sorted(circle.turns(), key=lambda each: int(each[0])):
+        for own in sorted(circle.list_turns(), key=lambda each: int(each[0])):
             unwrapped = np.unwrap(circle.angle[own])
             turn[own], travelled[own] = number, np.abs(unwrapped - unwrapped[0])
             angle[own] = unwrapped

@@ -64,7 +64,7 @@ class CircleRemainder:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class EffectStep:
     """An effect that came into the model."""
 
     effect: str
@@ -83,7 +83,7 @@ class MachineDiagnosis:
     p_value: PValue
     candidates: tuple[CircleCandidate, ...]
     found: tuple[str, ...]  #: What belongs in, first the one to add first; nothing that has an equal.
-    steps: tuple[Step, ...]
+    steps: tuple[EffectStep, ...]
     remainder: CircleRemainder | None
     not_testable: tuple[str, ...]
     catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
@@ -142,7 +142,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
         range(len(stages)), key=lambda index: (round(stages[index].worth - NAMED * (index > 0), 9), -index)
     )
     found: list[str] = []
-    steps: list[Step] = []
+    steps: list[EffectStep] = []
     is_tied = False
     for before, after in pairwise(stages[: chosen + 1]):
         leader = before.leader
@@ -151,7 +151,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
             break
         found.append(leader.effect.identifier)
         steps.append(
-            Step(
+            EffectStep(
                 leader.effect.identifier,
                 compute_rms_of(before.study),
                 compute_rms_of(after.study),
@@ -219,10 +219,10 @@ def _weigh_curve(
     shapes, deviation = study.noise.shapes, study.deviation
     tried = [size * each.columns for each in curves if each.shape == outcome.shape for size in SIZES]
     models = [NoiseModel(study.shared, study.base, np.column_stack([study.known, each])) for each in tried]
-    logs = [float(each.log_likelihoods(shapes[:1], deviation)[0, 0]) for each in models]
+    logs = [float(each.compute_log_likelihoods(shapes[:1], deviation)[0, 0]) for each in models]
     likeliest = int(np.argmax(logs))
     evidence = outcome.shape_evidence + find_anew(models[likeliest], deviation, shapes)
-    return evidence, study.beside(tried[likeliest])
+    return evidence, study.with_curve(tried[likeliest])
 
 
 def _price_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
@@ -295,7 +295,7 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
 def _make_candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:
     form = refine_form(study, contender.effect, contender.form)
     after = add_form(study, contender.effect, form)
-    estimates = after.estimates_of(contender.effect.identifier)
+    estimates = after.list_estimates_of(contender.effect.identifier)
     return CircleCandidate(
         contender.effect, form, contender.evidence, probability, contender.p_value, estimates,
         compute_rms_of(after), all(each.is_possible for each in estimates),
@@ -347,8 +347,8 @@ def _add_equals(
 def _measure_apart(study: CircleStudy, curve: FloatArray, other: CircleCandidate) -> float:
     """Return which part of a curve another effect leaves, whatever its values; 1 of a curve that is none."""
     under = study.whitened
-    own = under.of(curve[:, np.newaxis])
-    length = float(under.product(own, own)[0, 0])
+    own = under.whiten(curve[:, np.newaxis])
+    length = float(under.multiply(own, own)[0, 0])
     if length <= 0:
         return 1.0
     whole = make_whole_form(other.effect, study.design, other.form.searched)
@@ -362,8 +362,8 @@ def _measure_apart(study: CircleStudy, curve: FloatArray, other: CircleCandidate
 
 def _measure_explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
     """Return the squared length of what columns make of a whitened curve, (N, 1)."""
-    others = under.of(columns)
-    matrix, products = under.product(others, others), under.product(others, own)
+    others = under.whiten(columns)
+    matrix, products = under.multiply(others, others), under.multiply(others, own)
     return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 

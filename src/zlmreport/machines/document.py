@@ -128,7 +128,7 @@ def _gather_material(machine: MachineFile, registry: Registry) -> _Material:
     lines = tuple(compare_line(machine.machine, each) for each in machine.lines)
     if not machine.measured:
         return _Material(machine, None, lines, (), ())
-    diagnosis = diagnose(machine.study(), machine.catalogue)
+    diagnosis = diagnose(machine.make_study(), machine.catalogue)
     by_model, complete = (
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (diagnosis.study, diagnosis.complete)
@@ -220,7 +220,7 @@ def _lay_out_sections(material: _Material, registry: Registry, say: Sayer) -> It
         candidates = findings.lay_out_candidates(diagnosis, say)
         if candidates:
             yield candidates
-        steps = findings.step_section(diagnosis, say)
+        steps = findings.lay_out_steps(diagnosis, say)
         if steps:
             yield steps
     yield from _test_sections(material.by_axes, material.complete, say)
@@ -232,7 +232,7 @@ def _test_sections(
     """Yield a section for each test, a circle beside the model's effects, too."""
     with_effects = {each.name: each for each in complete}
     for each in by_axes:
-        yield tests.test_section(with_effects.get(each.name, each), say)
+        yield tests.lay_out_test(with_effects.get(each.name, each), say)
 
 
 def _list_facts(machine: MachineFile, say: Sayer) -> Facts:
@@ -243,7 +243,7 @@ def _list_facts(machine: MachineFile, say: Sayer) -> Facts:
         (say(_MACHINE), keys.machine.type),
         (say(_SERIAL), keys.machine.serial or ""),
         (say(_CHAIN), machine.machine.chain.letters),
-        (say(_TOOL), f"{', '.join(map(say.general, keys.tool))} mm"),
+        (say(_TOOL), f"{', '.join(map(say.write_general, keys.tool))} mm"),
         (say(_KNOWN), say(say_known(machine.machine))),
         (say(_ISSUED), stated.issued.isoformat() if stated.issued else ""),
         (say(_AUTHORISED), write_person(stated.authorised_by) if stated.authorised_by else ""),

@@ -19,7 +19,7 @@ from zlmreport.job.list_edits import (
 )
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Scalar
-from zlmreport.machines.keys import MachineKeys
+from zlmreport.machines.keys import MachineFileKeys
 from zlmreport.machines.reading import MachineFile, is_always_there
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
@@ -83,7 +83,7 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
         edited = _edit_text(text, before, effects, place)
     except UneditableError:
         edited = text
-    found = validate(MachineKeys, parse(edited.encode(), str(path)), [])
+    found = validate(MachineFileKeys, parse(edited.encode(), str(path)), [])
     if found is None or tuple(found.model.effects) != effects:
         written = ", ".join(effects)
         raise InputError.at(

@@ -30,7 +30,7 @@ class CircleForm:
         """The groups of its terms."""
         return frozenset(each.group or each.name for each in self.terms)
 
-    def of_groups(self, chosen: frozenset[str]) -> CircleForm:
+    def keep_groups(self, chosen: frozenset[str]) -> CircleForm:
         """Return the form with the terms of some groups alone."""
         return CircleForm(
             self.searched, tuple(each for each in self.terms if (each.group or each.name) in chosen)
@@ -44,7 +44,9 @@ def make_whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searc
     return CircleForm(searched, tuple(each for each in thin if np.any(each.column)))
 
 
-def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: CircleForm) -> CircleForm:
+def make_form_at(
+    effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: CircleForm
+) -> CircleForm:
     """Return the terms of a form at other searched values."""
     by_name = {each.name: each for each in effect.terms(design.fine, searched)}
     terms = (by_name[each.name] for each in like.terms)
@@ -62,7 +64,7 @@ def split_parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm,
     groups = sorted(whole.groups)
     sizes = {len(groups)} if effect.is_base else {1} if effect.is_single else {1, len(groups)}
     return tuple(
-        whole.of_groups(frozenset(chosen))
+        whole.keep_groups(frozenset(chosen))
         for size in sorted(sizes - {0})
         for chosen in combinations(groups, size)
     )

@@ -14,7 +14,7 @@ from zlmreport.language import Language
 Place3 = tuple[Finite, Finite, Finite]
 
 
-class LineKeys(JobPart):
+class ErrorLineKeys(JobPart):
     """Where the others stood while an error was measured."""
 
     X: Finite | None = Field(None, description="Position of X, mm.", examples=[250])
@@ -33,7 +33,7 @@ class StatedKeys(BaseModel):
     expanded_uncertainty: Positive = Field(
         description="Of each value, k = 2: µm, of angles and squareness arc seconds.", examples=[0.6]
     )
-    at: LineKeys = Field(default_factory=LineKeys, description="Where the others stood.")
+    at: ErrorLineKeys = Field(default_factory=ErrorLineKeys, description="Where the others stood.")
     source: Text | None = Field(
         None, description="Where it comes from, in words.", examples=["granite square"]
     )
@@ -74,7 +74,7 @@ class DocumentKeys(JobPart):
     paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
 
 
-class MachineKeys(JobPart):
+class MachineFileKeys(JobPart):
     """A machine file: its chain, the errors of its axes, and the tests that it is held against."""
 
     schema_: Literal["zlmreport/machine/1"] = Field(

@@ -71,7 +71,7 @@ class Chain:
         """The order of the axes alone."""
         return self.letters.replace("F", "")
 
-    def between(self, axis: str) -> str:
+    def list_axes_behind(self, axis: str) -> str:
         """Return the axes between one and the tool."""
         return self.order[self.order.index(axis) + 1 :]
 
@@ -117,7 +117,7 @@ def lever_arm(
 ) -> FloatArray:
     """Return L, the arm by which the rotations of an axis act, shape (N, 3), m."""
     arm = np.broadcast_to(np.asarray(tool, dtype=np.float64) - np.asarray(line.tool), position.shape).copy()
-    for other in chain.between(axis):
+    for other in chain.list_axes_behind(axis):
         index = AXES.index(other)
         arm[:, index] += position[:, index] - line.others.get(other, 0.0)
     return arm

@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from zlmreport.machines.course import Course
+from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, ErrorLine, Point, weights
 from zlmreport.measurement.arrays import BoolArray, FloatArray
@@ -54,7 +54,7 @@ class Machine:
     curves: tuple[AxisErrorCurve, ...]  #: What was measured or stated, in the order of `ERRORS`.
     unmeasured: tuple[Unmeasured, ...]  #: All others of the 21.
 
-    def curve(self, name: str) -> AxisErrorCurve | None:
+    def find_curve(self, name: str) -> AxisErrorCurve | None:
         """Return one of the errors; None if it was not measured."""
         return next((each for each in self.curves if each.name == name), None)
 
@@ -96,7 +96,7 @@ class TestPrediction:
         return 2.0 * self.standard_uncertainty
 
 
-def predict(machine: Machine, course: Course) -> TestPrediction:
+def predict(machine: Machine, course: ToolCourse) -> TestPrediction:
     """Return what the axes predict along a course, with its covariance."""
     count = len(course.position)
     tool = machine.tool if course.tool is None else course.tool
@@ -109,11 +109,11 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
             continue
         index = AXES.index(curve.axis)
         place = course.position[:, index]
-        reading = curve.reading(place, course.motion[:, index]) * gain[:, np.newaxis]
+        reading = curve.weigh_nodes(place, course.motion[:, index]) * gain[:, np.newaxis]
         shares[curve.name] = reading @ curve.values
         values = values + shares[curve.name]
         factors.append(reading @ curve.factor)
-        outside |= curve.outside(place) & (np.abs(gain) > 0)
+        outside |= curve.find_outside(place) & (np.abs(gain) > 0)
     bound = np.zeros(count)
     for each in machine.unmeasured:
         # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.
@@ -128,7 +128,7 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
 
 
 def _compute_gain(
-    name: str, machine: Machine, curve: AxisErrorCurve | None, course: Course, tool: FloatArray | Point
+    name: str, machine: Machine, curve: AxisErrorCurve | None, course: ToolCourse, tool: FloatArray | Point
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
     line = curve.line if curve else ErrorLine({})

@@ -13,7 +13,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.machines.axis_errors import find_error_of, find_line_of_job
-from zlmreport.machines.course import CircularTest, Course, StraightTest
+from zlmreport.machines.course import CircularTest, StraightTest, ToolCourse
 from zlmreport.machines.kinematics import SQUARENESS
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.circle import NominalCircle
@@ -35,7 +35,7 @@ class MeasuredCircle:
     readings: MeasurementSet
     kept: IntArray  #: Which of the readings the circle has: those that are not missing.
 
-    def evaluations(self, deviation: FloatArray, registry: Registry) -> tuple[Evaluation, ...]:
+    def evaluate(self, deviation: FloatArray, registry: Registry) -> tuple[Evaluation, ...]:
         """Evaluate other deviations at the same places, (N,), m, by the standards that the job names."""
         values = np.full(len(self.readings.deviation), np.nan)
         values[self.kept] = deviation
@@ -79,7 +79,7 @@ def read_measured_circle(
 def _reckon_times(circle: CircularTest) -> FloatArray:
     """Return times by the feed, the turns in the order of their readings, one after the other."""
     time, begun = np.zeros(len(circle.angle)), 0.0
-    for own in sorted(circle.turns(), key=lambda each: int(each[0])):
+    for own in sorted(circle.list_turns(), key=lambda each: int(each[0])):
         travelled = np.abs(np.unwrap(circle.angle[own]) - circle.angle[own][0])
         time[own] = begun + travelled / circle.nominal.angular_speed
         begun = float(time[own].max()) + _PAUSE
@@ -113,5 +113,5 @@ def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTes
     freedom = max(int(n.sum() - np.count_nonzero(there)), 1)
     squares = float(np.nansum((values[there] - means[:, np.newaxis]) ** 2))
     scatter = np.sqrt(squares / freedom / n[there])
-    course = Course(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
+    course = ToolCourse(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
     return StraightTest(name, course, at[there], means, scatter)

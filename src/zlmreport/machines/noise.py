@@ -106,7 +106,7 @@ class Whitening:
     geometry: FloatArray  #: Even and odd columns, whitened, (N, 2r).
     gram: FloatArray  #: Their products, (2r, 2r).
 
-    def of(self, columns: FloatArray) -> FloatArray:
+    def whiten(self, columns: FloatArray) -> FloatArray:
         """Return columns whitened by turn, (N, k)."""
         found = np.empty_like(columns)
         for turn, factor in zip(self.turns, self.factors, strict=True):
@@ -131,32 +131,32 @@ class CircleNoise:
         self._turns = tuple(np.flatnonzero(design.turn == turn) for turn in design.turns)
         self._by_path: dict[float, Whitening] = {}
 
-    def kernel(self, turn: IntArray) -> FloatArray:
+    def compute_kernel(self, turn: IntArray) -> FloatArray:
         """Return exp(−Δφ/6°) within a turn."""
         travelled = self.design.travelled[turn]
         return np.asarray(np.exp(-np.abs(travelled[:, np.newaxis] - travelled) / PATH_LENGTH))
 
-    def whitening(self, path: float) -> Whitening:
+    def make_whitening(self, path: float) -> Whitening:
         """Return the whitening for a variance along the path."""
         if path not in self._by_path:
-            lowers = [cholesky(np.eye(len(turn)) + path * self.kernel(turn)) for turn in self._turns]
+            lowers = [cholesky(np.eye(len(turn)) + path * self.compute_kernel(turn)) for turn in self._turns]
             total = 2.0 * sum(float(np.sum(np.log(np.diag(lower)))) for lower in lowers)
             bare = Whitening(
                 self._turns, tuple(np.linalg.inv(lower) for lower in lowers), total,
                 np.zeros((0, 0)), np.zeros((0, 0)),
             )  # fmt: skip
-            columns = bare.of(np.concatenate([self.even, self.odd], axis=1))
+            columns = bare.whiten(np.concatenate([self.even, self.odd], axis=1))
             self._by_path[path] = Whitening(self._turns, bare.factors, total, columns, columns.T @ columns)
         return self._by_path[path]
 
-    def simulated(
+    def simulate(
         self, shapes: Sequence[NoiseShape], known: FloatArray, random: np.random.Generator
     ) -> FloatArray:
         """Return deviations that hold nothing but noise, σ = 1, one column for each shape."""
         found = random.standard_normal((self.design.count, len(shapes)))
         path = np.sqrt(np.array([each.path for each in shapes]))
         for turn in self._turns:
-            lower = cholesky(self.kernel(turn) + 1e-9 * np.eye(len(turn)))
+            lower = cholesky(self.compute_kernel(turn) + 1e-9 * np.eye(len(turn)))
             found[turn] += path * (lower @ random.standard_normal((len(turn), len(shapes))))
         even, odd = (
             np.array([getattr(each, name) * self.shares[each.length] for each in shapes]).T
@@ -179,11 +179,11 @@ class Whitened:
     log_determinant: float  #: ln|V| + ln|XᵀV⁻¹X|.
     freedom: int  #: Number of readings minus that of the base model's columns.
 
-    def of(self, columns: FloatArray) -> FloatArray:
+    def whiten(self, columns: FloatArray) -> FloatArray:
         """Return columns whitened by turn, (N, k)."""
-        return self.whitening.of(columns)
+        return self.whitening.whiten(columns)
 
-    def product(self, one: FloatArray, other: FloatArray) -> FloatArray:
+    def multiply(self, one: FloatArray, other: FloatArray) -> FloatArray:
         """Return oneᵀ·P·other of columns that were whitened by turn."""
         return np.asarray(one.T @ other - (self.taken.T @ one).T @ (self.taken.T @ other))
 
@@ -203,26 +203,28 @@ class NoiseModel:
         """Number of readings minus that of the base model's columns."""
         return self.noise.design.count - int(self._base.shape[1])
 
-    def under(self, shape: NoiseShape) -> Whitened:
+    def whiten(self, shape: NoiseShape) -> Whitened:
         """Return the readings under one noise."""
-        matrix, used, log_rest = self._matrix(shape)
+        matrix, used, log_rest = self._make_matrix(shape)
         lower = np.asarray(cholesky(matrix), dtype=np.float64)
-        taken = np.linalg.solve(lower, self._of_path(shape.path)[0][:, used].T).T
+        taken = np.linalg.solve(lower, self._whiten_columns(shape.path)[0][:, used].T).T
         log_determinant = log_rest + 2.0 * float(np.sum(np.log(np.diag(lower))))
         return Whitened(
-            self.noise.whitening(shape.path),
+            self.noise.make_whitening(shape.path),
             np.asarray(taken, dtype=np.float64),
             log_determinant,
             self.freedom,
         )
 
-    def log_likelihoods(self, shapes: Sequence[NoiseShape], deviation: FloatArray) -> FloatArray:
+    def compute_log_likelihoods(self, shapes: Sequence[NoiseShape], deviation: FloatArray) -> FloatArray:
         """Return restricted log-likelihoods of deviations, σ maximised, and their P-squares, (shapes, 2)."""
         reads = {path: self._read(path, deviation) for path in {each.path for each in shapes}}
-        return np.array([self._log_likelihood(each, *reads[each.path]) for each in shapes])
+        return np.array([self._compute_log_likelihood(each, *reads[each.path]) for each in shapes])
 
-    def _log_likelihood(self, shape: NoiseShape, products: FloatArray, square: float) -> tuple[float, float]:
-        matrix, used, log_rest = self._matrix(shape)
+    def _compute_log_likelihood(
+        self, shape: NoiseShape, products: FloatArray, square: float
+    ) -> tuple[float, float]:
+        matrix, used, log_rest = self._make_matrix(shape)
         # With the deviations as a last column, the factor's last element is the root of their P-square.
         bordered = np.empty((len(matrix) + 1, len(matrix) + 1))
         bordered[:-1, :-1], bordered[-1, :-1] = matrix, products[used]
@@ -232,9 +234,9 @@ class NoiseModel:
         left = float(factor[-1]) ** 2
         return -0.5 * log_determinant - 0.5 * self.freedom * float(np.log(left)), left
 
-    def solved(self, shape: NoiseShape, deviation: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def solve(self, shape: NoiseShape, deviation: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coefficients of the base's columns and their covariance over σ², (p,) and (p, p)."""
-        matrix, used, _ = self._matrix(shape)
+        matrix, used, _ = self._make_matrix(shape)
         products, _ = self._read(shape.path, deviation)
         count = self._base.shape[1]
         wanted = np.column_stack([np.eye(len(matrix))[:, :count], products[used]])
@@ -244,12 +246,12 @@ class NoiseModel:
 
     def _read(self, path: float, deviation: FloatArray) -> tuple[FloatArray, float]:
         """Return the products of all columns with deviations, whitened, and the square of these."""
-        read = self.noise.whitening(path).of(deviation[:, np.newaxis])[:, 0]
-        return self._of_path(path)[0].T @ read, float(read @ read)
+        read = self.noise.make_whitening(path).whiten(deviation[:, np.newaxis])[:, 0]
+        return self._whiten_columns(path)[0].T @ read, float(read @ read)
 
-    def _matrix(self, shape: NoiseShape) -> tuple[FloatArray, BoolArray, float]:
+    def _make_matrix(self, shape: NoiseShape) -> tuple[FloatArray, BoolArray, float]:
         """Return the equations' matrix, which columns are in it, and ln|V| + ln|XᵀV⁻¹X| less its own ln."""
-        _, gram = self._of_path(shape.path)
+        _, gram = self._whiten_columns(shape.path)
         base, shares = self._base.shape[1], self.noise.shares[shape.length]
         sizes = np.concatenate(
             [
@@ -264,13 +266,17 @@ class NoiseModel:
         diagonal = np.diag_indices_from(matrix)
         matrix[diagonal] = (matrix[diagonal] + 1.0 / sizes[used]) * (1.0 + _HAIR)
         finite = sizes[used & np.isfinite(sizes)]
-        return matrix, used, self.noise.whitening(shape.path).log_determinant + float(np.sum(np.log(finite)))
+        return (
+            matrix,
+            used,
+            self.noise.make_whitening(shape.path).log_determinant + float(np.sum(np.log(finite))),
+        )
 
-    def _of_path(self, path: float) -> tuple[FloatArray, FloatArray]:
+    def _whiten_columns(self, path: float) -> tuple[FloatArray, FloatArray]:
         """Return all columns side by side, whitened, and their products."""
         if path not in self._by_path:
-            whitening = self.noise.whitening(path)
-            base, known = whitening.of(self._base), whitening.of(self.known)
+            whitening = self.noise.make_whitening(path)
+            base, known = whitening.whiten(self._base), whitening.whiten(self.known)
             columns = np.concatenate([base, whitening.geometry, known], axis=1)
             count, shared = base.shape[1], whitening.geometry.shape[1]
             gram = np.empty((columns.shape[1], columns.shape[1]))
@@ -315,14 +321,14 @@ def find_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShap
     Evidence is weighed under the noise that readings show without an effect. Where the effect is many times
     the noise, they show another beside it.
     """
-    logs = model.log_likelihoods(SHAPES, deviation)[:, 0]
+    logs = model.compute_log_likelihoods(SHAPES, deviation)[:, 0]
     own = [index for index, shape in enumerate(SHAPES) if shape in kept]
     return 2.0 * float(np.logaddexp.reduce(logs) - np.logaddexp.reduce(logs[own]))
 
 
 def find_noise(model: NoiseModel, deviation: FloatArray) -> NoiseFound:
     """Return the noise by restricted likelihood, over a grid of shapes; those are kept that count."""
-    found = model.log_likelihoods(SHAPES, deviation)
+    found = model.compute_log_likelihoods(SHAPES, deviation)
     weights = np.exp(found[:, 0] - found[:, 0].max())
     weights /= weights.sum()
     order = np.argsort(-weights)

@@ -17,7 +17,7 @@ import numpy as np
 
 from zlmreport.language import Language, Words
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.design import thinned
+from zlmreport.machines.design import make_thinned_design
 from zlmreport.machines.diagnosis import MachineDiagnosis
 from zlmreport.machines.forms import make_plain_form, make_whole_form
 from zlmreport.machines.noise import CircleNoise, NoiseModel, Whitened
@@ -146,7 +146,7 @@ def _compute_least_decision(
 ) -> float:
     """Return the least probability, over pairs, with which a run more tells effects apart."""
     study = diagnosis.complete
-    design = thinned([*study.design.circles, circle])
+    design = make_thinned_design([*study.design.circles, circle])
     base = np.concatenate(
         [
             np.zeros((design.count, 0)),
@@ -154,7 +154,9 @@ def _compute_least_decision(
         ],
         axis=1,
     )
-    whitened = NoiseModel(CircleNoise(design), base, np.zeros((design.count, 0))).under(study.noise.likeliest)
+    whitened = NoiseModel(CircleNoise(design), base, np.zeros((design.count, 0))).whiten(
+        study.noise.likeliest
+    )
     least = 1.0
     by_name = {each.effect.identifier: each for each in diagnosis.candidates}
     for one in between:
@@ -175,9 +177,9 @@ def _compute_least_decision(
 
 def _measure_apart(whitened: Whitened, curve: FloatArray, columns: FloatArray) -> float:
     """Return the squared length of a curve that columns leave of it."""
-    own, others = whitened.of(curve[:, np.newaxis]), whitened.of(columns)
-    matrix, products = whitened.product(others, others), whitened.product(others, own)
-    length = float(whitened.product(own, own)[0, 0])
+    own, others = whitened.whiten(curve[:, np.newaxis]), whitened.whiten(columns)
+    matrix, products = whitened.multiply(others, others), whitened.multiply(others, own)
+    length = float(whitened.multiply(own, own)[0, 0])
     return length - float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 
@@ -193,8 +195,8 @@ def find_visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) ->
         if is_searched or effect.is_base or effect.identifier in study.names:
             continue
         for term in make_plain_form(effect, study.design).terms:
-            own = whitened.of(term.column[:, np.newaxis])
-            left, full = float(whitened.product(own, own)[0, 0]), float(np.sum(own**2))
+            own = whitened.whiten(term.column[:, np.newaxis])
+            left, full = float(whitened.multiply(own, own)[0, 0]), float(np.sum(own**2))
             if left > _LEAST_SHARE * full:
                 size = study.noise.sigma * math.sqrt(_FOUND / left)
                 yield VisibleSize(effect.identifier, term.name, size, term.unit, left / full)

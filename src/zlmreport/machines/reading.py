@@ -24,7 +24,7 @@ from zlmreport.machines.axis_errors import (
 from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.curve import AxisErrorCurve, remove_alignment
-from zlmreport.machines.keys import MachineKeys, StatedKeys
+from zlmreport.machines.keys import MachineFileKeys, StatedKeys
 from zlmreport.machines.kinematics import Chain
 from zlmreport.machines.machine import Machine, list_missing_errors
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
@@ -41,7 +41,7 @@ class MachineFile:
     """A machine file that was read, with all that it names."""
 
     path: Path
-    file: KeysFile[MachineKeys]
+    file: KeysFile[MachineFileKeys]
     machine: Machine
     measured: tuple[MeasuredCircle, ...]  #: The circles, each with its job.
     lines: tuple[StraightTest, ...]
@@ -65,7 +65,7 @@ class MachineFile:
         """The effects of its model, by name."""
         return tuple(each.identifier for each in self.effects)
 
-    def study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
+    def make_study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
         """Return the study of its circles with the effects of its model, or with others.
 
         Raises `InputError` if it names no circle.
@@ -97,7 +97,7 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
 
     Raises `InputError` with every mistake of the file itself; `AccessError` if a file cannot be read.
     """
-    file = read_keys_file(path, MachineKeys, MACHINE)
+    file = read_keys_file(path, MachineFileKeys, MACHINE)
     problems: list[Problem] = []
     chain = _read_chain(file, problems)
     curves, sources = _read_curves(file, registry, opened, problems)
@@ -160,7 +160,7 @@ def is_always_there(effect: CircleEffect, circles: Sequence[CircularTest]) -> bo
 
 
 def _choose_effects(
-    file: KeysFile[MachineKeys], registry: Registry, problems: list[Problem]
+    file: KeysFile[MachineFileKeys], registry: Registry, problems: list[Problem]
 ) -> tuple[CircleEffect, ...]:
     """Return the effects of the model; one that there is not, or that stands there twice, is a problem."""
     found: dict[str, CircleEffect] = {}
@@ -176,7 +176,7 @@ def _choose_effects(
     return tuple(found.values())
 
 
-def _read_chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None:
+def _read_chain(file: KeysFile[MachineFileKeys], problems: list[Problem]) -> Chain | None:
     try:
         return Chain(file.keys.chain)
     except ValueError as error:
@@ -185,7 +185,7 @@ def _read_chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain |
 
 
 def _read_curves(
-    file: KeysFile[MachineKeys], registry: Registry, opened: Opened, problems: list[Problem]
+    file: KeysFile[MachineFileKeys], registry: Registry, opened: Opened, problems: list[Problem]
 ) -> tuple[dict[str, AxisErrorCurve], list[SourceFile]]:
     """Return the errors that the file names, by name, and the files that they came from."""
     found: dict[str, AxisErrorCurve] = {}

@@ -24,7 +24,7 @@ def collect_errors(machine: Machine) -> list[dict[str, Any]]:
     unmeasured = {each.name: each for each in machine.unmeasured}
     found: list[dict[str, Any]] = []
     for name in ERRORS:
-        unit, curve = find_unit_of(name), machine.curve(name)
+        unit, curve = find_unit_of(name), machine.find_curve(name)
         if curve is None:
             missing = unmeasured[name]
             found.append(

@@ -25,7 +25,7 @@ def centre(circle: CircularTest, values: FloatArray) -> FloatArray:
     The mean radius stays where the bar is calibrated.
     """
     columns = []
-    for turn in circle.turns():
+    for turn in circle.list_turns():
         for wave in (np.cos, np.sin):
             column = np.zeros(len(values))
             column[turn] = wave(circle.angle[turn])
@@ -47,7 +47,7 @@ def estimate_scatter_within(circle: CircularTest, residual: FloatArray) -> float
     The second difference of three neighbours has six times their variance; its median does not see a step.
     """
     bends = []
-    for turn in circle.turns():
+    for turn in circle.list_turns():
         _, mean, count = _split_into_arcs(circle.angle[turn], residual[turn])
         there = mean[count > 0]
         bends.append(there[:-2] - 2.0 * there[1:-1] + there[2:])

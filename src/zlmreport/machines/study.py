@@ -8,8 +8,8 @@ from functools import cached_property
 
 import numpy as np
 
-from zlmreport.machines.course import CircularTest, Course
-from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
+from zlmreport.machines.course import CircularTest, ToolCourse
+from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, Whitened, find_noise
@@ -122,7 +122,7 @@ class CircleStudy:
     @cached_property
     def _slope(self) -> FloatArray:
         """Slope over θ of all that is known but the centre, by its first waves, m/rad."""
-        curve = self.predicted + self._fitted_shape()
+        curve = self.predicted + self._fit_shape()
         found = np.zeros(self.design.count)
         orders = np.arange(2, _SLOPE_ORDERS + 1)
         for turn in self.design.turns.tolist():
@@ -136,7 +136,7 @@ class CircleStudy:
             found[own] = -np.sin(turned) @ (orders * a) + np.cos(turned) @ (orders * b)
         return found
 
-    def _fitted_shape(self) -> FloatArray:
+    def _fit_shape(self) -> FloatArray:
         """Return what the effects make of the deviation by plain least squares, without centre and radius."""
         if not self.base.shape[1]:
             return np.zeros(self.design.count)
@@ -164,14 +164,14 @@ class CircleStudy:
     @cached_property
     def whitened(self) -> Whitened:
         """The readings under the likeliest noise."""
-        return self.model.under(self.noise.likeliest)
+        return self.model.whiten(self.noise.likeliest)
 
     @cached_property
     def solution(self) -> tuple[FloatArray, FloatArray]:
         """The parameters' values and covariance, averaged over the likely noises."""
         if not self.base.shape[1]:
             return np.zeros(0), np.zeros((0, 0))
-        solved = [self.model.solved(shape, self.deviation) for shape in self.noise.shapes]
+        solved = [self.model.solve(shape, self.deviation) for shape in self.noise.shapes]
         values = np.array([each for each, _ in solved])
         covariances = self.noise.sigma**2 * np.array([each for _, each in solved])
         weights = self.noise.weights
@@ -199,7 +199,7 @@ class CircleStudy:
             ]
         return tuple(found)
 
-    def estimates_of(self, identifier: str) -> tuple[EstimatedTerm, ...]:
+    def list_estimates_of(self, identifier: str) -> tuple[EstimatedTerm, ...]:
         """Return those of one effect."""
         return tuple(each for each in self.estimates if each.effect == identifier)
 
@@ -208,7 +208,7 @@ class CircleStudy:
         """What the effects of the model add to the prediction, (N,), m."""
         return np.asarray(self.base @ self.solution[0])
 
-    def made_by(self, identifier: str) -> FloatArray:
+    def compute_share_of(self, identifier: str) -> FloatArray:
         """Return what one of the effects makes of the deviations, (N,), m."""
         values, place = self.solution[0], 0
         for each in self.effects:
@@ -223,7 +223,7 @@ class CircleStudy:
         """What is left, (N,), m."""
         return np.asarray(self.deviation - self.fitted)
 
-    def thinned_circle(self, index: int) -> CircularTest:
+    def make_thinned_circle(self, index: int) -> CircularTest:
         """Return one of the tests with its readings thinned."""
         circle, design = self.design.circles[index], self.design
         own = design.test == index
@@ -237,11 +237,11 @@ class CircleStudy:
             time=design.time[own],
         )
 
-    def having(self, added: Chosen) -> CircleStudy:
+    def with_effect(self, added: Chosen) -> CircleStudy:
         """Return the study with one effect more."""
         return replace(self, effects=(*self.effects, added))
 
-    def beside(self, curve: FloatArray) -> CircleStudy:
+    def with_curve(self, curve: FloatArray) -> CircleStudy:
         """Return the study beside a curve without a name, a random combination of columns, (N, r), in σ."""
         return replace(self, unnamed=curve * self._unit)
 
@@ -264,12 +264,12 @@ def list_said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
 def study_bare(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
     """Return the study of circles with an empty model."""
     circles = [clear_of_reversals(each) for each in circles]
-    design = thinned(circles)
-    courses = [each.course() for each in circles]
+    design = make_thinned_design(circles)
+    courses = [each.make_course() for each in circles]
     tools = [
         np.tile(machine.tool if each.tool is None else each.tool, (len(each.position), 1)) for each in courses
     ]
-    together = Course(
+    together = ToolCourse(
         np.concatenate([each.position for each in courses]),
         np.concatenate([each.sensing for each in courses]),
         np.concatenate([each.motion for each in courses]),

@@ -141,7 +141,7 @@ def _compute_relative(
     values, factors = np.zeros((len(together), 3)), [np.zeros((len(together), 3, 0))]
     for curve in machine.curves:
         gain = weights(curve.name, machine.chain, curve.line, together, machine.tool)
-        reading = curve.reading(together[:, AXES.index(curve.axis)], rest)
+        reading = curve.weigh_nodes(together[:, AXES.index(curve.axis)], rest)
         values += gain * (reading @ curve.values)[:, np.newaxis]
         factors.append(gain[:, :, np.newaxis] * (reading @ curve.factor)[:, np.newaxis, :])
     factor = np.concatenate(factors, axis=2)

@@ -12,7 +12,7 @@ from typing import ClassVar, Protocol, TypeVar
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.collect import is_run, say_no_run
-from zlmreport.measurement.table import THOUSANDS, UNITS, Row, TextTable
+from zlmreport.measurement.table import THOUSANDS, UNITS, TextRow, TextTable
 from zlmreport.measurement.text_file import parse_number
 from zlmreport.measurement.units import DEGREE, Scale, Unit, find_unit_named
 
@@ -131,7 +131,7 @@ class Cells:
     #: What was found wrong so far. A method that returns None has noted why.
     problems: list[Problem] = field(default_factory=list)
 
-    def number(self, row: Row, column: TextColumn) -> float | None:
+    def number(self, row: TextRow, column: TextColumn) -> float | None:
         """Return a number, in SI if the column has a unit; NaN for an empty cell."""
         text = row.cells[column.index]
         if not text or (self.missing and text.casefold() in self.missing):
@@ -139,17 +139,17 @@ class Cells:
         try:
             value = parse_number(text, self._sign_of(text))
         except ValueError as error:
-            return self._written_otherwise(row, column, str(error))
+            return self._read_otherwise(row, column, str(error))
         return column.unit.to_si(value) if column.unit else value
 
     def _sign_of(self, text: str) -> DecimalSign:
         """Return the decimal sign of a number: in a workbook, what is stored as a number has a point."""
         return DecimalSign.POINT if self.table.source.of_cells and "," not in text else self.sign
 
-    def _written_otherwise(self, row: Row, column: TextColumn, complaint: str) -> float | None:
+    def _read_otherwise(self, row: TextRow, column: TextColumn, complaint: str) -> float | None:
         """Return a number with its unit, with thousands, or in degrees, minutes and seconds."""
         text = row.cells[column.index]
-        if DEGREE.symbol in column.units and (angle := self._sexagesimal(text)) is not None:
+        if DEGREE.symbol in column.units and (angle := self._read_sexagesimal(text)) is not None:
             return DEGREE.to_si(angle)
         match = _MEASURED.fullmatch(text)
         unit = column.units.get(match[2].strip().casefold()) if match else None
@@ -167,7 +167,7 @@ class Cells:
         unit = unit or column.unit
         return unit.to_si(value) if unit else value
 
-    def _sexagesimal(self, text: str) -> float | None:
+    def _read_sexagesimal(self, text: str) -> float | None:
         """Return degrees, minutes and seconds as degrees; None if the text is none."""
         match = _SEXAGESIMAL.fullmatch(text)
         if match is None:
@@ -179,11 +179,11 @@ class Cells:
             return None
         return -size if negative in {"-", "−"} else size
 
-    def demanded_number(self, row: Row, column: TextColumn) -> float | None:
+    def demanded_number(self, row: TextRow, column: TextColumn) -> float | None:
         """Return a number that must be there."""
         return None if self._is_left_out(row, column) else self.number(row, column)
 
-    def run(self, row: Row, column: TextColumn) -> float | None:
+    def run(self, row: TextRow, column: TextColumn) -> float | None:
         """Return the number of a run."""
         run = self.demanded_number(row, column)
         if run is None or is_run(run):
@@ -191,7 +191,7 @@ class Cells:
         self.note(row, column, say_no_run(run))
         return None
 
-    def word(self, row: Row, column: TextColumn, read: Callable[[str], _T]) -> _T | None:
+    def word(self, row: TextRow, column: TextColumn, read: Callable[[str], _T]) -> _T | None:
         """Return what a word stands for, that must be there; `read` raises `ValueError` for another one."""
         if self._is_left_out(row, column):
             return None
@@ -201,13 +201,13 @@ class Cells:
             self.note(row, column, str(error))
             return None
 
-    def _is_left_out(self, row: Row, column: TextColumn) -> bool:
+    def _is_left_out(self, row: TextRow, column: TextColumn) -> bool:
         if row.cells[column.index]:
             return False
         self.note(row, column, f"there is no {column.name}; only a reading may be missing")
         return True
 
-    def note(self, row: Row, column: TextColumn, message: str) -> None:
+    def note(self, row: TextRow, column: TextColumn, message: str) -> None:
         """Note what is wrong with a cell."""
         self.problems.append(Problem(self.table.place(row, column.index), message))
 

@@ -42,7 +42,7 @@ def read_position_table(
     text = read_text(path)
     header, *rows = text.rows() or [[]]
     columns: tuple[TableColumn, ...] = (position, value)
-    names = {_name(cell) for cell in header}
+    names = {_name_cell(cell) for cell in header}
     if directions and names & set(directions) and value.name not in names:
         columns = (position, *(replace(value, name=name) for name in directions))
     order = _order(text, header, columns)
@@ -65,7 +65,7 @@ def read_position_table(
 
 def _order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableColumn]) -> list[int]:
     """Return the index of each column; the header has these and no others."""
-    names = [_name(cell) for cell in header]
+    names = [_name_cell(cell) for cell in header]
     wanted = [column.name for column in columns]
     if sorted(names) != sorted(wanted):
         example = ",".join(f"{column.name} ({column.unit.symbol})" for column in columns)
@@ -77,7 +77,7 @@ def _order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableCo
     return [names.index(name) for name in wanted]
 
 
-def _name(cell: TextCell) -> str:
+def _name_cell(cell: TextCell) -> str:
     return _split(cell.text)[0].casefold()
 
 

@@ -74,20 +74,20 @@ class FileTableLayout(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class TextRow:
     """A row of a table: a line of its file, or a column of it, where the table lies on its side."""
 
     line: int  #: In the file, from 1; of a row that is no line, that of its first cell.
     text: str  #: The line.
     delimiter: str  #: What parts its cells.
     cells: tuple[str, ...]  #: Without quotation marks and the blanks around.
-    lying: tuple[tuple[Row, int], ...] = ()  #: Of a column: the line of each cell, and its index in it.
+    lying: tuple[tuple[TextRow, int], ...] = ()  #: Of a column: the line of each cell, and its index in it.
 
-    def spot(self, index: int) -> tuple[int, int]:
+    def locate(self, index: int) -> tuple[int, int]:
         """Return the line and the character, both from 1, at which a cell begins."""
         if self.lying:
             row, column = self.lying[index]
-            return row.spot(min(column, len(row.cells) - 1))
+            return row.locate(min(column, len(row.cells) - 1))
         if self.delimiter == BLANKS or _QUOTE in self.text:
             starts = [start for start, _ in _split_line(self.text, self.delimiter, len(self.cells))]
             return self.line, starts[index] + 1 if index < len(starts) else len(self.text) + 1
@@ -99,14 +99,14 @@ class TextTable:
     """A table: a header and rows that have as many cells."""
 
     source: TextFile  #: The file.
-    header: Row  #: The row of names.
-    units: Row | None  #: The row of units below it; None without.
-    rows: tuple[Row, ...]  #: The rows that are sound.
+    header: TextRow  #: The row of names.
+    units: TextRow | None  #: The row of units below it; None without.
+    rows: tuple[TextRow, ...]  #: The rows that are sound.
     problems: tuple[Problem, ...]  #: What is wrong with the others.
 
-    def place(self, row: Row, index: int) -> Place:
+    def place(self, row: TextRow, index: int) -> Place:
         """Return the place of a cell; of a name that the file does not have, that of the file."""
-        return self.source.place(*row.spot(index)) if row.line else self.source.place()
+        return self.source.place(*row.locate(index)) if row.line else self.source.place()
 
 
 def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[[str], bool]) -> TextTable:
@@ -130,14 +130,14 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
             "semicolons or tabs, or by blanks if the job says 'delimiter: blanks'",
         )
     problems: list[Problem] = []
-    rows = list(_rows(content, delimiter, text, problems))
+    rows = list(_list_rows(content, delimiter, text, problems))
     if options.transposed:
         rows = _turn_rows(rows)
     header, below = _find_header(rows, options, text)
     for index, name in enumerate(header.cells):
         if len(name) > _LONGEST_NAME:
             message = f"{quoted(name)} is too long to be the name of a column; does the table begin here?"
-            raise InputError.at(text.place(*header.spot(index)), message)
+            raise InputError.at(text.place(*header.locate(index)), message)
     units = below.pop(0) if below and is_units(below[0].cells) else None
     if options.ends_before is not None:
         below = _find_rows_before(below, options.ends_before, header, text)
@@ -198,17 +198,19 @@ def join_whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]
     return joined
 
 
-def _find_header(rows: Sequence[Row], options: FileTableLayout, text: TextFile) -> tuple[Row, list[Row]]:
+def _find_header(
+    rows: Sequence[TextRow], options: FileTableLayout, text: TextFile
+) -> tuple[TextRow, list[TextRow]]:
     """Return the row of names, and the rows below it."""
     if options.header:
-        return Row(0, "", "", options.header), list(rows)
+        return TextRow(0, "", "", options.header), list(rows)
     count = options.header_rows
     if len(rows) < count:
         raise InputError.at(text.place(), f"holds no table: there are {count} rows of names to read")
     return join_header(rows[:count]), list(rows[count:])
 
 
-def join_header(rows: Sequence[Row]) -> Row:
+def join_header(rows: Sequence[TextRow]) -> TextRow:
     """Return the row of names; of two, each name made of the upper and the lower cell.
 
     An upper cell holds for those to its right that are empty, but the first, which names the rows.
@@ -233,7 +235,7 @@ def is_units(cells: Sequence[str]) -> bool:
     return are_short and any(cell.casefold() in UNITS for cell in filled)
 
 
-def _find_rows_before(rows: list[Row], beginning: str, header: Row, text: TextFile) -> list[Row]:
+def _find_rows_before(rows: list[TextRow], beginning: str, header: TextRow, text: TextFile) -> list[TextRow]:
     """Return the rows above the one that begins so."""
     for index, row in enumerate(rows):
         if find_first_cell(row.cells).casefold().startswith(beginning.casefold()):
@@ -300,7 +302,7 @@ def _find_delimiter_by_names(header: Sequence[str], names_column: Callable[[str]
     """Return the delimiter by which a header names most known columns; of equals the first."""
 
     def known(delimiter: str) -> int:
-        rows = [Row(1, line, delimiter, tuple(_split_header(line, delimiter))) for line in header]
+        rows = [TextRow(1, line, delimiter, tuple(_split_header(line, delimiter))) for line in header]
         return sum(map(names_column, join_header(rows).cells))
 
     present = [delimiter for delimiter in DELIMITERS if all(delimiter in line for line in header)]
@@ -314,9 +316,9 @@ def _split_header(header: str, delimiter: str) -> Sequence[str]:
         return ()
 
 
-def _rows(
+def _list_rows(
     content: Sequence[tuple[int, str]], delimiter: str, text: TextFile, problems: list[Problem]
-) -> Iterator[Row]:
+) -> Iterator[TextRow]:
     """Yield the rows that hold something; what is wrong with another is noted, of the first one raised."""
     width = 0
     for number, line in content:
@@ -333,7 +335,7 @@ def _rows(
             yield row
 
 
-def _turn_rows(rows: Sequence[Row]) -> list[Row]:
+def _turn_rows(rows: Sequence[TextRow]) -> list[TextRow]:
     """Return the columns of rows as rows; what is short is filled with empty cells."""
     width = max((len(row.cells) for row in rows), default=0)
     turned = []
@@ -341,16 +343,16 @@ def _turn_rows(rows: Sequence[Row]) -> list[Row]:
         cells = tuple(row.cells[index] if index < len(row.cells) else "" for row in rows)
         lying = tuple((row, index) for row in rows)
         if any(cells):
-            turned.append(Row(rows[0].line, "", "", cells, lying))
+            turned.append(TextRow(rows[0].line, "", "", cells, lying))
     return turned
 
 
-def _pad_row(row: Row, width: int) -> Row:
+def _pad_row(row: TextRow, width: int) -> TextRow:
     short = width - len(row.cells)
     return replace(row, cells=(*row.cells, *[""] * short)) if short > 0 and not row.lying else row
 
 
-def _find_ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
+def _find_ragged(row: TextRow, header: TextRow, text: TextFile) -> list[Problem]:
     """Return what is wrong with the number of cells; empty cells at the end are nobody's mistake."""
     expected, found = len(header.cells), len(row.cells)
     surplus = next((index for index in range(expected, found) if row.cells[index]), None)
@@ -358,14 +360,14 @@ def _find_ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
         hint = "; is there a decimal comma? Then semicolons part columns" if row.delimiter == "," else ""
         return [
             Problem(
-                text.place(*row.spot(surplus)),
+                text.place(*row.locate(surplus)),
                 f"the row has {found} cells, and the header names {expected} columns{hint}",
             )
         ]
     if found < expected and any(header.cells[found:]):
         return [
             Problem(
-                text.place(*row.spot(found - 1)),
+                text.place(*row.locate(found - 1)),
                 f"the row ends after {found} of {expected} cells; a missing reading is an empty cell, "
                 f"with its {DELIMITERS.get(row.delimiter, 'delimiter')}",
             )
@@ -381,7 +383,7 @@ class EnclosureError(ValueError):
         self.column = column
 
 
-def part_line(number: int, line: str, delimiter: str, width: int = 0) -> Row:
+def part_line(number: int, line: str, delimiter: str, width: int = 0) -> TextRow:
     """Return the cells of a line; `width` is how many the first one of a table has that blanks part.
 
     Raises `EnclosureError` if a quotation mark does not enclose its cell.
@@ -390,7 +392,7 @@ def part_line(number: int, line: str, delimiter: str, width: int = 0) -> Row:
         parts = [part for _, part in _split_line(line, delimiter, width)]
     else:
         parts = line.split(delimiter)
-    return Row(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
+    return TextRow(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
 
 
 def _split_line(line: str, delimiter: str, width: int = 0) -> Iterator[tuple[int, str]]:

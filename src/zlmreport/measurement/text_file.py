@@ -97,9 +97,9 @@ class TextFile:
         """Return the cells of a table, the header first: tab, semicolon or comma parts them, as in that."""
         lines = self.numbered()
         delimiter = next((each for each in _DELIMITERS if lines and each in lines[0][1]), ",")
-        return [list(self._cells(number, line, delimiter)) for number, line in lines]
+        return [list(self._split_cells(number, line, delimiter)) for number, line in lines]
 
-    def _cells(self, number: int, line: str, delimiter: str) -> Iterator[TextCell]:
+    def _split_cells(self, number: int, line: str, delimiter: str) -> Iterator[TextCell]:
         start = 0
         for part in line.split(delimiter):
             lead = len(part) - len(part.lstrip())

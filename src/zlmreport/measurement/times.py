@@ -10,11 +10,11 @@ from collections.abc import Callable
 from zlmreport.errors import quoted
 from zlmreport.measurement.columns import Cells, TextColumn
 from zlmreport.measurement.provenance import ReadingDays
-from zlmreport.measurement.table import Row
+from zlmreport.measurement.table import TextRow
 from zlmreport.measurement.text_file import parse_number
 
 #: Reads the time of a row; None if it noted why it cannot.
-ReadTime = Callable[[Row], float | None]
+ReadTime = Callable[[TextRow], float | None]
 
 #: Year of the moments that a time of day without a date stands for.
 _NO_DATE = 1900
@@ -45,13 +45,13 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         return lambda row: cells.number(row, column)
     days, before = 0.0, 0.0
 
-    def seconds(row: Row) -> float | None:
+    def seconds(row: TextRow) -> float | None:
         nonlocal days, before
         text = row.cells[index]
         if not text:
             return math.nan
         found = read_moment(text)
-        if found is None or _kind(found) != _kind(beginning):
+        if found is None or _find_kind(found) != _find_kind(beginning):
             like = quoted(first)
             cells.note(row, column, f"{quoted(text)} is no time written like the first one, {like}")
             return None
@@ -124,7 +124,7 @@ def _write_usual(text: str) -> str:
     return _ONE_DIGIT.sub(_PADDED, text)
 
 
-def _kind(found: dt.datetime) -> tuple[bool, bool]:
+def _find_kind(found: dt.datetime) -> tuple[bool, bool]:
     return found.tzinfo is None, found.year == _NO_DATE
 
 

@@ -76,15 +76,15 @@ class Certificate:
         """
         path = Path(path)
         if path.suffix:
-            (content,) = self._rendered([plugin or _find_renderer_of(path)])
+            (content,) = self._render([plugin or _find_renderer_of(path)])
             return write([Document(path, content)])[0]
         known = {each.identifier: each for each in registry().renderers}
         names = pipeline.name_files(self.number, [known[each] for each in self._job.formats])
-        contents = self._rendered(self._job.formats)
+        contents = self._render(self._job.formats)
         write(Document(path / name, content) for name, content in zip(names, contents, strict=True))
         return path
 
-    def _rendered(self, identifiers: Iterable[str]) -> tuple[bytes, ...]:
+    def _render(self, identifiers: Iterable[str]) -> tuple[bytes, ...]:
         renderers = [registry().renderer(each, Place("save")) for each in identifiers]
         contents = pipeline.render(self._composed, renderers, registry())
         return tuple(contents[each.identifier] for each in renderers)

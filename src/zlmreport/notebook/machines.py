@@ -146,7 +146,7 @@ class Machine:
 
     def diagnose(self) -> DiagnosisOfMachine:
         """Say which effect is missing."""
-        found = self._diagnosis()
+        found = self._diagnose()
         before, after = (
             compare_circles(self.file.machine, self.file.measured, self.registry, study)
             for study in (found.study, found.complete)
@@ -168,7 +168,7 @@ class Machine:
 
     def build(self) -> BuiltMachine:
         """Add effect after effect, as long as each has evidence of its own."""
-        found = self._diagnosis()
+        found = self._diagnose()
         values = build_values(found)
         return BuiltMachine(
             Machine(self.file, self.registry, found.complete), tuple(values["steps"]), values["verdict"]
@@ -198,7 +198,7 @@ class Machine:
         wanted = CrossWanted(controller, moves, spacing, _PLACE, is_command=False)
         return MachineTables(self, make_cross(self.file, self.registry, wanted))
 
-    def _diagnosis(self) -> MachineDiagnosis:
+    def _diagnose(self) -> MachineDiagnosis:
         return diagnosed(self.study, self.file.catalogue)
 
 
@@ -209,4 +209,4 @@ def machine(path: str | Path) -> Machine:
     """
     registry = find_plugins()
     file = read_machine(Path(path), registry, find_results_in)
-    return Machine(file, registry, file.study())
+    return Machine(file, registry, file.make_study())

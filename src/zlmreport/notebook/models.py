@@ -275,12 +275,14 @@ class Model:
     @property
     def rms(self) -> float:
         """Root mean square of the residuals by degrees of freedom, µm or ″."""
-        return float(self._printed(self.fit.rms))
+        return float(self._convert_to_printed(self.fit.rms))
 
     @property
     def noise_rms(self) -> float | None:
         """What the readings scatter when they are repeated, µm or ″; None without repeats."""
-        return None if self._error.noise_rms is None else float(self._printed(self._error.noise_rms))
+        return (
+            None if self._error.noise_rms is None else float(self._convert_to_printed(self._error.noise_rms))
+        )
 
     @cached_property
     def parameters(self) -> tuple[Estimated, ...]:
@@ -309,20 +311,20 @@ class Model:
 
         Readings that stand off from all others are set aside, and are missing here.
         """
-        return self._by_reading("residual", self.fit.residual)
+        return self._list_by_reading("residual", self.fit.residual)
 
     @property
     def fitted(self) -> Any:
         """What the model gives for each reading, as `residuals`."""
-        return self._by_reading("deviation", self.fit.fitted)
+        return self._list_by_reading("deviation", self.fit.fitted)
 
-    def _by_reading(self, name: str, values: FloatArray) -> Any:
+    def _list_by_reading(self, name: str, values: FloatArray) -> Any:
         design = self.fit.design
         columns = {
             "target": design.axis.position_unit.from_si(design.position),
             "direction": np.where(design.direction > 0, "+", "-"),
             "run": design.run,
-            name: self._printed(values),
+            name: self._convert_to_printed(values),
         }
         return frame_of(columns, self.data.library)
 
@@ -334,11 +336,11 @@ class Model:
         """
         known = self.fit.uncertainties
         covariance = known.sigma**2 * known.inverse + known.systematic @ known.systematic.T
-        order, scale = zip(*self._columns(), strict=True) if len(covariance) else ((), ())
+        order, scale = zip(*self._list_columns(), strict=True) if len(covariance) else ((), ())
         scales = np.array(scale)
         return read_only_floats(covariance[np.ix_(order, order)] * scales[:, np.newaxis] * scales)
 
-    def _columns(self) -> list[tuple[int, float]]:
+    def _list_columns(self) -> list[tuple[int, float]]:
         """Return for each estimated parameter its place in the fit's covariance, and its unit over SI."""
         design, columns = self.fit.design, self.fit.columns
         return [
@@ -383,8 +385,8 @@ class Model:
         for approach in Approach:
             if np.any(design.direction == approach):
                 found = self.fit.predict(place_at_positions(design, places, approach))
-                columns[_SIDES[approach]] = self._printed(found.deviation)
-                columns[f"U_{_SIDES[approach]}"] = self._printed(found.expanded_uncertainty)
+                columns[_SIDES[approach]] = self._convert_to_printed(found.deviation)
+                columns[f"U_{_SIDES[approach]}"] = self._convert_to_printed(found.expanded_uncertainty)
         return frame_of(columns, self.data.library)
 
     def diagnose(self) -> Diagnosis:
@@ -433,7 +435,7 @@ class Model:
         if choice.identifier in self.effects and not choice.is_formula:
             installed = registry().effect(choice.installed)
             if installed.several:
-                choice = choice.numbered(find_next_number(choice.installed, self._choices))
+                choice = choice.renumber(find_next_number(choice.installed, self._choices))
         contains = () if choice.is_formula else registry().effect(choice.identifier).contains
         replaced = {choice.identifier, *contains}
         kept = [each for each in self._choices if each.identifier not in replaced]
@@ -476,7 +478,7 @@ class Model:
         error = report_error(self._error, self.fit.design.axis)
         return {**report_model(self.fit), "error": error}
 
-    def _printed(self, value: Any) -> Any:
+    def _convert_to_printed(self, value: Any) -> Any:
         return self.data.measurements.axis.deviation_unit.from_si(value)
 
     def __repr__(self) -> str:

@@ -114,14 +114,14 @@ class Readings:
     @property
     def up(self) -> FloatArray:
         """Deviations of the positive approach, shape (runs, targets), µm or ″; NaN where missing."""
-        return self._of(Approach.POSITIVE)
+        return self._select(Approach.POSITIVE)
 
     @property
     def down(self) -> FloatArray:
         """Deviations of the negative approach, shape (runs, targets), µm or ″; NaN where missing."""
-        return self._of(Approach.NEGATIVE)
+        return self._select(Approach.NEGATIVE)
 
-    def _of(self, approach: Approach) -> FloatArray:
+    def _select(self, approach: Approach) -> FloatArray:
         return read_only_floats(self.measurements.axis.deviation_unit.from_si(self.grid[approach.index].T))
 
     def to_frame(self, library: Library | None = None) -> Any:

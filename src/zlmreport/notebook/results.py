@@ -11,9 +11,9 @@ import numpy as np
 
 from zlmreport.document.figures.figure import Figure
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
+from zlmreport.evaluation.evaluation import Arithmetic, EvaluatedParameter, Evaluation
 from zlmreport.evaluation.report import collect_position_columns, report_evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
@@ -99,7 +99,7 @@ class Result:
     def evaluation(self) -> Evaluation:
         """The same in SI, with findings, for those who go further down; no part of the stable interface."""
         bare = evaluate_by(self._standard, self.data.measurements, self._options, self._limits)
-        return decided(bare, decision_rule(self._rule))
+        return with_decisions(bare, make_decision_rule(self._rule))
 
     @cached_property
     def arithmetic(self) -> Arithmetic:
@@ -135,7 +135,7 @@ class Result:
     def parameters(self) -> tuple[Value, ...]:
         """The parameters that this test defines, in the order of the standard."""
         if self._limits or "evaluation" in self.__dict__:
-            return tuple(map(self._value, self.evaluation.parameters))
+            return tuple(map(self._make_value, self.evaluation.parameters))
         found, unit = self.arithmetic.parameters, self.data.measurements.axis.deviation_unit
         return tuple(
             Value(
@@ -148,7 +148,7 @@ class Result:
             if not isnan(found[each.symbol])
         )
 
-    def _value(self, parameter: Parameter) -> Value:
+    def _make_value(self, parameter: EvaluatedParameter) -> Value:
         unit = parameter.quantity.unit_or(self.data.measurements.axis.deviation_unit)
         expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
         return Value(
@@ -292,7 +292,11 @@ def evaluate(
     if decision_rule != "simple":
         checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
     result = Result(
-        data, chosen, options, convert_tolerances_to_si(limits, chosen, data.measurements.axis), decision_rule
+        data,
+        chosen,
+        options,
+        convert_tolerances_to_si(limits, chosen, data.measurements.axis),
+        decision_rule,
     )
     _ = result.arithmetic  # what cannot be evaluated fails here, and not when it is looked at
     return result

@@ -72,7 +72,7 @@ class Presence:
             os._exit(2)
         self._write(_LAST, called)
         self._write(_CALLED, before.called)
-        wrong = _find_lost_streams(before.streams) or (self._came_back() if self._copies else "")
+        wrong = _find_lost_streams(before.streams) or (self._has_come_back() if self._copies else "")
         if wrong:
             self._write(_WRONG, called + b" " + wrong.encode())
         return wrong
@@ -102,23 +102,23 @@ class Presence:
         (length,) = struct.unpack("<H", bytes(self._memory[place : place + 2]))
         return bytes(self._memory[place + 2 : place + 2 + length]).decode("utf-8", "replace")
 
-    def before_fork(self) -> None:
+    def prepare_fork(self) -> None:
         """Make a line on which a copy can tell that it came back; only a plugin's copy is of interest."""
         if self._called:
             self._copies.extend(os.pipe())
 
-    def in_copy(self) -> None:
+    def keep_end_of_copy(self) -> None:
         """Keep the end of the line that is the copy's."""
         if self._copies:
             self._own_end = self._copies[-1]
             self._copies.clear()
 
-    def in_original(self) -> None:
+    def keep_other_end(self) -> None:
         """Keep the other end."""
         if self._called and self._copies:
             os.close(self._copies.pop())
 
-    def _came_back(self) -> str:
+    def _has_come_back(self) -> str:
         """Return whether a copy came back; one that works on, and one that has ended, did not."""
         until = time.monotonic() + _PATIENCE
         found = ""
@@ -167,7 +167,7 @@ def _find_lost_streams(before: _Streams) -> str:
 PRESENCE = Presence(memoryview(bytearray(SIZE)))
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(
-        before=PRESENCE.before_fork,
-        after_in_child=PRESENCE.in_copy,
-        after_in_parent=PRESENCE.in_original,
+        before=PRESENCE.prepare_fork,
+        after_in_child=PRESENCE.keep_end_of_copy,
+        after_in_parent=PRESENCE.keep_other_end,
     )

@@ -57,7 +57,7 @@ from zlmreport.document.writer import (
 )
 from zlmreport.evaluation.evaluation import (
     Decision,
-    Parameter as EvaluatedParameter,
+    EvaluatedParameter,
     compare_parameters as changes,
 )
 from zlmreport.evaluation.report import (

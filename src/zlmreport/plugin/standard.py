@@ -50,8 +50,8 @@ from zlmreport.evaluation.checks import (
     worst_of_lines,
 )
 from zlmreport.evaluation.decision import (
-    decided,
-    decision_rule,
+    make_decision_rule as decision_rule,
+    with_decisions as decided,
 )
 from zlmreport.evaluation.evaluate import (
     evaluate,
@@ -62,9 +62,9 @@ from zlmreport.evaluation.evaluation import (
     Change,
     Conformity,
     Finding,
-    Group as QuantityGroup,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import (
     PositionStatistics,

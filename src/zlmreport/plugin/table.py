@@ -25,7 +25,7 @@ from zlmreport.measurement.table import (
     THOUSANDS as THOUSANDS_SIGNS,
     UNITS as UNITS_IN_TABLES,
     EnclosureError,
-    Row as TextRow,
+    TextRow,
     TextTable,
     find_first_cell as first_cell,
     is_units as holds_units,

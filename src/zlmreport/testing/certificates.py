@@ -43,13 +43,13 @@ from zlmreport.errors import Place
 from zlmreport.evaluation.evaluation import (
     Conformity,
     Decision,
+    EvaluatedParameter,
     Evaluation,
     Finding,
-    Group,
-    Parameter,
     PositionColumn,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.choices import SourceChoice
@@ -167,8 +167,9 @@ def make_ordered_certificate() -> tuple[Certificate, tuple[str, ...], tuple[tupl
     evaluation = plain.evaluations[0]
     unit = evaluation.measurements.axis.deviation_unit
     parameters = tuple(
-        Parameter(
-            Quantity(symbol, symbol, same(symbol), Group.SYSTEMATIC, symbol, same(symbol), unit=own), value
+        EvaluatedParameter(
+            Quantity(symbol, symbol, same(symbol), QuantityGroup.SYSTEMATIC, symbol, same(symbol), unit=own),
+            value,
         )
         for symbol, own, value in (
             ("K3", None, 4.321987e-6),
@@ -241,7 +242,7 @@ def _make_evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
     statistics = position_statistics(measurements.deviations(), measurements.target_positions)
     mean = statistics.mean_bidirectional
     words = same(text)
-    quantity = Quantity("D", "D", words, Group.SYSTEMATIC, "max(x̄_{i}) − min(x̄_{i})", words)
+    quantity = Quantity("D", "D", words, QuantityGroup.SYSTEMATIC, "max(x̄_{i}) − min(x̄_{i})", words)
     return Evaluation(
         standard="kit:1",
         designation=text,
@@ -249,7 +250,7 @@ def _make_evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
         position_index="i",
         measurements=measurements,
         statistics=statistics,
-        parameters=(Parameter(quantity, float(np.ptp(mean)), limit=1e-5, decision=_DECISION),),
+        parameters=(EvaluatedParameter(quantity, float(np.ptp(mean)), limit=1e-5, decision=_DECISION),),
         columns=(PositionColumn(PositionQuantity("half", "x̄_{i}/2", words), mean / 2),),
         findings=(Finding(words, words, met=None),),
         notes=(words,),

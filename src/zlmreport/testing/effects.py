@@ -93,7 +93,7 @@ def says_what_to_do(effect: Effect, *_more: Any) -> None:
 @check
 def names_what_it_is_taken_for(effect: Effect, _designs: Designs, beside: Iterable[str] = ()) -> None:
     """Check that each confusion names another effect, once, and the measurement that tells them apart."""
-    known = {effect.identifier, *beside, *find_plugins().identifiers(EFFECT)}
+    known = {effect.identifier, *beside, *find_plugins().list_identifiers(EFFECT)}
     for confusion in effect.confusions:
         where = f"{effect.identifier}: confusions"
         expect(isinstance(confusion, Confusion), f"{where} must hold Confusion(effect, told_apart_by)")

@@ -15,7 +15,7 @@ import numpy as np
 from pydantic import ValidationError
 
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Group
+from zlmreport.evaluation.evaluation import QuantityGroup
 from zlmreport.evaluation.statistics import compute_statistics_of
 from zlmreport.job.types import Options
 from zlmreport.measurement.arrays import FloatArray
@@ -107,7 +107,7 @@ def _expect_telling(standard: Standard, options: Options, examples: Sequence[Wor
         f"{where}: where a reversal is wider than the readings scatter they state no value, other than "
         f"zero, of {', '.join(missing)}",
     )
-    if any(quantity.group is Group.RANDOM for quantity in standard.quantities):
+    if any(quantity.group is QuantityGroup.RANDOM for quantity in standard.quantities):
         expect(
             any(scatter > 0 for each in telling for _, scatter in _measure_spreads(each.measurements)),
             f"{where}: in one of them readings must scatter, so that a wrong factor of s shows",

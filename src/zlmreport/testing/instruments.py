@@ -263,31 +263,31 @@ class _Damaging:
         self._sent = 0
 
     def unasked(self, time: float) -> bytes:
-        return self._passed(self._emulator.unasked(time))
+        return self._pass(self._emulator.unasked(time))
 
     def answer(self, data: bytes, time: float) -> bytes:
-        return self._passed(self._emulator.answer(data, time))
+        return self._pass(self._emulator.answer(data, time))
 
-    def _passed(self, sending: bytes) -> bytes:
+    def _pass(self, sending: bytes) -> bytes:
         self._sent += bool(sending)
         is_damaged = sending and self._sent > _SOUND_FIRST and self._sent % 4 == 0
-        return self._damaged(sending) if is_damaged else sending
+        return self._damage(sending) if is_damaged else sending
 
-    def _damaged(self, sending: bytes) -> bytes:
+    def _damage(self, sending: bytes) -> bytes:
         raise NotImplementedError
 
 
 class _CutOff(_Damaging):
     """It loses the second half, as a line does that loses bytes."""
 
-    def _damaged(self, sending: bytes) -> bytes:
+    def _damage(self, sending: bytes) -> bytes:
         return sending[: len(sending) // 2]
 
 
 class _Unreadable(_Damaging):
     """A digit in the middle of the longest number is no digit."""
 
-    def _damaged(self, sending: bytes) -> bytes:
+    def _damage(self, sending: bytes) -> bytes:
         at = _find_middle_digit(sending)
         return sending if at is None else sending[:at] + b"?" + sending[at + 1 :]
 
@@ -295,7 +295,7 @@ class _Unreadable(_Damaging):
 class _WrongDigit(_Damaging):
     """A digit in the middle of the longest number is another."""
 
-    def _damaged(self, sending: bytes) -> bytes:
+    def _damage(self, sending: bytes) -> bytes:
         at = _find_middle_digit(sending)
         return (
             sending

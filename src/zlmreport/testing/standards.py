@@ -10,7 +10,14 @@ import numpy as np
 
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Basis, Evaluation, Finding, Group, PositionQuantity, Quantity
+from zlmreport.evaluation.evaluation import (
+    Basis,
+    Evaluation,
+    Finding,
+    PositionQuantity,
+    Quantity,
+    QuantityGroup,
+)
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
@@ -100,7 +107,10 @@ def quantities_are_worded(standard: Standard, *_more: Any) -> None:
         expect_words(quantity.name, f"{where}: name")
     for parameter in standard.quantities:
         where = f"{standard.identifier}: {parameter.symbol}"
-        expect(isinstance(parameter.group, Group), f"{where}: group must be a Group, not {parameter.group!r}")
+        expect(
+            isinstance(parameter.group, QuantityGroup),
+            f"{where}: group must be a QuantityGroup, not {parameter.group!r}",
+        )
         expect(write_plain(parameter.formula).strip(), f"{where}: formula must be the definition as printed")
         expect_words(parameter.meaning, f"{where}: meaning")
 

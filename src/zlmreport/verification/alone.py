@@ -81,7 +81,7 @@ def verify_alone(
     Raises as `zlmreport.verification.verify.verify` does for the PDF; `InputError` if no plugin makes such
     files here.
     """
-    digest = _digest(content) if made_by not in {"csv", "xlsx"} else ""
+    digest = _find_digest(content) if made_by not in {"csv", "xlsx"} else ""
     beside = path.with_suffix(".pdf")
     found = Verification(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
     if not beside.is_file():
@@ -108,7 +108,7 @@ def verify_alone(
     )
 
 
-def _digest(content: bytes) -> str:
+def _find_digest(content: bytes) -> str:
     """Return the digest that a file states; empty where it states none, or several."""
     found = set(_DIGEST.findall(content.decode("utf-8", "replace")))
     return found.pop() if len(found) == 1 else ""

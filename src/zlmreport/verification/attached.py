@@ -138,17 +138,17 @@ class Layout:
     job: Path  #: The job file.
     names: Mapping[str, str]  #: What each file is called in messages, by where it lies.
 
-    def problems(self, error: ZlmreportError) -> tuple[Problem, ...]:
+    def list_problems(self, error: ZlmreportError) -> tuple[Problem, ...]:
         """Return what went wrong with the files by their own names."""
         return tuple(
             Problem(
                 replace(problem.place, file=self.names.get(problem.place.file, problem.place.file)),
-                self._named(problem.message),
+                self._name_files(problem.message),
             )
             for problem in error.problems
         )
 
-    def _named(self, message: str) -> str:
+    def _name_files(self, message: str) -> str:
         for path, name in self.names.items():
             message = message.replace(path, name)
         return message

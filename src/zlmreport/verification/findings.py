@@ -132,14 +132,16 @@ class Verification:
     @property
     def undecided(self) -> tuple[str, ...]:
         """The parts in which something could not be compared, such as ``("values", "pages")``."""
-        return tuple(name for name, verdicts in self._parts().items() if VerificationVerdict.OPEN in verdicts)
+        return tuple(
+            name for name, verdicts in self._list_parts().items() if VerificationVerdict.OPEN in verdicts
+        )
 
     @property
     def differences(self) -> int:
         """How many statements differ."""
-        return sum(verdicts.count(VerificationVerdict.DIFFERS) for verdicts in self._parts().values())
+        return sum(verdicts.count(VerificationVerdict.DIFFERS) for verdicts in self._list_parts().values())
 
-    def _parts(self) -> dict[str, list[VerificationVerdict]]:
+    def _list_parts(self) -> dict[str, list[VerificationVerdict]]:
         """Return the verdicts of each part; that nobody signed leaves nothing of it open."""
         is_unsigned = self.signature.verdict is VerificationVerdict.OPEN and not self.is_signed
         findings = {"files": self.files, "pages": self.pages, "document": self.document}

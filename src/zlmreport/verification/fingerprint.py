@@ -37,10 +37,10 @@ class Fingerprints:
         self._size = 0
         self._streams: dict[int, bytes] = {}
 
-    def of(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
+    def compute_digest(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
         """Return the digest of an object with all that it leads to, but for what stands under some keys."""
         digest = hashlib.sha256()
-        for each in self._tokens(part, without):
+        for each in self._list_tokens(part, without):
             digest.update(each if type(each) is bytes else f"{each!r};".encode("utf-8", "replace"))
         return digest.hexdigest()
 
@@ -51,10 +51,10 @@ class Fingerprints:
 
         Whole numbers count and name things: they must agree.
         """
-        ours, theirs = self._tokens(part), other._tokens(part_of_other)
+        ours, theirs = self._list_tokens(part), other._list_tokens(part_of_other)
         return all(_is_like(one, two, tolerance) for one, two in zip_longest(ours, theirs, fillvalue=None))
 
-    def _tokens(self, part: PdfObject, without: frozenset[str] = frozenset()) -> Iterator[Any]:
+    def _list_tokens(self, part: PdfObject, without: frozenset[str] = frozenset()) -> Iterator[Any]:
         """Yield what an object is made of, marks as bytes.
 
         The objects are walked without recursion: a foreign file may nest them as deep as it likes.
@@ -76,17 +76,17 @@ class Fingerprints:
                     met[number] = len(met)
                     waiting.append(each.get_object())
             elif isinstance(each, DictionaryObject):
-                waiting.extend(reversed(list(self._entries(each, without))))
+                waiting.extend(reversed(list(self._list_entries(each, without))))
             elif isinstance(each, list):
                 waiting.extend((b"]", *reversed(each), b"["))
             else:
                 yield each
 
-    def _entries(self, dictionary: PdfObject, without: frozenset[str]) -> Iterator[Any]:
+    def _list_entries(self, dictionary: PdfObject, without: frozenset[str]) -> Iterator[Any]:
         """Yield what a dictionary is made of: marks as bytes, and objects."""
         yield b"<<"
         if hasattr(dictionary, "get_data"):
-            yield self._stream(dictionary)
+            yield self._digest_stream(dictionary)
         for key in sorted(dictionary):
             value = dictionary.raw_get(key)
             if key in _EXTENDED_BY_SIGNATURES:
@@ -100,7 +100,7 @@ class Fingerprints:
                 yield value
         yield b">>"
 
-    def _stream(self, stream: PdfObject) -> bytes:
+    def _digest_stream(self, stream: PdfObject) -> bytes:
         """Return the digest of a stream's unpacked bytes."""
         key = id(stream)
         if key not in self._streams:

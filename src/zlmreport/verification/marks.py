@@ -43,13 +43,14 @@ class DrawnMark:
         return (
             self.what == other.what
             and _are_close(self.scale, other.scale, _TOLERANCE_OF_SCALE)
-            and _are_close(self._shape(), other._shape(), TOLERANCE)
+            and _are_close(self._shape, other._shape, TOLERANCE)
         )
 
     def is_where(self, other: DrawnMark) -> bool:
         """Whether both stand at the same place."""
         return _are_close(self.place, other.place, TOLERANCE)
 
+    @property
     def _shape(self) -> tuple[float, ...]:
         return tuple(each - self.place[index % 2] for index, each in enumerate(self.place))
 
@@ -89,17 +90,17 @@ class _Pen:
     text: _Matrix = _UNIT
     marks: list[DrawnMark] = field(default_factory=list)
 
-    def set(self, **changed: Any) -> None:
+    def change_state(self, **changed: Any) -> None:
         self.state = replace(self.state, **changed)
 
-    def resource(self, kind: str, name: Any) -> Any:
+    def find_resource(self, kind: str, name: Any) -> Any:
         entries = self.resources.get(kind)
         found = entries.get_object().raw_get(str(name)) if entries is not None else None
         if found is None:
             raise ForeignError(f"draws by {kind}{name}, which it does not have")
         return found
 
-    def mark(self, *what: Any, scale: tuple[float, ...] = (), place: tuple[float, ...] = ()) -> None:
+    def draw_mark(self, *what: Any, scale: tuple[float, ...] = (), place: tuple[float, ...] = ()) -> None:
         if len(self.marks) >= _MOST_MARKS:
             raise ForeignError("draws more than any page of a certificate")
         self.marks.append(DrawnMark(what, scale, place))
@@ -144,34 +145,34 @@ def _save(pen: _Pen) -> None:
     if len(pen.kept) >= _MOST_STATES:
         raise ForeignError("keeps more states than any certificate")
     pen.kept.append(pen.state)
-    pen.mark("save")
+    pen.draw_mark("save")
 
 
 def _restore(pen: _Pen) -> None:
     pen.state = pen.kept.pop()
-    pen.mark("restore")
+    pen.draw_mark("restore")
 
 
 def _transform(pen: _Pen, *values: Any) -> None:
-    pen.set(matrix=_multiply(_take_numbers(values), pen.state.matrix))
+    pen.change_state(matrix=_multiply(_take_numbers(values), pen.state.matrix))
 
 
-def _style(name: str) -> Callable[..., None]:
+def _make_style(name: str) -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
         others = tuple(each for each in pen.state.style if each[0] != name)
-        pen.set(style=tuple(sorted((*others, (name, repr(values))))))
+        pen.change_state(style=tuple(sorted((*others, (name, repr(values))))))
 
     return draw
 
 
 def _set_graphics_state(pen: _Pen, name: Any) -> None:
-    pen.set(alpha=pen.digest(pen.resource("/ExtGState", name)))
+    pen.change_state(alpha=pen.digest(pen.find_resource("/ExtGState", name)))
 
 
 def _set_colour(which: str, space: str = "") -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
         rounded = tuple(round(value, 4) for value in _take_numbers(values))
-        pen.set(**{which: (space or getattr(pen.state, which)[0], rounded)})
+        pen.change_state(**{which: (space or getattr(pen.state, which)[0], rounded)})
 
     return draw
 
@@ -179,8 +180,8 @@ def _set_colour(which: str, space: str = "") -> Callable[..., None]:
 def _set_colour_space(which: str) -> Callable[..., None]:
     def draw(pen: _Pen, name: Any) -> None:
         is_device = name in {"/DeviceGray", "/DeviceRGB"}
-        space = str(name) if is_device else pen.digest(pen.resource("/ColorSpace", name))
-        pen.set(**{which: (space, ())})
+        space = str(name) if is_device else pen.digest(pen.find_resource("/ColorSpace", name))
+        pen.change_state(**{which: (space, ())})
 
     return draw
 
@@ -208,12 +209,12 @@ def _paint(operator: str) -> Callable[..., None]:
         kinds = "".join(kind for kind, _ in pen.path)
         place = tuple(value for _, points in pen.path for value in points)
         if pen.clip:
-            pen.mark("clip", pen.clip, kinds, place=place)
+            pen.draw_mark("clip", pen.clip, kinds, place=place)
         if operator != "n":
             a, b, c, d, *_ = state.matrix
             scale = tuple(state.width * each for each in (a, b, c, d)) if operator in _STROKING else ()
             colours = state.fill if operator != "S" else (), state.stroke if operator in _STROKING else ()
-            pen.mark(
+            pen.draw_mark(
                 operator, kinds, colours, state.alpha, state.style if scale else (), scale=scale, place=place
             )
         pen.path, pen.clip = [], ""
@@ -237,16 +238,16 @@ def _begin_next_line(pen: _Pen, x: Any, y: Any) -> None:
 
 
 def _set_font(pen: _Pen, name: Any, size: Any) -> None:
-    used = pen.resource("/Font", name)
+    used = pen.find_resource("/Font", name)
     digest = pen.digest(used)
     if digest not in pen.known_fonts:
         pen.known_fonts[digest] = read_glyphs(used.get_object())
-    pen.set(font=digest, size=float(size))
+    pen.change_state(font=digest, size=float(size))
 
 
 def _set(which: str) -> Callable[..., None]:
     def draw(pen: _Pen, value: Any) -> None:
-        pen.set(**{which: float(value)})
+        pen.change_state(**{which: float(value)})
 
     return draw
 
@@ -277,22 +278,22 @@ def _show_glyph(pen: _Pen, known: Any) -> None:
     a, b, c, d, e, f = _multiply(
         (state.size, 0.0, 0.0, state.size, 0.0, state.rise), _multiply(pen.text, state.matrix)
     )
-    pen.mark("glyph", text, outline, state.fill, state.alpha, scale=(a, b, c, d), place=(e, f))
+    pen.draw_mark("glyph", text, outline, state.fill, state.alpha, scale=(a, b, c, d), place=(e, f))
     advance = width / 1000 * state.size + state.spacing
     pen.text = _multiply((1.0, 0.0, 0.0, 1.0, advance, 0.0), pen.text)
 
 
 def _place_picture(pen: _Pen, name: Any) -> None:
-    picture = pen.resource("/XObject", name)
+    picture = pen.find_resource("/XObject", name)
     if picture.get_object().get("/Subtype") != "/Image":
         raise ForeignError("draws by a form, as no certificate does")
     a, b, c, d, e, f = pen.state.matrix
-    pen.mark("picture", pen.digest(picture), pen.state.alpha, place=(e, f, a + e, b + f, c + e, d + f))
+    pen.draw_mark("picture", pen.digest(picture), pen.state.alpha, place=(e, f, a + e, b + f, c + e, d + f))
 
 
 def _begin_marked(pen: _Pen, tag: Any, properties: Any = None) -> None:
     entries = properties.items() if isinstance(properties, dict) else [("", repr(properties))]
-    pen.mark("tag", str(tag), tuple(sorted((key, repr(value)) for key, value in entries)))
+    pen.draw_mark("tag", str(tag), tuple(sorted((key, repr(value)) for key, value in entries)))
 
 
 _OPERATORS: dict[bytes, Callable[..., None]] = {
@@ -300,7 +301,7 @@ _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"Q": _restore,
     b"cm": _transform,
     b"w": _set("width"),
-    **{name.encode(): _style(name) for name in "JjMd"},
+    **{name.encode(): _make_style(name) for name in "JjMd"},
     b"gs": _set_graphics_state,
     b"rg": _set_colour("fill", "rgb"),
     b"RG": _set_colour("stroke", "rgb"),
@@ -326,5 +327,5 @@ _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"TJ": _show_all,
     b"Do": _place_picture,
     **dict.fromkeys((b"BMC", b"BDC"), _begin_marked),
-    b"EMC": lambda pen: pen.mark("end of tag"),
+    b"EMC": lambda pen: pen.draw_mark("end of tag"),
 }

@@ -62,7 +62,7 @@ def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> ComparedPage
 
     `is_signed` says whether it may have what belongs to a signature.
     """
-    return guard(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
+    return guard(lambda: _Comparison(Prints(carrier), again).compare(is_signed=is_signed), carrier.place)
 
 
 class _Comparison:
@@ -76,31 +76,31 @@ class _Comparison:
         self._is_drawn_alike = bool(set(self._pages) & set(self._pages_again))
         self._same: dict[tuple[str, str], bool] = {}
 
-    def compared(self, *, is_signed: bool) -> ComparedPages:
+    def compare(self, *, is_signed: bool) -> ComparedPages:
         structure = shape.compare(self._prints.carrier, self._prints_again.traits, is_signed=is_signed)
-        document = (structure, *self._of_document())
-        pages = tuple(self._of_pages())
+        document = (structure, *self._compare_document())
+        pages = tuple(self._compare_pages())
         if all(each.verdict is VerificationVerdict.HOLDS for each in (*pages, *document)):
-            pages = self._seen(pages)
+            pages = self._look_at(pages)
         return ComparedPages(pages, document, self._is_drawn_alike, self._pages == self._pages_again)
 
-    def _seen(self, pages: tuple[CheckedStatement, ...]) -> tuple[CheckedStatement, ...]:
+    def _look_at(self, pages: tuple[CheckedStatement, ...]) -> tuple[CheckedStatement, ...]:
         """Return what is found of pages that are the same on paper, looked at as a viewer shows them."""
         is_alike = list(map(str.__eq__, self._pages, self._pages_again))
         content, again = self._prints.carrier.content, self._prints_again.carrier.content
         differing = raster.compare(content, again, is_alike)
         return tuple(differing.get(number, finding) for number, finding in enumerate(pages))
 
-    def _of_pages(self) -> Iterator[CheckedStatement]:
+    def _compare_pages(self) -> Iterator[CheckedStatement]:
         """Yield a finding for each page; pages that were put in or taken out shift those that follow."""
         matched = SequenceMatcher(None, self._pages, self._pages_again, autojunk=False)
         for kind, first, end, first_again, end_again in matched.get_opcodes():
             common = min(end - first, end_again - first_again)
             for number, number_again in zip(range(first, end), range(first_again, end_again), strict=False):
                 if kind == "equal":
-                    yield self._drawn_with(number, number_again)
+                    yield self._compare_resources(number, number_again)
                 else:
-                    yield self._altered(number, number_again)
+                    yield self._describe_altered(number, number_again)
             for number in range(first + common, end):
                 yield CheckedStatement(
                     _say_page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
@@ -108,10 +108,10 @@ class _Comparison:
             for number in range(first_again + common, end_again):
                 yield CheckedStatement(_say_page(number), VerificationVerdict.DIFFERS, "is missing")
 
-    def _drawn_with(self, number: int, number_again: int) -> CheckedStatement:
+    def _compare_resources(self, number: int, number_again: int) -> CheckedStatement:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
-        used = self._prints.resources(number)
-        again = self._prints_again.resources(number_again)
+        used = self._prints.list_resources(number)
+        again = self._prints_again.list_resources(number_again)
         differing = [
             name
             for name in (*again, *(name for name in used if name[0] == _COLOURS))
@@ -123,7 +123,7 @@ class _Comparison:
         return CheckedStatement.of(_say_page(number), f"its {kinds[0]} differ" if kinds else "")
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
-        digests = self._prints.of(used), self._prints_again.of(again)
+        digests = self._prints.compute_digest(used), self._prints_again.compute_digest(again)
         if digests not in self._same:
             is_font = name[0] == "/Font"
             self._same[digests] = digests[0] == digests[1] or (
@@ -131,14 +131,14 @@ class _Comparison:
                 and show_the_same(
                     used.get_object(),
                     again.get_object(),
-                    self._prints.of,
-                    self._prints_again.of,
+                    self._prints.compute_digest,
+                    self._prints_again.compute_digest,
                     completely=self._pages == self._pages_again,
                 )
             )
         return self._same[digests]
 
-    def _altered(self, number: int, number_again: int) -> CheckedStatement:
+    def _describe_altered(self, number: int, number_again: int) -> CheckedStatement:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
         subject = _say_page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
@@ -146,7 +146,7 @@ class _Comparison:
                 subject, VerificationVerdict.DIFFERS, "its size, its frame or its links differ"
             )
         try:
-            drawn, drawn_again = self._prints.marks(number), self._prints_again.marks(number_again)
+            drawn, drawn_again = self._prints.list_marks(number), self._prints_again.list_marks(number_again)
         except (ForeignError, ValueError, RecursionError) as error:
             return CheckedStatement(
                 subject, VerificationVerdict.DIFFERS, f"is drawn as no certificate is: {error}"
@@ -154,7 +154,7 @@ class _Comparison:
         is_same = len(drawn) == len(drawn_again) and all(map(DrawnMark.is_as, drawn, drawn_again))
         if is_same and all(map(DrawnMark.is_where, drawn, drawn_again)):
             return CheckedStatement(subject, VerificationVerdict.HOLDS)
-        words, words_again = self._prints.words(number), self._prints_again.words(number_again)
+        words, words_again = self._prints.list_words(number), self._prints_again.list_words(number_again)
         differences = list(_find_differences(words, words_again))
         if differences:
             return CheckedStatement(
@@ -170,7 +170,7 @@ class _Comparison:
             subject, VerificationVerdict.DIFFERS, "its words are the same, but it is drawn otherwise"
         )
 
-    def _of_document(self) -> Iterator[CheckedStatement]:
+    def _compare_document(self) -> Iterator[CheckedStatement]:
         """Yield what else a document holds, part by part."""
         stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
@@ -187,7 +187,7 @@ class _Comparison:
         yield from _check_metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
-        if self._prints.of(stated) == self._prints_again.of(again):
+        if self._prints.compute_digest(stated) == self._prints_again.compute_digest(again):
             return True
         return not self._is_drawn_alike and self._prints.is_like(stated, self._prints_again, again)
 
@@ -207,19 +207,22 @@ class Prints:
         pages = {page.indirect_reference.idnum: number for number, page in enumerate(self._reader.pages, 1)}
         self._fingerprints = Fingerprints(pages, carrier.place)
 
-    def of(self, part: Any) -> str:
+    def compute_digest(self, part: Any) -> str:
         """Return the digest of a part; one that has a number of its own is looked at once."""
         number = getattr(part, "idnum", None)
         if number is None:
-            return self._fingerprints.of(part)
+            return self._fingerprints.compute_digest(part)
         if number not in self._known:
-            self._known[number] = self._fingerprints.of(part)
+            self._known[number] = self._fingerprints.compute_digest(part)
         return self._known[number]
 
     @cached_property
     def pages(self) -> list[str]:
         """Return the digest of each page, of its strokes and links without the fonts and pictures it uses."""
-        return [self._fingerprints.of(page, without=frozenset({"/Resources"})) for page in self._reader.pages]
+        return [
+            self._fingerprints.compute_digest(page, without=frozenset({"/Resources"}))
+            for page in self._reader.pages
+        ]
 
     def is_like(self, part: Any, other: Prints, part_of_other: Any) -> bool:
         """Whether two parts are the same but for places on the pages, which other libraries compute."""
@@ -229,7 +232,7 @@ class Prints:
         """Whether two pages are the same but for what they draw, and for the places of their links."""
         page, page_of_other = self._reader.pages[number], other._reader.pages[number_of_other]
         digests = (
-            prints._fingerprints.of(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
+            prints._fingerprints.compute_digest(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
             for prints, each in ((self, page), (other, page_of_other))
         )
         links = [_read_links(each) for each in (page, page_of_other)]
@@ -240,18 +243,18 @@ class Prints:
         """How it is built."""
         return frozenset(shape.list_traits(self.carrier))
 
-    def marks(self, number: int) -> list[DrawnMark]:
+    def list_marks(self, number: int) -> list[DrawnMark]:
         """Return what a page draws."""
         if number not in self._marks:
-            self._marks[number] = list_marks(self._reader.pages[number], self.of, self._fonts)
+            self._marks[number] = list_marks(self._reader.pages[number], self.compute_digest, self._fonts)
         return self._marks[number]
 
-    def words(self, number: int) -> list[str]:
+    def list_words(self, number: int) -> list[str]:
         """Return the words of a page in reading order."""
         text: str = self._reader.pages[number].extract_text()
         return text.split()[:_MOST_WORDS]
 
-    def resources(self, number: int) -> dict[tuple[str, str], Any]:
+    def list_resources(self, number: int) -> dict[tuple[str, str], Any]:
         """Return what a page may draw with, by kind and name."""
         kinds: Any = self._reader.pages[number].get("/Resources", {}).get_object()
         return {

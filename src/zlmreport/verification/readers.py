@@ -144,7 +144,7 @@ def _compute_digests(contents: Iterable[bytes]) -> tuple[str, ...]:
     return tuple(sorted(sha256(each.rstrip(b"\r\n")).hexdigest() for each in contents))
 
 
-def _digest(*parts: object) -> str:
+def _compute_digest(*parts: object) -> str:
     return sha256(repr(parts).encode("utf-8", "backslashreplace")).hexdigest()
 
 
@@ -152,7 +152,7 @@ def _read_by_pypdf(content: bytes) -> Seen:
     from pypdf import PdfReader  # noqa: PLC0415 - slow to load
 
     reader = PdfReader(BytesIO(content))
-    pages = [_digest(page.mediabox, _read_drawn(page)) for page in reader.pages]
+    pages = [_compute_digest(page.mediabox, _read_drawn(page)) for page in reader.pages]
     files = _compute_digests(each for contents in reader.attachments.values() for each in contents)
     return Seen(tuple(pages), files)
 
@@ -170,7 +170,7 @@ def _read_by_pdfium(content: bytes) -> Seen:
         for page in document:
             pixels = page.render(scale=_RESOLUTION / 72).to_numpy()
             text = page.get_textpage().get_text_bounded()
-            pages.append(_digest(page.get_size(), text, sha256(pixels.tobytes()).hexdigest()))
+            pages.append(_compute_digest(page.get_size(), text, sha256(pixels.tobytes()).hexdigest()))
         attached = (document.get_attachment(number) for number in range(document.count_attachments()))
         return Seen(tuple(pages), _compute_digests(bytes(each.get_data()) for each in attached))
 
@@ -189,7 +189,7 @@ def _read_by_qpdf(content: bytes) -> Seen:
             stream_decode_level=pikepdf.StreamDecodeLevel.none,
         )
         whole = sha256(written.getvalue()).hexdigest()
-        pages = tuple(_digest(number, whole) for number in range(len(opened.pages)))
+        pages = tuple(_compute_digest(number, whole) for number in range(len(opened.pages)))
         files = _compute_digests(each.get_file().read_bytes() for each in opened.attachments.values())
         return Seen(pages, files)
 
@@ -213,7 +213,7 @@ def _read_by_mupdf(content: bytes) -> Seen:
 
 def _split_pages(text: bytes) -> tuple[str, ...]:
     *pages, _ = text.split(b"\f")
-    return tuple(_digest(each.split()) for each in pages)
+    return tuple(_compute_digest(each.split()) for each in pages)
 
 
 def _run_program(*command: str) -> bytes:

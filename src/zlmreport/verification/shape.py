@@ -105,7 +105,7 @@ def list_traits(carrier: Carrier) -> Iterator[Trait]:
             value = value.get_object()
         if is_of_signature(value):
             continue
-        yield where, key, _kind(value, key)
+        yield where, key, _find_kind(value, key)
         if not is_met:
             waiting.extend(_list_inside(value, where, key))
             yield from _find_packing(value, key)
@@ -163,7 +163,7 @@ def _has_more(packed: bytes) -> bool:
     return bool(unpacking.unused_data.strip())
 
 
-def _kind(value: Any, key: str) -> str:
+def _find_kind(value: Any, key: str) -> str:
     if isinstance(value, dict):
         return _find_role(value, key)
     if isinstance(value, list):

@@ -95,7 +95,7 @@ def scan(content: bytes, *, is_signed: bool) -> Scanned:
 
     Raises `OddError` at the first byte that no table accounts for, or that is otherwise than a table says.
     """
-    return _Scan(content, is_signed=is_signed).whole()
+    return _Scan(content, is_signed=is_signed).scan()
 
 
 class _Scan:
@@ -108,7 +108,7 @@ class _Scan:
         self._unpacked = 0
         self._begins: list[int] = []
 
-    def whole(self) -> Scanned:
+    def scan(self) -> Scanned:
         header = _HEADER.match(self._content)
         if header is None:
             raise OddError("it does not begin with the header of a PDF alone")
@@ -118,14 +118,14 @@ class _Scan:
             revisions += 1
             if revisions > self._most_revisions:
                 raise OddError("something is appended that no signature brings")
-            table = self._revision(at, before)
+            table = self._read_revision(at, before)
             at, trailer, before = table.end, table.trailer, table.start
         if not revisions:
             raise OddError("it holds no table of its objects")
         self._look_for_others()
         return Scanned(self._known, trailer)
 
-    def _revision(self, at: int, before: int | None) -> _Table:
+    def _read_revision(self, at: int, before: int | None) -> _Table:
         """Read the objects of a revision and its table; `before` is where the table before it begins."""
         content, found = self._content, list[Indirect]()
         at = skip_space(content, at)
@@ -135,12 +135,12 @@ class _Scan:
                 raise OddError("it holds more objects than any certificate")
             at = skip_space(content, found[-1].end)
         begun = _BEGIN.match(content, at)
-        table = self._plain(begun.end(), at) if begun else self._of_stream(found, at)
+        table = self._read_plain_table(begun.end(), at) if begun else self._read_table_of_stream(found, at)
         self._begins += [each.start for each in found]
-        self._agree(found, table, before)
+        self._hold_against_objects(found, table, before)
         return table
 
-    def _plain(self, at: int, start: int) -> _Table:
+    def _read_plain_table(self, at: int, start: int) -> _Table:
         content, entries = self._content, dict[int, TableEntry]()
         while section := _SECTION.match(content, at):
             first, count = int(section[1]), int(section[2])
@@ -162,28 +162,28 @@ class _Scan:
         trailer, at = read_value(content, begun.end())
         if not isinstance(trailer, dict) or b"XRefStm" in trailer:
             raise OddError("it has a second table beside the first")
-        return _Table(entries, trailer, start, self._end(at, start))
+        return _Table(entries, trailer, start, self._find_end(at, start))
 
-    def _of_stream(self, found: list[Indirect], at: int) -> _Table:
+    def _read_table_of_stream(self, found: list[Indirect], at: int) -> _Table:
         last = found[-1] if found else None
         value = last.value if last else None
         if last is None or not isinstance(value, dict) or value.get(b"Type") != PdfName(b"XRef"):
             raise OddError(f"what stands at byte {at} is no object and no table")
-        entries = _unpack_entries(value, self._data(last))
-        return _Table(entries, value, last.start, self._end(at, last.start))
+        entries = _unpack_entries(value, self._unpack(last))
+        return _Table(entries, value, last.start, self._find_end(at, last.start))
 
-    def _end(self, at: int, start: int) -> int:
+    def _find_end(self, at: int, start: int) -> int:
         """Return where a revision ends, behind the words that lead to its table."""
         end = _END.match(self._content, skip_space(self._content, at))
         if end is None or int(end[1]) != start:
             raise OddError("its end does not lead to its table")
         return end.end()
 
-    def _agree(self, found: list[Indirect], table: _Table, before: int | None) -> None:
+    def _hold_against_objects(self, found: list[Indirect], table: _Table, before: int | None) -> None:
         """Hold a table against the objects that stand before it; know them from now on."""
         if table.trailer.get(b"Prev") != before:
             raise OddError("its table leads to another one")
-        values, places = self._values(found, table)
+        values, places = self._list_values(found, table)
         for number, entry in table.entries.items():
             if entry.kind == _FREE:
                 if number in values or (number and number in self._known):
@@ -194,9 +194,11 @@ class _Scan:
         if unlisted := places.keys() - own - {n for n, entry in table.entries.items() if entry.kind}:
             raise OddError(f"object {min(unlisted)} stands in no table")
         self._known |= values
-        self._is_counted(table, before)
+        self._check_count(table, before)
 
-    def _values(self, found: list[Indirect], table: _Table) -> tuple[dict[int, Value], dict[int, TableEntry]]:
+    def _list_values(
+        self, found: list[Indirect], table: _Table
+    ) -> tuple[dict[int, Value], dict[int, TableEntry]]:
         """Return the objects of a revision by number, those packed in others too, and where each stands."""
         values, places = dict[int, Value](), dict[int, TableEntry]()
 
@@ -213,11 +215,11 @@ class _Scan:
             know(each.number, each.value, TableEntry(_PLAIN, each.start, 0))
         for each in found:
             if _has_type(each, b"ObjStm"):
-                for index, (number, value) in enumerate(self._inside(each)):
+                for index, (number, value) in enumerate(self._list_packed(each)):
                     know(number, value, TableEntry(_PACKED, each.number, index))
         return values, places
 
-    def _is_counted(self, table: _Table, before: int | None) -> None:
+    def _check_count(self, table: _Table, before: int | None) -> None:
         """Hold the stated number of objects against the numbers that there are, without any gap at first."""
         size = table.trailer.get(b"Size")
         numbers = {*self._known, *table.entries}
@@ -226,9 +228,9 @@ class _Scan:
         if before is None and set(range(size)) - table.entries.keys() - {max(numbers)}:
             raise OddError("its table leaves numbers out")
 
-    def _inside(self, holder: Indirect) -> Iterator[tuple[int, Value]]:
+    def _list_packed(self, holder: Indirect) -> Iterator[tuple[int, Value]]:
         """Yield the objects that are packed in another one, which must fill it."""
-        entries, data = holder.value, self._data(holder)
+        entries, data = holder.value, self._unpack(holder)
         assert isinstance(entries, dict)  # noqa: S101 - it has a type
         count, first = entries.get(b"N"), entries.get(b"First")
         odd = OddError(f"the objects that are packed in object {holder.number} are not as it states")
@@ -249,7 +251,7 @@ class _Scan:
         if skip_space(data, end) != len(data):
             raise odd
 
-    def _data(self, holder: Indirect) -> bytes:
+    def _unpack(self, holder: Indirect) -> bytes:
         """Return the unpacked data of a table or of packed objects."""
         entries = holder.value
         assert isinstance(entries, dict)  # noqa: S101 - only such an object has data

@@ -64,7 +64,7 @@ def _pair_items(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str,
     """Pair the items of two lists: in their order, or by their names if the lists are not equally long."""
     if len(stated) == len(recomputed):
         for number, (one, other) in enumerate(zip(stated, recomputed, strict=True), 1):
-            yield _name(other, number), one, other
+            yield _name_item(other, number), one, other
         return
     left, right = _key_by_name(stated), _key_by_name(recomputed)
     for name in dict.fromkeys((*left, *right)):
@@ -74,12 +74,12 @@ def _pair_items(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str,
 def _key_by_name(items: list[Any]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for number, item in enumerate(items, 1):
-        name = _name(item, number)
+        name = _name_item(item, number)
         found[f"{name} ({number})" if name in found else name] = item
     return found
 
 
-def _name(item: Any, number: int) -> str:
+def _name_item(item: Any, number: int) -> str:
     keys = item if isinstance(item, dict) else {}
     if {"measurement", "standard"} <= keys.keys():  # of one document of several measurements
         return f"{keys['measurement']} {keys['standard']}"
@@ -100,7 +100,7 @@ def _walk_leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, 
             yield from _walk_leaves(child, (*path, key))
     elif isinstance(node, list):
         for number, child in enumerate(node, 1):
-            yield from _walk_leaves(child, (*path, _name(child, number)))
+            yield from _walk_leaves(child, (*path, _name_item(child, number)))
     elif node is not None:
         yield path, node
 

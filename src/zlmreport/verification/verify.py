@@ -159,7 +159,7 @@ def verify(
             again = make_again(layout.job, carrier, stated.results, registry)
         except Exception as error:  # what anyone sent may break anything that it is handed to
             ended = error if isinstance(error, ZlmreportError) else _make_unforeseen(carrier.place, error)
-            problems = layout.problems(ended)
+            problems = layout.list_problems(ended)
             compared = attached.compare(sources, carrier.carried, None)
             if all(finding.verdict is not VerificationVerdict.DIFFERS for finding in compared):
                 raise type(ended)(problems) from error

@@ -46,10 +46,10 @@ class FileBench(Protocol):
     def path(self) -> Path:
         """The file."""
 
-    def stamp(self) -> str:
+    def make_stamp(self) -> str:
         """Return the name of the state of all files behind it."""
 
-    def loaded(self) -> LoadedFile:
+    def load(self) -> LoadedFile:
         """Return the file as it is now."""
 
 
@@ -63,7 +63,7 @@ class FileCommands(Protocol):
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
         """Begin to make something, and return how far it is."""
 
-    def file(self, name: str) -> Path | None:
+    def find_file(self, name: str) -> Path | None:
         """Return where a file lies that was made."""
 
     def end(self) -> None:
@@ -80,19 +80,19 @@ class PageAnswers:
     diagnoses: Diagnoses
     commands: FileCommands
 
-    def viewed(self, language: Language) -> dict[str, Any]:
+    def view(self, language: Language) -> dict[str, Any]:
         """Return all that the page shows at once."""
         raise NotImplementedError
 
-    def changed(self, wanted: Request) -> None:
+    def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         raise NotImplementedError
 
-    def told(self, state: dict[str, Any], language: Language) -> dict[str, Any]:  # noqa: ARG002 - as it is
+    def describe_making(self, state: dict[str, Any], language: Language) -> dict[str, Any]:  # noqa: ARG002 - as it is
         """Return how far something is that is being made, as the page shows it."""
         return state
 
-    def page_texts(self, language: Language) -> dict[str, str]:
+    def list_page_texts(self, language: Language) -> dict[str, str]:
         """Return the words of the page."""
         return collect_texts(language)
 
@@ -105,70 +105,72 @@ class PageAnswers:
         self.diagnoses.end()
         self.commands.end()
 
-    def routes(self) -> list[Route]:
+    def list_routes(self) -> list[Route]:
         """Return the addresses that all pages have."""
         return [
-            Route("/", self.page),
+            Route("/", self.answer_page),
             Route("/files/{name}", answer_with_file),
-            Route("/documents/{name}", self.document),
-            Route("/documents/{name}/{page:int}.png", self.picture),
-            Route("/api/texts", self.texts),
-            Route("/api/job", self.job),
-            Route("/api/diagnosis", self.diagnosis),
-            Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
+            Route("/documents/{name}", self.answer_document),
+            Route("/documents/{name}/{page:int}.png", self.answer_picture),
+            Route("/api/texts", self.answer_texts),
+            Route("/api/job", self.answer_job),
+            Route("/api/diagnosis", self.answer_diagnosis),
+            Route("/api/diagnosis/stop", self.stop_diagnosis, methods=["POST"]),
             Route("/api/change", self.change, methods=["POST"]),
-            Route("/api/made/{name}", self.made),
+            Route("/api/made/{name}", self.answer_making),
             Route("/api/made/{name}/stop", self.stop_making, methods=["POST"]),
             Route("/api/made/{name}", self.make, methods=["POST"]),
         ]
 
-    async def page(self, request: HttpRequest) -> Response:
+    async def answer_page(self, request: HttpRequest) -> Response:
         """Answer with the page of the file, or of a part of it; it fills itself."""
-        return answer_with_shell(await run_in_threadpool(self.language, request), self.bench.path.name)
+        return answer_with_shell(await run_in_threadpool(self.choose_language, request), self.bench.path.name)
 
-    async def document(self, request: HttpRequest) -> Response:
+    async def answer_document(self, request: HttpRequest) -> Response:
         """Answer with a file that was made from the page, by its name."""
-        path = self.commands.file(request.path_params["name"])
+        path = self.commands.find_file(request.path_params["name"])
         return Response(status_code=404) if path is None else FileResponse(path, filename=path.name)
 
-    async def picture(self, request: HttpRequest) -> Response:
+    async def answer_picture(self, request: HttpRequest) -> Response:
         """Answer with a page of a PDF that was made from the page, as a picture."""
-        path = self.commands.file(request.path_params["name"])
+        path = self.commands.find_file(request.path_params["name"])
         if path is None or path.suffix != ".pdf":
             return Response(status_code=404)
         found = await run_in_threadpool(draw_page, path, request.path_params["page"])
         return Response(status_code=404) if found is None else Response(found, media_type="image/png")
 
-    async def texts(self, request: HttpRequest) -> Response:
+    async def answer_texts(self, request: HttpRequest) -> Response:
         """Answer with the words of the page."""
-        return JSONResponse(self.page_texts(await run_in_threadpool(self.language, request)))
+        return JSONResponse(self.list_page_texts(await run_in_threadpool(self.choose_language, request)))
 
-    async def job(self, request: HttpRequest) -> Response:
+    async def answer_job(self, request: HttpRequest) -> Response:
         """Answer with the file as values."""
-        return await self.answered(request, lambda: self.viewed(self.language(request)))
+        return await self.answer(request, lambda: self.view(self.choose_language(request)))
 
-    async def diagnosis(self, request: HttpRequest) -> Response:
+    async def answer_diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the file, or with the seconds for which it has been under way."""
 
         def found() -> dict[str, Any]:
-            answer = self.diagnoses.of(self.bench.loaded().content)
+            answer = self.diagnoses.find(self.bench.load().content)
             if "diagnosis" in answer:
-                return {**answer, "diagnosis": answer["diagnosis"][self.language(request).value]}
+                return {**answer, "diagnosis": answer["diagnosis"][self.choose_language(request).value]}
             return answer
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def stop(self, _: HttpRequest) -> Response:
+    async def stop_diagnosis(self, _: HttpRequest) -> Response:
         """Let go of the diagnosis that is under way."""
         await run_in_threadpool(self.diagnoses.stop)
         return JSONResponse({})
 
-    async def made(self, request: HttpRequest) -> Response:
+    async def answer_making(self, request: HttpRequest) -> Response:
         """Answer with how far something is that is being made."""
         making = self.commands.making.get(request.path_params["name"])
         if making is None:
             return Response(status_code=404)
-        return await self.answered(request, lambda: self.told(making.state(), self.language(request)))
+        return await self.answer(
+            request, lambda: self.describe_making(making.describe_state(), self.choose_language(request))
+        )
 
     async def stop_making(self, request: HttpRequest) -> Response:
         """End what is being made."""
@@ -187,7 +189,7 @@ class PageAnswers:
             wanted = Wanted.model_validate_json(await request.body())
         except ValidationError:
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
-        return await self.answered(request, lambda: self.commands.begin(name, wanted))
+        return await self.answer(request, lambda: self.commands.begin(name, wanted))
 
     async def change(self, request: HttpRequest) -> Response:
         """Do what a click asks for, and answer with the file as it is then."""
@@ -197,29 +199,29 @@ class PageAnswers:
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
         def changed() -> dict[str, Any]:
-            self.changed(wanted)
-            return self.viewed(self.language(request))
+            self.carry_out(wanted)
+            return self.view(self.choose_language(request))
 
-        return await self.answered(request, changed)
+        return await self.answer(request, changed)
 
-    async def answered(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
+    async def answer(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
         """Answer with what some work comes to, or with what stands against it."""
         try:
             return JSONResponse(await run_in_threadpool(work))
         except (ConflictError, NothingToUndoError) as error:
-            language = await run_in_threadpool(self.language, request)
+            language = await run_in_threadpool(self.choose_language, request)
             return JSONResponse({"problems": [error.words.in_language(language)]}, 409)
         except ZlmreportError as error:
             problems = [str(each) for each in error.problems]
-            return JSONResponse({"problems": problems, "stamp": self.bench.stamp()}, 422)
+            return JSONResponse({"problems": problems, "stamp": self.bench.make_stamp()}, 422)
 
-    def language(self, request: HttpRequest) -> Language:
+    def choose_language(self, request: HttpRequest) -> Language:
         """Return the language of the page: that of its address, of the browser, or else of the file."""
         asked = find_language_of(request)
         if asked is not None:
             return asked
         try:
-            return self.bench.loaded().language
+            return self.bench.load().language
         except ZlmreportError:
             return Language.ENGLISH
 

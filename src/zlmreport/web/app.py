@@ -50,14 +50,14 @@ class Workbench(PageAnswers):
     def of(cls, jobs: Sequence[Path], registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
         """Return the answers for a job, the first, beside other tests of its axis.
 
-        Raises `InputError` or `AccessError` as `Bench.loaded`; or if a job is no test of the axis of the
+        Raises `InputError` or `AccessError` as `Bench.load`; or if a job is no test of the axis of the
         first.
         """
         job, *others = jobs
         bench = Bench(job, registry)
         if not others and CapturePage.of(bench, plugins).is_awaited():
             return cls.on(job, registry, plugins)
-        bench.loaded()
+        bench.load()
         comparison = ComparedTests.of(bench, [Bench(each, registry) for each in others])
         diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
         return cls(bench, comparison, diagnoses, Commands.of(bench, plugins), CapturePage.of(bench, plugins))
@@ -75,70 +75,72 @@ class Workbench(PageAnswers):
         PageAnswers.end(self)
         self.capture.process.end()
 
-    def app(self, door: Door) -> DoorKeeper:
+    def make_app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
-        return DoorKeeper(self.routed(), door)
+        return DoorKeeper(self.make_unguarded_app(), door)
 
-    def routed(self) -> Starlette:
+    def make_unguarded_app(self) -> Starlette:
         """Return the application, without a guard: behind one of its own, or that of a folder."""
         own = [
-            Route("/effects/{effect}", self.page),
-            Route("/api/stamp", self.stamp),
-            Route("/api/results", self.results),
-            Route("/api/step", self.step),
-            Route("/api/closer", self.closer),
-            Route("/api/tests", self.tests),
-            Route("/api/effects/{effect}", self.effect),
-            Route("/api/folded", self.folded),
-            Route("/api/capture", self.capturing),
-            Route("/api/capture", self.captured, methods=["POST"]),
+            Route("/effects/{effect}", self.answer_page),
+            Route("/api/stamp", self.answer_stamp),
+            Route("/api/results", self.answer_results),
+            Route("/api/step", self.answer_step),
+            Route("/api/closer", self.answer_closer),
+            Route("/api/tests", self.answer_tests),
+            Route("/api/effects/{effect}", self.answer_effect),
+            Route("/api/folded", self.answer_folded),
+            Route("/api/capture", self.answer_capture),
+            Route("/api/capture", self.change_capture, methods=["POST"]),
         ]
-        return Starlette(routes=[*self.routes(), *own])
+        return Starlette(routes=[*self.list_routes(), *own])
 
-    def viewed(self, language: Language) -> dict[str, Any]:
+    def view(self, language: Language) -> dict[str, Any]:
         """Return the page of the job."""
-        return make_view(self.bench, self.bench.loaded(), language)
+        return make_view(self.bench, self.bench.load(), language)
 
-    def changed(self, wanted: Request) -> None:
+    def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         change(self.bench, wanted)
 
-    def told(self, state: dict[str, Any], language: Language) -> dict[str, Any]:
+    def describe_making(self, state: dict[str, Any], language: Language) -> dict[str, Any]:
         """Return how far something is that is being made, a build with its staircase."""
         bench = self.bench
-        return add_stairs(state, bench.loaded().job, bench.registry, language)
+        return add_stairs(state, bench.load().job, bench.registry, language)
 
-    async def stamp(self, _: HttpRequest) -> Response:
+    async def answer_stamp(self, _: HttpRequest) -> Response:
         """Answer with the state of all files: a page that shows another one asks for what follows anew."""
-        stamps = await run_in_threadpool(lambda: (self.bench.stamp(), self.comparison.stamp()))
+        stamps = await run_in_threadpool(lambda: (self.bench.make_stamp(), self.comparison.make_stamp()))
         return JSONResponse(dict(zip(("stamp", "tests"), stamps, strict=True)))
 
-    async def results(self, request: HttpRequest) -> Response:
+    async def answer_results(self, request: HttpRequest) -> Response:
         """Answer with the fall of the error and what the standards say."""
-        return await self.answered(
-            request, lambda: make_results(self.bench, self.bench.loaded(), self.language(request))
+        return await self.answer(
+            request, lambda: make_results(self.bench, self.bench.load(), self.choose_language(request))
         )
 
-    async def step(self, request: HttpRequest) -> Response:
+    async def answer_step(self, request: HttpRequest) -> Response:
         """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
 
         def found() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
-            return collect_before_and_after(self.bench, self.bench.loaded(), wanted, self.language(request))
+            return collect_before_and_after(
+                self.bench, self.bench.load(), wanted, self.choose_language(request)
+            )
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def folded(self, request: HttpRequest) -> Response:
+    async def answer_folded(self, request: HttpRequest) -> Response:
         """Answer with an effect that repeats, on one period; with nothing for any other effect."""
 
         def found() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
-            wave = fold(self.bench, self.bench.loaded(), wanted, self.language(request))
+            wave = fold(self.bench, self.bench.load(), wanted, self.choose_language(request))
             return {"wave": wave}
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def closer(self, request: HttpRequest) -> Response:
+    async def answer_closer(self, request: HttpRequest) -> Response:
         """Answer with the curves of the model on the part of the travel that a page shows."""
 
         def found() -> dict[str, Any]:
@@ -146,31 +148,31 @@ class Workbench(PageAnswers):
                 ends = float(request.query_params["low"]), float(request.query_params["high"])
             except (KeyError, ValueError) as error:
                 raise InputError.at(PLACE, OTHER_PAGE) from error
-            return collect_closer(self.bench, self.bench.loaded(), ends)
+            return collect_closer(self.bench, self.bench.load(), ends)
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def tests(self, request: HttpRequest) -> Response:
+    async def answer_tests(self, request: HttpRequest) -> Response:
         """Answer with the other tests of the axis beside that of the job."""
-        return await self.answered(request, lambda: self.comparison.values(self.language(request)))
+        return await self.answer(request, lambda: self.comparison.list_values(self.choose_language(request)))
 
-    async def effect(self, request: HttpRequest) -> Response:
+    async def answer_effect(self, request: HttpRequest) -> Response:
         """Answer with what there is to say of an effect."""
 
         def found() -> dict[str, Any]:
             effect = request.path_params["effect"]
-            values = make_effect_page(self.bench, self.bench.loaded(), effect, self.language(request))
+            values = make_effect_page(self.bench, self.bench.load(), effect, self.choose_language(request))
             if values is None:
                 raise InputError.at(PLACE, f"there is no effect {effect[:60]!r}")
             return values
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def capturing(self, request: HttpRequest) -> Response:
+    async def answer_capture(self, request: HttpRequest) -> Response:
         """Answer with how far the capture of the readings is."""
-        return await self.answered(request, lambda: self.capture.values(self.language(request)))
+        return await self.answer(request, lambda: self.capture.list_values(self.choose_language(request)))
 
-    async def captured(self, request: HttpRequest) -> Response:
+    async def change_capture(self, request: HttpRequest) -> Response:
         """Do what a click on the page of a capture asks for, and answer with how far it is then."""
         try:
             wanted = CaptureRequest.model_validate_json(await request.body())
@@ -178,16 +180,16 @@ class Workbench(PageAnswers):
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
         def done() -> dict[str, Any]:
-            self.capture.do(wanted)
-            return self.capture.values(self.language(request))
+            self.capture.carry_out(wanted)
+            return self.capture.list_values(self.choose_language(request))
 
-        return await self.answered(request, done)
+        return await self.answer(request, done)
 
 
 class Served(Protocol):
     """What can be served: the page of a job, or that of a folder."""
 
-    def app(self, door: Door) -> DoorKeeper:
+    def make_app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
 
     def warm_up(self) -> None:
@@ -206,7 +208,7 @@ def serve(workbench: Served, port: int, ready: Callable[[str], None], *, open_br
         with _listen(port) as listener:
             door = Door.at(listener.getsockname()[1])
             server = uvicorn.Server(
-                uvicorn.Config(workbench.app(door), log_level="warning", access_log=False)
+                uvicorn.Config(workbench.make_app(door), log_level="warning", access_log=False)
             )
             workbench.warm_up()
             ready(door.address)  # the socket listens already: who comes early waits

@@ -87,23 +87,23 @@ class Bench:
     _watched: tuple[Path, ...] = ()
     _fits: OrderedDict[tuple[object, ...], Future[Fitted]] = field(default_factory=OrderedDict)
 
-    def stamp(self) -> str:
+    def make_stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading the job."""
         return make_stamp_of([self.path, *self._watched])
 
-    def loaded(self) -> Loaded:
+    def load(self) -> Loaded:
         """Return the job as it stands in its files now.
 
         Raises `InputError` or `AccessError` as from the main job: with every mistake that somebody has
         written into the files.
         """
         with self.lock:
-            if self._loaded is not None and self._loaded.stamp == self.stamp():
+            if self._loaded is not None and self._loaded.stamp == self.make_stamp():
                 return self._loaded
             self._loaded = None
             try:
                 job = load(self.path, self.registry)
-                found = self.tried(job)
+                found = self.try_job(job)
             except ZlmreportError as error:
                 # Which of them will be mended nobody knows: those of before, and those that are named.
                 named = (Path(each.place.file) for each in error.problems)
@@ -111,10 +111,10 @@ class Bench:
                 raise
             files = (*job.files, *_list_files(found.measurements, *found.study.sessions))
             self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
-            self._loaded = replace(found, stamp=self.stamp())
+            self._loaded = replace(found, stamp=self.make_stamp())
             return self._loaded
 
-    def tried(self, job: Job) -> Loaded:
+    def try_job(self, job: Job) -> Loaded:
         """Return a job with its readings, whether or not it is written already."""
         with self.lock:
             readings = self._read(job)
@@ -122,7 +122,7 @@ class Bench:
             study = Study.of(job, readings.measurements, self.registry.effects, sessions)
             return Loaded(job, study, readings.basis)
 
-    def evaluated(self, loaded: Loaded) -> tuple[Evaluated, ...]:
+    def evaluate(self, loaded: Loaded) -> tuple[Evaluated, ...]:
         """Return what the standards of a job say of its readings; the lock is free meanwhile."""
         known = self._readings
         if known is not None and known.basis == loaded.basis and known.evaluated is not None:
@@ -132,20 +132,20 @@ class Bench:
             known.evaluated = found
         return found
 
-    def whole(self, loaded: Loaded) -> Fitted:
+    def fit_whole(self, loaded: Loaded) -> Fitted:
         """Return the fit of the whole model."""
-        return self._fitted(loaded.basis, loaded.study, loaded.job.effects)
+        return self._fit(loaded.basis, loaded.study, loaded.job.effects)
 
-    def history(self, loaded: Loaded) -> tuple[Fitted, ...]:
+    def fit_history(self, loaded: Loaded) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …: each is made only once."""
         terms = loaded.study.model.terms
         effects = loaded.job.effects
         return tuple(
-            self._fitted(loaded.basis, replace(loaded.study, model=AxisModel(terms[:count])), effects[:count])
+            self._fit(loaded.basis, replace(loaded.study, model=AxisModel(terms[:count])), effects[:count])
             for count in range(len(terms) + 1)
         )
 
-    def with_effect(self, loaded: Loaded, text: str) -> Fitted:
+    def fit_with_effect(self, loaded: Loaded, text: str) -> Fitted:
         """Return the fit of the model with an effect that a person names, in place of what that contains.
 
         Raises `InputError` if there is no such effect, or it cannot be fitted to these readings.
@@ -157,7 +157,7 @@ class Bench:
         by_identifier = {each.identifier: each for each in installed}
         terms = choose_terms(effects, by_identifier.__getitem__, job.axis.kind)
         model = add_zeros(AxisModel(terms), loaded.study.together.design)
-        return self._fitted(loaded.basis, replace(loaded.study, model=model), effects)
+        return self._fit(loaded.basis, replace(loaded.study, model=model), effects)
 
     def _read(self, job: Job) -> _Readings:
         """Return the readings: as before, if only the model has changed; read, if more than exclusions has.
@@ -175,7 +175,7 @@ class Bench:
             self._readings = before = _Readings(_write_basis(job, measurements), measurements)
         return before
 
-    def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
+    def _fit(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
         """Return a fit, made once; the lock is free meanwhile: a click waits for no step of the model."""
         key = (
             basis,

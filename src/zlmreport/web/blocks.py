@@ -43,9 +43,13 @@ def collect_blocks(blocks: Iterable[Block], names: Naming) -> list[dict[str, Any
 def _make_block(block: Block, names: Naming) -> dict[str, Any]:
     match block:
         case Paragraph(text, mark):
-            return {"kind": "paragraph", "text": names.text(text), "mark": mark.name.lower() if mark else ""}
+            return {
+                "kind": "paragraph",
+                "text": names.name_in(text),
+                "mark": mark.name.lower() if mark else "",
+            }
         case Notice(heading, items):
-            said = [names.text(each) for each in items]
+            said = [names.name_in(each) for each in items]
             return {"kind": "notice", "heading": heading, "items": said}
         case Facts(pairs):
             return {"kind": "facts", "pairs": [list(each) for each in pairs]}
@@ -69,7 +73,7 @@ def _make_table(table: Table, names: Naming) -> dict[str, Any]:
     shown = [number for number in range(len(table.columns)) if any(row[number] != "" for row in rows)]
     return {
         "kind": "table",
-        "caption": names.text(table.caption),
+        "caption": names.name_in(table.caption),
         "columns": [
             {
                 "heading": _make_cell(column.heading, names),
@@ -91,7 +95,7 @@ def _make_cell(cell: Cell, names: Naming) -> dict[str, Any]:
         case Explained(name, meaning):
             return {"text": name, "meaning": meaning}
         case _:
-            return {"text": names.text(cell)}
+            return {"text": names.name_in(cell)}
 
 
 def _make_drawing(element: ET.Element) -> list[Any]:

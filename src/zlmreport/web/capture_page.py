@@ -52,31 +52,31 @@ class CapturePage:
     def is_awaited(self) -> bool:
         """Tell whether the readings of the job come from a live instrument, and are not all there."""
         try:
-            found = self._assigned()
+            found = self._find_assignment()
         except ZlmreportError:
             return False  # what is wrong with the job is said where it is read
         return found is not None and not _find_progress(found[1], _read_history(found[1])).is_over
 
-    def do(self, request: CaptureRequest) -> None:
+    def carry_out(self, request: CaptureRequest) -> None:
         """Do what a click asks for.
 
         Raises `InputError` if the job is not captured live, or there is nothing of that kind to do.
         """
-        found = self._assigned()
+        found = self._find_assignment()
         if found is None:
             raise InputError.at(PLACE, "the readings of this job are not captured from a live instrument")
         history = _read_history(found[1])
-        self.process.do(request, has_begun=history is not None and history.has_readings)
+        self.process.carry_out(request, has_begun=history is not None and history.has_readings)
 
-    def values(self, language: Language) -> dict[str, Any]:
+    def list_values(self, language: Language) -> dict[str, Any]:
         """Return what the page shows; only that nothing is captured, where the job names no instrument."""
-        found = self._assigned()
+        found = self._find_assignment()
         if found is None:
             return {"isCaptured": False}
         job, assignment = found
-        history, state = _read_history(assignment), self.process.state()
+        history, state = _read_history(assignment), self.process.describe_state()
         progress, writer = _find_progress(assignment, history), AxisWriter(job.axis, language)
-        rest = assignment.remaining_time(progress.taken)
+        rest = assignment.estimate_remaining_time(progress.taken)
         return {
             "isCaptured": True,
             "isOver": progress.is_over and not state["runs"],
@@ -86,7 +86,7 @@ class CapturePage:
             "subject": job.axis.subject.in_language(language),
             "file": self.path.name,
             "journal": assignment.options.journal.name,
-            "visits": list(_rows(progress, history, writer)),
+            "visits": list(_list_rows(progress, history, writer)),
             "next": None if progress.is_over else progress.next.number,
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
@@ -99,9 +99,9 @@ class CapturePage:
             "problems": state["problems"],
         }
 
-    def _assigned(self) -> tuple[Job, Assignment] | None:
+    def _find_assignment(self) -> tuple[Job, Assignment] | None:
         """Return the job and what it asks to be captured; None if it names no live instrument."""
-        stamp = Bench(self.path, self.registry).stamp()
+        stamp = Bench(self.path, self.registry).make_stamp()
         if self._known is None or self._known[0] != stamp:
             job = load(self.path, self.registry)
             if find_options_of(job) is None or job.source.instrument is None:
@@ -120,7 +120,7 @@ def _find_progress(assignment: Assignment, history: History | None) -> Progress:
     return history.progress if history else Progress.begin(assignment.visits, assignment.datum)
 
 
-def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> Iterator[dict[str, Any]]:
+def _list_rows(progress: Progress, history: History | None, writer: AxisWriter) -> Iterator[dict[str, Any]]:
     """Yield the visits in their order, each with the reading that counts."""
     events = [each.event for each in history.entries] if history else []
     read = {each.visit.number: each for each in events if isinstance(each, Recorded)}
@@ -131,14 +131,14 @@ def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> It
             "number": number,
             "run": visit.run,
             "arrow": visit.approach.arrow,
-            "target": writer.position(visit.position),
-            "deviation": writer.deviation(reading.deviation) if reading else "",
-            "range": writer.fine(reading.mean.range) if reading else "",
-            "state": _state(number, progress, is_read=reading is not None),
+            "target": writer.write_position(visit.position),
+            "deviation": writer.write_deviation(reading.deviation) if reading else "",
+            "range": writer.write_small_length(reading.mean.range) if reading else "",
+            "state": _describe_state(number, progress, is_read=reading is not None),
         }
 
 
-def _state(number: int, progress: Progress, *, is_read: bool) -> str:
+def _describe_state(number: int, progress: Progress, *, is_read: bool) -> str:
     if not progress.is_over and number == progress.next.number:
         return "next"
     if is_read:
@@ -158,10 +158,10 @@ def _show_moment(
     away = None if position is None else position - progress.next.position
     is_near = away is not None and abs(away) <= assignment.settings.tolerance
     return {
-        "position": None if position is None else writer.position(position, 4),
-        "deviation": writer.deviation(away) if away is not None and is_near else None,
-        "toGo": writer.position(-away) if away is not None and not is_near else None,
-        "range": None if now["range"] is None else writer.fine(now["range"]),
+        "position": None if position is None else writer.write_position(position, 4),
+        "deviation": writer.write_deviation(away) if away is not None and is_near else None,
+        "toGo": writer.write_position(-away) if away is not None and not is_near else None,
+        "range": None if now["range"] is None else writer.write_small_length(now["range"]),
         "still": min(1.0, now["still"] / assignment.settings.still),
         "message": now["message"],
     }
@@ -190,7 +190,7 @@ def _show_question(asked: Record | None, progress: Progress, writer: AxisWriter)
         "message": _write_sentence(say_halted(event, writer)),
         "steps": []
         if is_question
-        else list(map(_write_sentence, list_what_to_do(progress.after(Resumed()), writer, event))),
+        else list(map(_write_sentence, list_what_to_do(progress.take_event(Resumed()), writer, event))),
         "choices": list(_list_choices(event, writer)) if isinstance(event, Unclear) else [],
     }
 

@@ -34,7 +34,7 @@ _PATIENCE = 10.0
 _INTERRUPTED = 130
 
 
-class Step(StrEnum):
+class CaptureAction(StrEnum):
     """What a click on the page asks for."""
 
     BEGIN = "begin"  #: Take readings, from the beginning or where they ended.
@@ -66,26 +66,26 @@ class CaptureProcess:
     _events: deque[Record] = field(default_factory=lambda: deque(maxlen=_KEPT_LINES))
     _problems: list[str] = field(default_factory=list)
 
-    def do(self, request: CaptureRequest, *, has_begun: bool) -> None:
+    def carry_out(self, request: CaptureRequest, *, has_begun: bool) -> None:
         """Do what a click asks for.
 
         `has_begun`: Whether the journal holds readings: then it is gone on with.
 
         Raises `InputError` where there is no capture to order something, or one is under way already.
         """
-        match Step(request.step):
-            case Step.BEGIN:
+        match CaptureAction(request.step):
+            case CaptureAction.BEGIN:
                 self._begin("--steered", *(["--resume"] if has_begun else []))
-            case Step.RETAKE:
+            case CaptureAction.RETAKE:
                 self._begin("--steered", "--resume", "--retake", request.text)
-            case Step.CLOSE:
+            case CaptureAction.CLOSE:
                 self._begin("--end")
-            case Step.ORDER:
+            case CaptureAction.ORDER:
                 self._order(request.text)
-            case Step.STOP:
+            case CaptureAction.STOP:
                 self.end()
 
-    def state(self) -> dict[str, Any]:
+    def describe_state(self) -> dict[str, Any]:
         """Return whether it runs, the present moment, what it awaits, and what has happened, as records."""
         with self._lock:
             return {

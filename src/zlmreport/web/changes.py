@@ -98,16 +98,16 @@ def change(bench: Bench, request: Request) -> None:
     written.
     """
     with bench.lock:
-        loaded = bench.loaded()
+        loaded = bench.load()
         if request.based_on != loaded.digest:
             raise ConflictError
         if request.action not in ACTIONS:
             raise InputError.at(PLACE, f"there is no action {request.action[:60]!r}")
-        before = bench.whole(loaded)
+        before = bench.fit_whole(loaded)
         content = loaded.job.files[0].content or b""
         step = ACTIONS[request.action](bench, loaded, request)
         step.edit.write()
-        after = bench.whole(bench.loaded())
+        after = bench.fit_whole(bench.load())
         BenchJournal.beside(bench.path).append(
             make_entry(
                 request.action,
@@ -123,7 +123,7 @@ def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     named, removed = read_addition(request.effect, loaded.job, registry, registry.effects, PLACE)
     edit = edit_effects(bench.path, loaded.job, registry, add=[named], remove=removed)
     added = named.choice.identifier
-    refuse_useless(added, bench.whole(loaded), _try_fit(bench, loaded, edit), loaded.job)
+    refuse_useless(added, bench.fit_whole(loaded), _try_fit(bench, loaded, edit), loaded.job)
     return _Step(edit, request.effect)
 
 
@@ -228,11 +228,15 @@ def _is_value(value: float | str) -> bool:
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, find_undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(
+        bench, loaded, find_undoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest)
+    )
 
 
 def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, find_redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(
+        bench, loaded, find_redoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest)
+    )
 
 
 def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
@@ -247,7 +251,7 @@ def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
 def _try_fit(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
     """Return the fit of the job as it is to become; refuse one that makes no sense."""
     try:
-        return bench.whole(bench.tried(edit.job))
+        return bench.fit_whole(bench.try_job(edit.job))
     except InputError as error:  # its places are those of the job as it would be
         place = loaded.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error

@@ -67,20 +67,20 @@ class Commands:
 
         Raises `InputError` if a format, a control, an effect or a second test is none that the page offered.
         """
-        loaded, path = self.bench.loaded(), self.bench.path
+        loaded, path = self.bench.load(), self.bench.path
         if name == "certificate":
             arguments = [
                 str(path.resolve()),
-                *self._sheet(loaded.job, wanted),
+                *self._make_sheet_job(loaded.job, wanted),
                 *list_demanded_formats(wanted, self.bench.registry.renderers),
             ]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
-            arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
+            arguments = ["compensate", str(path.resolve()), *self._choose_control(wanted), "--output", folder]
         elif name == "build":
             arguments = ["model", "build", str(path.resolve()), "--dry-run"]
         elif name == "experiment":
-            decide = ",".join(self._effects(wanted))
+            decide = ",".join(self._choose_effects(wanted))
             arguments = [
                 "plan",
                 str(path.resolve()),
@@ -92,11 +92,11 @@ class Commands:
         else:
             _demand(wanted.after, list_siblings(path), "job")
             tests = (str(each.resolve()) for each in (path, path.with_name(wanted.after)))
-            arguments = ["compensate", *tests, *self._control(wanted), "--confirm"]
+            arguments = ["compensate", *tests, *self._choose_control(wanted), "--confirm"]
         self.making[name].begin(loaded.stamp, *arguments)
-        return self.making[name].state()
+        return self.making[name].describe_state()
 
-    def file(self, name: str) -> Path | None:
+    def find_file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
         return find_made_file(self.making, name)
 
@@ -109,12 +109,12 @@ class Commands:
         if aside is not None:
             aside.cleanup()
 
-    def _sheet(self, job: Job, wanted: Wanted) -> list[str]:
+    def _make_sheet_job(self, job: Job, wanted: Wanted) -> list[str]:
         """Return the job of the sheet that is looked at before a PDF; none if that is one itself."""
         printed = {each.identifier for each in self.bench.registry.renderers if each.suffix == ".pdf"}
         if job.keys.certificate.layout == "sheet" or printed.isdisjoint(wanted.formats or job.formats):
             return []
-        folder = self._folder()
+        folder = self._make_folder()
         unsigned = ", signature: null" if job.keys.certificate.signature else ""
         lines = (
             f"extends: {json.dumps(str(self.bench.path.resolve()))}",
@@ -125,19 +125,19 @@ class Commands:
         write([Document(path, "\n".join(lines).encode())])
         return [str(path)]
 
-    def _folder(self) -> str:
+    def _make_folder(self) -> str:
         """Return the folder of what is only looked at: it is there from the first time on, until the end."""
         with self._lock:
             if self._aside is None:
                 self._aside = TemporaryDirectory(prefix="zlmreport-workbench-", ignore_cleanup_errors=True)
             return self._aside.name
 
-    def _effects(self, wanted: Wanted) -> Sequence[str]:
+    def _choose_effects(self, wanted: Wanted) -> Sequence[str]:
         for each in wanted.effects:
             _demand(each, [effect.identifier for effect in self.bench.registry.effects], "effect")
         return wanted.effects
 
-    def _control(self, wanted: Wanted) -> list[str]:
+    def _choose_control(self, wanted: Wanted) -> list[str]:
         _demand(wanted.controller, [each.identifier for each in self.bench.registry.controllers], "control")
         chosen = ["--controller", wanted.controller]
         if wanted.step is not None:
@@ -158,7 +158,7 @@ def list_demanded_formats(wanted: Wanted, offered: Iterable[Renderer]) -> list[s
 
 def find_made_file(making: Mapping[str, Making], name: str) -> Path | None:
     """Return where a file lies that one of several commands wrote; None for any other name."""
-    found = (each.file(name) for each in making.values())
+    found = (each.find_file(name) for each in making.values())
     return next((path for path in found if path is not None and path.is_file()), None)
 
 

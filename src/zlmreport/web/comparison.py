@@ -16,7 +16,7 @@ from zlmreport.document.subjects.fit import make_parameter_rows
 from zlmreport.document.subjects.linked import collect_drawn_values
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
@@ -66,50 +66,56 @@ class ComparedTests:
         problems: list[Problem] = []
         for each in others:
             try:
-                _demand_same_axis(bench.loaded().job, each.loaded().job)
+                _demand_same_axis(bench.load().job, each.load().job)
             except ZlmreportError as error:
                 problems += error.problems
         if problems:
             raise InputError(problems)
         return cls(bench, others)
 
-    def stamp(self) -> str:
+    def make_stamp(self) -> str:
         """Return the name of the state in which the files of the other jobs are now."""
-        return " ".join(each.stamp() for each in self.others)
+        return " ".join(each.make_stamp() for each in self.others)
 
-    def values(self, language: Language) -> dict[str, Any]:
+    def list_values(self, language: Language) -> dict[str, Any]:
         """Return what a page shows of the tests, in the order of their days; nothing of one test alone.
 
         A job that cannot be read is named with what is wrong, and the rest is compared.
         """
-        own = self.bench.loaded()
-        tests = list(self._tests(self.bench, own))
+        own = self.bench.load()
+        tests = list(self._list_tests(self.bench, own))
         here = tests[-1]
         problems = []
         for each in self.others:
             try:
-                loaded = each.loaded()
+                loaded = each.load()
                 _demand_same_axis(own.job, loaded.job)
-                tests += self._tests(each, loaded)
+                tests += self._list_tests(each, loaded)
             except ZlmreportError as error:
                 problems += [str(problem) for problem in error.problems]
         if all(each.day for each in tests):
             tests.sort(key=lambda each: each.day or dt.date.min)  # stable: those of one day stay as named
         shown = {
-            "tests": [_test(each, here, language) for each in tests],
+            "tests": [_list_test(each, here, language) for each in tests],
             "standards": list(_compare_standards(tests, here, language)),
             "models": list(_compare_models(tests, self.bench.registry.effects, language)),
         }
-        return {"stamp": self.stamp(), "problems": problems, **(shown if len(tests) > 1 else {"tests": []})}
+        return {
+            "stamp": self.make_stamp(),
+            "problems": problems,
+            **(shown if len(tests) > 1 else {"tests": []}),
+        }
 
-    def _tests(self, bench: Bench, loaded: Loaded) -> Iterator[_Test]:
+    def _list_tests(self, bench: Bench, loaded: Loaded) -> Iterator[_Test]:
         job, name = loaded.job, same(bench.path.stem)
         if job.as_found is not None:
-            measurements, evaluated = self._before(bench, loaded, job.as_found)
+            measurements, evaluated = self._find_before(bench, loaded, job.as_found)
             yield _Test(_AS_FOUND.given(name=name), job.as_found, measurements, evaluated, None)
-        yield _Test(name, job, loaded.measurements, bench.evaluated(loaded), bench.whole(loaded))
+        yield _Test(name, job, loaded.measurements, bench.evaluate(loaded), bench.fit_whole(loaded))
 
-    def _before(self, bench: Bench, loaded: Loaded, job: Job) -> tuple[MeasurementSet, tuple[Evaluated, ...]]:
+    def _find_before(
+        self, bench: Bench, loaded: Loaded, job: Job
+    ) -> tuple[MeasurementSet, tuple[Evaluated, ...]]:
         """Return the readings before an adjustment, and what the standards say of them."""
         known = self._as_found.get(loaded.basis)
         if known is None:
@@ -129,7 +135,7 @@ def _demand_same_axis(own: Job, other: Job) -> None:
         )
 
 
-def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
+def _list_test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
     """Return a test: its name and day, its means over the axis, and how they differ from those here."""
     axis, means = here.job.axis, test.means
     at = test.measurements.target_positions
@@ -195,7 +201,7 @@ def _compare_standards(tests: Sequence[_Test], here: _Test, language: Language) 
         }
 
 
-def _make_cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
+def _make_cell(parameter: EvaluatedParameter | None, writer: Writer) -> dict[str, Any] | None:
     """Return a parameter and its U as text, and as numbers to be drawn."""
     if parameter is None:
         return None
@@ -225,7 +231,7 @@ def _compare_models(
         found = [rows.get(key) for rows in of_tests]
         first = next(each for each in found if each is not None)
         yield {
-            "called": names.text(first.effect),
+            "called": names.name_in(first.effect),
             "name": first.name,
             "symbol": split_symbol(first.notation),
             "description": first.description,

@@ -56,7 +56,7 @@ class DiagnosesByContent:
 
     def recall(self, content: str) -> Any:
         """Return the diagnosis of a content; None if none was made."""
-        name = self._name(content)
+        name = self._name_file(content)
         if name not in self._known and self.folder:
             with contextlib.suppress(OSError, ValueError):
                 self._known[name] = json.loads((self.folder / name).read_text(encoding="utf-8"))
@@ -64,7 +64,7 @@ class DiagnosesByContent:
 
     def keep(self, content: str, diagnosis: Any) -> None:
         """Remember the diagnosis of a content; the oldest give way."""
-        name = self._name(content)
+        name = self._name_file(content)
         self._known[name] = diagnosis
         if self.folder is None:
             return
@@ -74,7 +74,7 @@ class DiagnosesByContent:
             for path in kept[:-_KEPT]:
                 path.unlink()
 
-    def _name(self, content: str) -> str:
+    def _name_file(self, content: str) -> str:
         return f"{hashlib.sha256(f'{self.program} {content}'.encode()).hexdigest()}.json"
 
 
@@ -107,7 +107,7 @@ class Diagnoses:
     _answer: dict[str, Any] | None = None
     _lock: Lock = field(default_factory=Lock)
 
-    def of(self, content: str) -> dict[str, Any]:
+    def find(self, content: str) -> dict[str, Any]:
         """Return the diagnosis of a job of this content, or for how long it has run, and the share done."""
         with self._lock:
             known = self.answers.recall(content)
@@ -137,12 +137,12 @@ class Diagnoses:
     def warm_up(self) -> None:
         """Start the process, so that the first diagnosis need not wait for it."""
         with self._lock:
-            self._running()
+            self._start_process()
 
     def _ask(self, content: str) -> None:
         if self._asked and self._answer is None:
             self._end()
-        worker = self._running()
+        worker = self._start_process()
         self._asked, self._answer, self._began, self._share = content, None, time.monotonic(), 0.0
         assert worker.stdin is not None  # noqa: S101 - opened as a pipe
         try:
@@ -172,7 +172,7 @@ class Diagnoses:
                 self._end()
                 self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
 
-    def _running(self) -> subprocess.Popen[str]:
+    def _start_process(self) -> subprocess.Popen[str]:
         if self._worker is None:
             environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8"}
             self._worker = subprocess.Popen(  # noqa: S603 - this program itself
@@ -223,7 +223,7 @@ def _tell(share: float) -> None:
 def answer(bench: Bench, registry: Registry, told: Told = tell_nobody) -> dict[str, Any]:
     """Return the diagnosis of the job in all languages, what decides its tie, and of which content it is."""
     try:
-        loaded = bench.loaded()
+        loaded = bench.load()
         study = loaded.study
         diagnosis = study.diagnosis(registry.effects, told)
         experiment = plan_experiment_of_tie(study, diagnosis, registry.effects)
@@ -246,7 +246,7 @@ def _make_experiment(
     experiment: Experiment, job: Job, effects: Sequence[Effect], language: Language
 ) -> dict[str, Any]:
     values = collect_experiment(experiment, job, language)
-    return {**values, "statement": Naming.of(effects, language).text(values["statement"])}
+    return {**values, "statement": Naming.of(effects, language).name_in(values["statement"])}
 
 
 if __name__ == "__main__":

@@ -39,20 +39,20 @@ def make_effect_page(
     bench: Bench, loaded: Loaded, identifier: str, language: Language
 ) -> dict[str, Any] | None:
     """Return what there is to say of an effect; None if it is not installed."""
-    fit = bench.whole(loaded).fit
+    fit = bench.fit_whole(loaded).fit
     known = (*bench.registry.effects, *(term.effect for term in fit.model.terms))
     effect = next((each for each in known if each.identifier == identifier), None)
     if effect is None:
         return None
-    names = make_naming(bench.whole(loaded), bench.registry.effects, language)
+    names = make_naming(bench.fit_whole(loaded), bench.registry.effects, language)
     present = identifier in fit.model.identifiers
     return {
         "effect": identifier,
-        "called": names.text(identifier),
+        "called": names.name_in(identifier),
         "title": effect.title.in_language(language),
         "equation": split_symbol(effect.equation),
-        "look": names.text(effect.look.in_language(language)),
-        "remedy": names.text(effect.remedy.in_language(language)) if effect.remedy else "",
+        "look": names.name_in(effect.look.in_language(language)),
+        "remedy": names.name_in(effect.remedy.in_language(language)) if effect.remedy else "",
         "parameters": [
             _describe(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
         ],
@@ -69,13 +69,13 @@ def make_effect_page(
         "confusions": [
             {
                 "effect": each.effect,
-                "called": names.text(each.effect),
+                "called": names.name_in(each.effect),
                 "title": _find_title(bench.registry, each.effect, language),
-                "told": names.text(each.told_apart_by.in_language(language)),
+                "told": names.name_in(each.told_apart_by.in_language(language)),
             }
             for each in effect.confusions
         ],
-        "containsNames": [names.text(each) for each in effect.contains],
+        "containsNames": [names.name_in(each) for each in effect.contains],
         "present": present,
         "sketch": draw_sketch(effect, loaded.study.observed.design, language),
     }

@@ -37,17 +37,17 @@ class _Wave:
     fit: Fit
     place: int  #: Of the effect among those of the model.
 
-    def at(self, design: Design) -> FloatArray:
+    def compute(self, design: Design) -> FloatArray:
         """Return what the effect makes of readings, m or rad, shape (N,)."""
         effect, solution = self.fit.model.terms[self.place].effect, self.fit.solution
         columns = effect.columns(design, solution.thetas[self.place])
         return np.asarray(columns @ solution.coefficients[self.place], dtype=np.float64)
 
-    def along(self, positions: FloatArray, approach: Approach) -> FloatArray:
+    def compute_along(self, positions: FloatArray, approach: Approach) -> FloatArray:
         """Return what the effect makes of readings at positions in one direction, m or rad, shape (M,)."""
-        return self.at(place_at_positions(self.fit.design, positions, approach))
+        return self.compute(place_at_positions(self.fit.design, positions, approach))
 
-    def period(self) -> float | None:
+    def find_period(self) -> float | None:
         """Return after which length the effect repeats, m or rad; None if it does not."""
         design = self.fit.design
         shortest = find_waves_along(self.fit)[self.fit.model.identifiers[self.place]]
@@ -59,7 +59,7 @@ class _Wave:
             if _LEAST_PERIODS * length > last - first:
                 return None
             here = np.linspace(first, last - length, _PLACES)
-            now, later = self.along(here, approach), self.along(here + length, approach)
+            now, later = self.compute_along(here, approach), self.compute_along(here + length, approach)
             if np.max(np.abs(now - later)) <= _SAME * np.max(np.abs(now)):
                 return float(length)
         return None
@@ -74,13 +74,13 @@ def fold(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict[s
 
     Raises `InputError` if there is no such effect, or it cannot be fitted.
     """
-    present = bench.whole(loaded)
-    fitted = present if named in present.fit.model.identifiers else bench.with_effect(loaded, named)
+    present = bench.fit_whole(loaded)
+    fitted = present if named in present.fit.model.identifiers else bench.fit_with_effect(loaded, named)
     fit = fitted.fit.of_the_job
     # An effect that is added is the last of its model.
     place = fit.model.identifiers.index(named) if fitted is present else len(fit.model.terms) - 1
     wave = _Wave(fit, place)
-    period = wave.period()
+    period = wave.find_period()
     if period is None:
         return None
     study, axis = loaded.study, loaded.job.axis
@@ -95,13 +95,13 @@ def fold(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict[s
     title = _WITHIN.given(period=length, unit=along.symbol)
     return {
         "x": collect_drawn_values(along.from_si(observed.design.position % period)),
-        "y": collect_drawn_values(unit.from_si(left + wave.at(observed.design))),
+        "y": collect_drawn_values(unit.from_si(left + wave.compute(observed.design))),
         "direction": np.where(observed.design.direction > 0, 1, -1).tolist(),
         "curves": [
             {
                 "direction": int(approach),
                 "x": collect_drawn_values(along.from_si(within)),
-                "y": collect_drawn_values(unit.from_si(wave.along(start + within, approach))),
+                "y": collect_drawn_values(unit.from_si(wave.compute_along(start + within, approach))),
             }
             for approach in directions
         ],

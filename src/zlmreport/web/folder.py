@@ -80,7 +80,7 @@ class JobRow:
     problems: tuple[str, ...] = ()  #: Why it fails, each with its place.
     closed: str = ""  #: Why it has no page: no error model is of what it measures; empty where it opens.
 
-    def dated(self, today: dt.date, *, is_latest: bool) -> JobRow:
+    def date(self, today: dt.date, *, is_latest: bool) -> JobRow:
         """Return the job with what a day makes of it; an earlier test of an axis needs nobody."""
         if not is_latest and self.state is not JobState.FAILS:
             return replace(self, state=JobState.EARLIER, due=None)
@@ -148,17 +148,17 @@ class JobFolder:
     _lock: Lock = field(default_factory=Lock)
     _worker: Thread | None = None
 
-    def paths(self) -> dict[str, Path]:
+    def list_paths(self) -> dict[str, Path]:
         """Return the job files by their keys."""
-        return {self.key(each): each for each in find_jobs_in(self.path)}
+        return {self.make_key(each): each for each in find_jobs_in(self.path)}
 
-    def key(self, job: Path) -> str:
+    def make_key(self, job: Path) -> str:
         """Return what names a job in addresses."""
         return hashlib.sha256(job.relative_to(self.path).as_posix().encode()).hexdigest()[:12]
 
-    def rows(self) -> list[JobRow]:
+    def list_rows(self) -> list[JobRow]:
         """Return the jobs, the worst first; what is not known yet is looked at beside, and waits."""
-        paths = self.paths()
+        paths = self.list_paths()
         with self._lock:
             stale = [key for key in paths if key not in self._known or self._is_changed(key)]
             if stale and (self._worker is None or not self._worker.is_alive()):
@@ -166,12 +166,12 @@ class JobFolder:
                 self._worker = Thread(target=self._look, args=(waiting,), daemon=True)
                 self._worker.start()
             known = [
-                self._known[key][1] if key in self._known else JobRow(key, self._name(path))
+                self._known[key][1] if key in self._known else JobRow(key, self._name_job(path))
                 for key, path in paths.items()
             ]
         return sorted(_date_rows(known, self.today()), key=lambda each: (each.state, each.name))
 
-    def _name(self, path: Path) -> str:
+    def _name_job(self, path: Path) -> str:
         return path.relative_to(self.path).as_posix()
 
     def _is_changed(self, key: str) -> bool:
@@ -179,7 +179,7 @@ class JobFolder:
 
     def _look(self, waiting: dict[str, Path]) -> None:
         for key, path in waiting.items():
-            row, files = look_at(JobRow(key, self._name(path)), path, self.registry)
+            row, files = look_at(JobRow(key, self._name_job(path)), path, self.registry)
             with self._lock:
                 self._watched[key] = files
                 self._known[key] = make_stamp_of(files), row
@@ -198,11 +198,11 @@ def look_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[
             readings = pipeline.read(part, registry)
             files += _list_known_paths(readings.provenance.files)
             evaluated += pipeline.evaluate_all(part, readings, registry)
-        row = replace(row, state=_state(evaluated))
+        row = replace(row, state=_find_state(evaluated))
     except ZlmreportError as error:
         return _describe_failing(row, files, error)
     try:
-        Bench(path, registry).tried(job)
+        Bench(path, registry).try_job(job)
     except ZlmreportError as error:
         row = replace(row, closed=error.problems[0].message)
     return row, tuple(dict.fromkeys(files))
@@ -252,7 +252,7 @@ def _describe_row(row: JobRow, job: Job) -> JobRow:
     )
 
 
-def _state(evaluated: Sequence[Evaluated]) -> JobState:
+def _find_state(evaluated: Sequence[Evaluated]) -> JobState:
     """Return what the decisions on limits come to, the worst of them."""
     decisions = (one.decision for each in evaluated for one in each.evaluation.parameters)
     marks = (STATEMENTS[each.conformity][0].name for each in decisions if each is not None)
@@ -267,7 +267,7 @@ def _date_rows(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
             latest[axis] = max(each.measured, latest.get(axis, dt.date.min))
     for each in rows:
         is_latest = each.measured is None or latest[each.machine, each.axis.en] == each.measured
-        yield each.dated(today, is_latest=is_latest)
+        yield each.date(today, is_latest=is_latest)
 
 
 def collect_row(row: JobRow, language: Language) -> dict[str, Any]:

@@ -38,7 +38,7 @@ class FolderWorkbench:
 
     def warm_up(self) -> None:
         """Begin to look at the jobs, so that the page need not wait."""
-        self.folder.rows()
+        self.folder.list_rows()
 
     def end(self) -> None:
         """End what is under way beside, and take its files away."""
@@ -47,53 +47,57 @@ class FolderWorkbench:
         for workbench, _ in opened.values():
             workbench.end()
 
-    def app(self, door: Door) -> DoorKeeper:
+    def make_app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
         routes = [
-            Route("/", self.page),
+            Route("/", self.answer_page),
             Route("/files/{name}", answer_with_file),
-            Route("/api/texts", self.texts),
-            Route("/api/folder", self.jobs),
-            Mount("/jobs/{key}", self.job),
+            Route("/api/texts", self.answer_texts),
+            Route("/api/folder", self.answer_jobs),
+            Mount("/jobs/{key}", self.hand_on),
         ]
         return DoorKeeper(Starlette(routes=routes), door)
 
-    async def page(self, request: HttpRequest) -> Response:
+    async def answer_page(self, request: HttpRequest) -> Response:
         """Answer with the page of the folder; it fills itself."""
-        return answer_with_shell(self._language(request), self.folder.path.resolve().name)
+        return answer_with_shell(self._choose_language(request), self.folder.path.resolve().name)
 
-    async def texts(self, request: HttpRequest) -> Response:
+    async def answer_texts(self, request: HttpRequest) -> Response:
         """Answer with the words of the page, and that it is one of a folder."""
         return JSONResponse(
-            {**collect_texts(self._language(request)), "folder": str(self.folder.path.resolve().name)}
+            {**collect_texts(self._choose_language(request)), "folder": str(self.folder.path.resolve().name)}
         )
 
-    async def jobs(self, request: HttpRequest) -> Response:
+    async def answer_jobs(self, request: HttpRequest) -> Response:
         """Answer with the jobs, the worst first."""
 
         def found() -> dict[str, Any]:
-            return {"jobs": [collect_row(each, self._language(request)) for each in self.folder.rows()]}
+            return {
+                "jobs": [
+                    collect_row(each, self._choose_language(request)) for each in self.folder.list_rows()
+                ]
+            }
 
         try:
             return JSONResponse(await run_in_threadpool(found))
         except ZlmreportError as error:
             return JSONResponse({"problems": [str(each) for each in error.problems]}, 422)
 
-    async def job(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def hand_on(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Hand a request on to the workbench of a job."""
-        answer = await run_in_threadpool(self._workbench, scope["path_params"]["key"])
+        answer = await run_in_threadpool(self._find_workbench, scope["path_params"]["key"])
         await (answer or Response(status_code=404))(scope, receive, send)
 
-    def _workbench(self, key: str) -> Starlette | None:
+    def _find_workbench(self, key: str) -> Starlette | None:
         with self._lock:
             if key not in self._opened:
-                path = self.folder.paths().get(key)
+                path = self.folder.list_paths().get(key)
                 if path is None:
                     return None
                 kind = MachineWorkbench if is_machine(path) else Workbench
                 workbench = kind.on(path, self.registry, self.plugins)
-                self._opened[key] = workbench, workbench.routed()
+                self._opened[key] = workbench, workbench.make_unguarded_app()
             return self._opened[key][1]
 
-    def _language(self, request: HttpRequest) -> Language:
+    def _choose_language(self, request: HttpRequest) -> Language:
         return find_language_of(request) or Language.ENGLISH

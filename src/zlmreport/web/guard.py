@@ -75,7 +75,7 @@ class Door:
         """Where a request that changes something may come from."""
         return frozenset(f"http://{host}" for host in self.hosts)
 
-    def opens(self, offered: str) -> bool:
+    def is_opened_by(self, offered: str) -> bool:
         """Return whether a token is the one, in a time that does not tell how nearly."""
         return secrets.compare_digest(offered.encode(), self.token.encode())
 
@@ -97,23 +97,23 @@ class DoorKeeper:
                 await self.app(scope, receive, send)
             return
         answer: Callable[[Scope, Receive, Send], Awaitable[None]]
-        answer = self._refusal(Request(scope)) or self.app
+        answer = self._find_refusal(Request(scope)) or self.app
         await answer(scope, receive, _add_headers(send))
 
-    def _refusal(self, request: Request) -> Response | None:
+    def _find_refusal(self, request: Request) -> Response | None:
         """Return what stands in the way of a request; the cookie, where it brings the token; else nothing."""
         offered = request.query_params.get("token")
-        refusal = self._foreign(request)
+        refusal = self._refuse_foreign(request)
         if refusal is not None:
             return refusal
-        if offered is not None and request.url.path == "/" and self.door.opens(offered):
-            return self._admission(request)
-        if not self.door.opens(request.cookies.get(self.door.cookie, "")):
+        if offered is not None and request.url.path == "/" and self.door.is_opened_by(offered):
+            return self._admit(request)
+        if not self.door.is_opened_by(request.cookies.get(self.door.cookie, "")):
             language = accepted_language(request.headers.get("accept-language", "")) or Language.ENGLISH
             return PlainTextResponse(_NO_TOKEN.in_language(language), 403)
         return None
 
-    def _foreign(self, request: Request) -> Response | None:
+    def _refuse_foreign(self, request: Request) -> Response | None:
         """Refuse what no page of this server would ask."""
         headers = request.headers
         origin = headers.get("origin")
@@ -128,7 +128,7 @@ class DoorKeeper:
             return PlainTextResponse("too long", 413)
         return None
 
-    def _admission(self, request: Request) -> Response:
+    def _admit(self, request: Request) -> Response:
         """Hand out the cookie, and lead to the page by an address that no longer tells the token."""
         kept = request.url.remove_query_params("token").query
         response = RedirectResponse(f"/?{kept}" if kept else "/", 303)

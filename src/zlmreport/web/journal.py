@@ -59,7 +59,7 @@ class BenchJournal:
         """Return the record of a job: ``job.yaml`` has ``job.history.jsonl``."""
         return cls(job.with_suffix(SUFFIX))
 
-    def entries(self) -> tuple[JournalStep, ...]:
+    def read_entries(self) -> tuple[JournalStep, ...]:
         """Return all changes, the oldest first; lines that are none are passed over."""
         try:
             lines = self.path.read_text("utf-8").splitlines()

@@ -44,14 +44,14 @@ class MachineCommands:
 
         Raises `InputError` if a format is none that the page offered.
         """
-        loaded = self.bench.loaded()
+        loaded = self.bench.load()
         formats = list_demanded_formats(wanted, self.bench.renderers)
         self.making[name].begin(
             loaded.stamp, "machine", "certificate", str(self.bench.path.resolve()), *formats
         )
-        return self.making[name].state()
+        return self.making[name].describe_state()
 
-    def file(self, name: str) -> Path | None:
+    def find_file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
         return self.tables.get(name) or find_made_file(self.making, name)
 
@@ -74,10 +74,10 @@ class MachineWorkbench(PageAnswers):
     def of(cls, path: Path, registry: Registry, plugins: Sequence[Path] = ()) -> MachineWorkbench:
         """Return the answers for a machine.
 
-        Raises `InputError` or `AccessError` as `MachineBench.loaded`.
+        Raises `InputError` or `AccessError` as `MachineBench.load`.
         """
         made = cls.on(path, registry, plugins)
-        made.bench.loaded()
+        made.bench.load()
         return made
 
     @classmethod
@@ -88,50 +88,52 @@ class MachineWorkbench(PageAnswers):
         commands = MachineCommands(bench, {"certificate": Making(make_values, plugins)})
         return cls(bench, Diagnoses(path, answers, plugins, _DIAGNOSING), commands)
 
-    def app(self, door: Door) -> DoorKeeper:
+    def make_app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
-        return DoorKeeper(self.routed(), door)
+        return DoorKeeper(self.make_unguarded_app(), door)
 
-    def routed(self) -> Starlette:
+    def make_unguarded_app(self) -> Starlette:
         """Return the application, without a guard: behind one of its own, or that of a folder."""
         own = [
-            Route("/api/stamp", self.stamp),
-            Route("/api/results", self.results),
-            Route("/api/step", self.step),
-            Route("/api/tables", self.tables, methods=["POST"]),
+            Route("/api/stamp", self.answer_stamp),
+            Route("/api/results", self.answer_results),
+            Route("/api/step", self.answer_step),
+            Route("/api/tables", self.answer_tables, methods=["POST"]),
         ]
-        return Starlette(routes=[*self.routes(), *own])
+        return Starlette(routes=[*self.list_routes(), *own])
 
-    def page_texts(self, language: Language) -> dict[str, str]:
+    def list_page_texts(self, language: Language) -> dict[str, str]:
         """Return the words of the page, and that it is one of a machine."""
         return collect_machine_texts(language)
 
-    def viewed(self, language: Language) -> dict[str, Any]:
+    def view(self, language: Language) -> dict[str, Any]:
         """Return the page of the machine."""
-        return self._view(language).page()
+        return self._make_view(language).list_page()
 
-    def changed(self, wanted: Request) -> None:
+    def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         change_machine(self.bench, wanted)
 
-    async def stamp(self, _: HttpRequest) -> Response:
+    async def answer_stamp(self, _: HttpRequest) -> Response:
         """Answer with the state of all files."""
-        return JSONResponse({"stamp": await run_in_threadpool(self.bench.stamp)})
+        return JSONResponse({"stamp": await run_in_threadpool(self.bench.make_stamp)})
 
-    async def results(self, request: HttpRequest) -> Response:
+    async def answer_results(self, request: HttpRequest) -> Response:
         """Answer with the fall of the error, the tests in numbers, the 21 errors and the work space."""
-        return await self.answered(request, lambda: self._view(self.language(request)).results())
+        return await self.answer(
+            request, lambda: self._make_view(self.choose_language(request)).list_results()
+        )
 
-    async def step(self, request: HttpRequest) -> Response:
+    async def answer_step(self, request: HttpRequest) -> Response:
         """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
 
         def found() -> dict[str, Any]:
             of, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
-            return self._view(self.language(request)).before_and_after(of, test)
+            return self._make_view(self.choose_language(request)).compare_before_and_after(of, test)
 
-        return await self.answered(request, found)
+        return await self.answer(request, found)
 
-    async def tables(self, request: HttpRequest) -> Response:
+    async def answer_tables(self, request: HttpRequest) -> Response:
         """Answer with the forecast of tables across axes, write them, or hold circles against them."""
         try:
             wanted = TablesWanted.model_validate_json(await request.body())
@@ -139,12 +141,12 @@ class MachineWorkbench(PageAnswers):
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
         def made() -> dict[str, Any]:
-            view = self._view(self.language(request))
+            view = self._make_view(self.choose_language(request))
             values, documents = make_tables(self.bench, view.loaded, wanted, view.names)
             self.commands.tables.update({each.path.name: each.path for each in documents})
             return values
 
-        return await self.answered(request, made)
+        return await self.answer(request, made)
 
-    def _view(self, language: Language) -> MachineView:
-        return MachineView(self.bench, self.bench.loaded(), language)
+    def _make_view(self, language: Language) -> MachineView:
+        return MachineView(self.bench, self.bench.load(), language)

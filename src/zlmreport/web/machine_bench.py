@@ -73,17 +73,17 @@ class MachineBench:
         """Those that make a document on a machine."""
         return [each for each in self.registry.renderers if not needs_job(each)]
 
-    def stamp(self) -> str:
+    def make_stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading them."""
         return make_stamp_of([self.path, *self._watched])
 
-    def loaded(self) -> LoadedMachine:
+    def load(self) -> LoadedMachine:
         """Return the machine as its files are now.
 
         Raises `InputError` or `AccessError` with every mistake that stands in them.
         """
         with self.lock:
-            if self._loaded is not None and self._loaded.stamp == self.stamp():
+            if self._loaded is not None and self._loaded.stamp == self.make_stamp():
                 return self._loaded
             self._loaded = None
             try:
@@ -95,10 +95,10 @@ class MachineBench:
                 raise
             paths = (each.path for each in machine.sources if each.path is not None)
             self._watched = tuple(dict.fromkeys(paths))
-            self._loaded = LoadedMachine(machine, self.stamp())
+            self._loaded = LoadedMachine(machine, self.make_stamp())
             return self._loaded
 
-    def study(self, loaded: LoadedMachine, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
+    def make_study(self, loaded: LoadedMachine, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
         """Return the study of the circles with the effects of the model, or with others: each made once.
 
         Raises `InputError` if the file names no circle.
@@ -107,13 +107,13 @@ class MachineBench:
         key = (loaded.basis, *(each.identifier for each in chosen))
         with self.lock:
             if key not in self._studies:
-                self._studies[key] = loaded.machine.study(chosen)
+                self._studies[key] = loaded.machine.make_study(chosen)
                 if len(self._studies) > _KEPT:
                     self._studies.popitem(last=False)
             self._studies.move_to_end(key)
             return self._studies[key]
 
-    def compared(self, loaded: LoadedMachine, study: CircleStudy | None) -> tuple[ComparedTest, ...]:
+    def compare(self, loaded: LoadedMachine, study: CircleStudy | None) -> tuple[ComparedTest, ...]:
         """Return all tests beside the prediction of the axes, circles beside the effects of a study, too."""
         machine = loaded.machine
         return (
@@ -137,13 +137,15 @@ def find_fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenErro
     """
     base = tuple(each for each in loaded.machine.effects if each.is_base)
     further = tuple(each for each in loaded.machine.effects if not each.is_base)
-    by_axes = bench.study(loaded, base)
+    by_axes = bench.make_study(loaded, base)
     measured = replace(by_axes, deviation=by_axes.deviation + by_axes.predicted)
     return (
         FallenError("", compute_rms_of(measured)),
         FallenError("", compute_rms_of(by_axes)),
         *(
-            FallenError(each.identifier, compute_rms_of(bench.study(loaded, (*base, *further[: number + 1]))))
+            FallenError(
+                each.identifier, compute_rms_of(bench.make_study(loaded, (*base, *further[: number + 1])))
+            )
             for number, each in enumerate(further)
         ),
     )

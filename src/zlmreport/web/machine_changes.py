@@ -34,14 +34,14 @@ def change_machine(bench: MachineBench, request: Request) -> None:
     cannot be written.
     """
     with bench.lock:
-        loaded = bench.loaded()
+        loaded = bench.load()
         if request.based_on != loaded.digest:
             raise ConflictError
         if request.action not in _ACTIONS:
             raise InputError.at(PLACE, f"a machine has no action {request.action[:60]!r}")
         before, content = _write_rms(bench, loaded), demand(bench.path, LARGEST)
         subject = _ACTIONS[request.action](bench, loaded, request)
-        after = _write_rms(bench, bench.loaded())
+        after = _write_rms(bench, bench.load())
         changed = content, demand(bench.path, LARGEST)
         BenchJournal.beside(bench.path).append(make_entry(request.action, subject, changed, (before, after)))
 
@@ -60,17 +60,17 @@ def _write(
     bench: MachineBench, loaded: LoadedMachine, request: Request, effects: Sequence[CircleEffect]
 ) -> str:
     """Write a list of effects once a study with them has been made, and return what was changed."""
-    bench.study(loaded, effects)
+    bench.make_study(loaded, effects)
     edit_effects(loaded.machine, tuple(each.identifier for each in effects))
     return request.effect
 
 
 def _undo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(loaded, find_undoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest))
 
 
 def _redo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(loaded, find_redoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest))
 
 
 def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
@@ -81,7 +81,7 @@ def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
 
 
 def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
-    return MICROMETRE.from_si(compute_rms_of(bench.study(loaded)))
+    return MICROMETRE.from_si(compute_rms_of(bench.make_study(loaded)))
 
 
 _ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = MappingProxyType(

@@ -10,7 +10,13 @@ from typing import Any
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import write_percentage
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, Step, compute_rms_of, diagnose
+from zlmreport.machines.diagnosis import (
+    CircleCandidate,
+    EffectStep,
+    MachineDiagnosis,
+    compute_rms_of,
+    diagnose,
+)
 from zlmreport.machines.planning import NextRun, plan_next_run
 from zlmreport.machines.subjects.findings import (
     lay_out_absence,
@@ -35,9 +41,9 @@ _SERIOUS = 0.01
 def answer(bench: MachineBench) -> dict[str, Any]:
     """Return the diagnosis of the machine in all languages, and of which content it is."""
     try:
-        loaded = bench.loaded()
+        loaded = bench.load()
         catalogue = loaded.machine.catalogue
-        diagnosis = diagnose(bench.study(loaded), catalogue)
+        diagnosis = diagnose(bench.make_study(loaded), catalogue)
         planned = plan_next_run(diagnosis, catalogue)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}
@@ -65,14 +71,14 @@ def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language
         if diagnosis.is_tied
         else {
             "value": MICROMETRE.from_si(diagnosis.noise),
-            "written": say.micrometres(diagnosis.noise),
+            "written": say.write_micrometres(diagnosis.noise),
         },
         "findings": collect_blocks(findings, names),
         "candidates": candidates,
         "serious": sum(each.probability > _SERIOUS for each in diagnosis.candidates),
         "notExcluded": [],
         "hidden": [
-            {"effects": [name], "names": [names.text(name)], "reason": say(_UNSEEN)}
+            {"effects": [name], "names": [names.name_in(name)], "reason": say(_UNSEEN)}
             for name in diagnosis.not_testable
         ],
         "remarks": [],
@@ -87,7 +93,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
     equals = candidate.indistinguishable_from
     return {
         "effect": effect.identifier,
-        "name": names.text(effect.identifier),
+        "name": names.name_in(effect.identifier),
         "title": say(effect.title),
         "argument": effect.identifier,
         "probability": f"{write_percentage(candidate.probability, names.language.decimal_sign)} %",
@@ -99,13 +105,13 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
         "parameters": [collect_parameter(each, names.language) for each in candidate.estimates],
         "explains": say(effect.explains),
         "equals": list(equals),
-        "equalNames": [names.text(each) for each in equals],
+        "equalNames": [names.name_in(each) for each in equals],
         "tell": f"{say(say_remedy(effect, by_name[equals[0]], diagnosis.study))}." if equals else "",
         "remedy": "",
     }
 
 
-def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any]]:
+def _list_stairs(steps: Sequence[EffectStep], names: Naming) -> Iterator[dict[str, Any]]:
     """Yield the steps by which the error falls, as a staircase shows them."""
     say = Sayer(names.language)
     largest = max((each.before for each in steps), default=0.0) or 1.0
@@ -114,7 +120,7 @@ def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any
             "effect": each.effect,
             "argument": each.effect,
             "removed": False,
-            "name": f"+ {names.text(each.effect)}",
+            "name": f"+ {names.name_in(each.effect)}",
             "before": _write_length(each.before, say),
             "after": _write_length(each.after, say),
             "share": each.after / largest,
@@ -123,7 +129,7 @@ def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any
 
 
 def _write_length(length: float, say: Sayer) -> str:
-    return f"{say.micrometres(length)} {MICROMETRE.symbol}"
+    return f"{say.write_micrometres(length)} {MICROMETRE.symbol}"
 
 
 _UNSEEN = Words("these circles cannot show it")

@@ -32,7 +32,7 @@ def collect_graph(found: ComparedTest, language: Language) -> dict[str, Any]:
         "test": found.name,
         "kind": "circle" if sides.is_circle else "line",
         "title": write_title_of(found.test).in_language(language),
-        "axes": [_make_axis(*each, language) for each in sides.axes()],
+        "axes": [_make_axis(*each, language) for each in sides.list_axes()],
         "arrows": ["↻", "↺"] if sides.is_circle else ["↓", "↑"],
         "unit": unit.symbol,
         "deviation": figure.y_title.in_language(language),
@@ -41,8 +41,8 @@ def collect_graph(found: ComparedTest, language: Language) -> dict[str, Any]:
             "place": drawn.tolist(),
             "direction": sides.way[drawn].astype(int).tolist(),
             "run": sides.run[drawn].tolist(),
-            "deviation": collect_drawn_values(unit.from_si(sides.shown(found.test.deviation)[drawn])),
-            "residual": collect_drawn_values(unit.from_si(sides.shown(found.left)[drawn])),
+            "deviation": collect_drawn_values(unit.from_si(sides.reduce(found.test.deviation)[drawn])),
+            "residual": collect_drawn_values(unit.from_si(sides.reduce(found.left)[drawn])),
             "fitted": [True] * len(drawn),
         },
         "model": collect_model(found),
@@ -54,7 +54,7 @@ def collect_graph(found: ComparedTest, language: Language) -> dict[str, Any]:
 def collect_model(found: ComparedTest) -> list[dict[str, Any]]:
     """Return what axes and effects make of a test in each direction, with the band of the axes."""
     sides = _Sides(found)
-    model = sides.shown(found.test.deviation) - sides.shown(found.left)
+    model = sides.reduce(found.test.deviation) - sides.reduce(found.left)
     u = found.prediction.expanded_uncertainty
     curves = []
     for way in (1, -1):
@@ -79,7 +79,7 @@ def collect_model(found: ComparedTest) -> list[dict[str, Any]]:
 def collect_residuals(found: ComparedTest) -> list[float | None]:
     """Return what is left at each reading that is drawn, µm."""
     sides = _Sides(found)
-    return collect_drawn_values(MICROMETRE.from_si(sides.shown(found.left)[sides.drawn]))
+    return collect_drawn_values(MICROMETRE.from_si(sides.reduce(found.left)[sides.drawn]))
 
 
 def find_readings_of(stretch: Stretch, found: ComparedTest) -> list[int]:
@@ -102,7 +102,7 @@ class _Sides:
             self.way: FloatArray = test.sense
             self.run: IntArray = test.run
             self.place: FloatArray = np.degrees(test.angle) % 360.0
-            self.position: FloatArray = test.course().position
+            self.position: FloatArray = test.make_course().position
         else:
             self.way = np.sign(test.course.motion.sum(axis=1))
             self.run = np.ones(len(test.at), dtype=np.int64)
@@ -114,12 +114,12 @@ class _Sides:
         """Which readings are drawn."""
         return np.arange(0, len(self.way), max(1, -(-len(self.way) // _MOST)))
 
-    def shown(self, values: FloatArray) -> FloatArray:
+    def reduce(self, values: FloatArray) -> FloatArray:
         """Return values as a page shows them: without centre and radius, or without the mean."""
         test = self.test
         return centre(test, values) if isinstance(test, CircularTest) else values - values.mean()
 
-    def axes(self) -> Iterator[tuple[str, Words, str, FloatArray]]:
+    def list_axes(self) -> Iterator[tuple[str, Words, str, FloatArray]]:
         """Yield all over which the readings can be laid out: key, title, unit, values."""
         drawn = self.drawn
         yield (

@@ -22,8 +22,8 @@ from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.machines.subjects.tests import (
     describe_stretch,
     lay_out_sizes,
+    lay_out_test,
     make_failure_notice,
-    test_section,
 )
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -35,7 +35,7 @@ from zlmreport.web.machine_graphs import collect_graph, collect_model, collect_r
 from zlmreport.web.machine_tables import list_offered_tables
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import split_symbol
-from zlmreport.web.view import SHOWN, say_done_by, step
+from zlmreport.web.view import SHOWN, list_step, say_done_by
 
 _MOST_FAILURES = 3
 
@@ -66,15 +66,15 @@ class MachineView:
     @property
     def study(self) -> CircleStudy | None:
         """The circles with the effects of the model; None where there is no circle."""
-        return self.bench.study(self.loaded) if self.loaded.machine.circles else None
+        return self.bench.make_study(self.loaded) if self.loaded.machine.circles else None
 
-    def page(self) -> dict[str, Any]:
+    def list_page(self) -> dict[str, Any]:
         """Return what is shown at once: tests with their graphs, effects, what was done."""
         loaded, machine, names = self.loaded, self.loaded.machine, self.names
-        entries = BenchJournal.beside(self.bench.path).entries()
+        entries = BenchJournal.beside(self.bench.path).read_entries()
         back = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
         study = self.study
-        compared = self.bench.compared(loaded, study)
+        compared = self.bench.compare(loaded, study)
         keys = machine.file.keys
         return {
             "stamp": loaded.stamp,
@@ -88,13 +88,13 @@ class MachineView:
             ).lstrip(", "),
             "file": self.bench.path.name,
             "tests": [collect_graph(each, self.language) for each in compared],
-            "failures": list(self._failures(compared)),
-            "error": list(self._error(study)),
-            "effects": [self._effect(each.effect, study) for each in study.effects] if study else [],
+            "failures": list(self._list_failures(compared)),
+            "error": list(self._list_error(study)),
+            "effects": [self._list_effect(each.effect, study) for each in study.effects] if study else [],
             "others": [
                 {
                     "effect": each.identifier,
-                    "name": names.text(each.identifier),
+                    "name": names.name_in(each.identifier),
                     "title": self.say(each.title),
                 }
                 for each in machine.catalogue
@@ -108,23 +108,23 @@ class MachineView:
                 "tables": list_offered_tables(self.bench, loaded, self.language),
             },
             "asked": [],
-            "steps": [step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
+            "steps": [list_step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
             **{
-                name: None if each is None else names.text(self.say(say_done_by(each)))
+                name: None if each is None else names.name_in(self.say(say_done_by(each)))
                 for name, each in zip((UNDO, REDO), back, strict=True)
             },
         }
 
-    def results(self) -> dict[str, Any]:
+    def list_results(self) -> dict[str, Any]:
         """Return what takes longer: the fall of the error, each test in numbers, errors and work space."""
         machine, names, study = self.loaded.machine, self.names, self.study
-        compared = self.bench.compared(self.loaded, study)
+        compared = self.bench.compare(self.loaded, study)
         sizes = lay_out_sizes(compared, self.say)
         return {
             "stamp": self.loaded.stamp,
-            "fall": self._fall() if study else None,
+            "fall": self._list_fall() if study else None,
             "sizes": collect_blocks([sizes], names)[0],
-            "tests": {each.name: self._test(each) for each in compared},
+            "tests": {each.name: self._list_test(each) for each in compared},
             "sections": list_all_sections(
                 [
                     lay_out_space(machine.machine, self.say),
@@ -135,7 +135,7 @@ class MachineView:
             ),
         }
 
-    def before_and_after(self, wanted: str, test: str) -> dict[str, Any]:
+    def compare_before_and_after(self, wanted: str, test: str) -> dict[str, Any]:
         """Return what the graphs of a test draw before and after a step of the model.
 
         `wanted`: The number of a row of the fall, from 1; or an effect that is not in the model.
@@ -146,7 +146,7 @@ class MachineView:
         circle = next((each for each in machine.measured if each.circle.name == test), None)
         if circle is None:
             raise InputError.at(PLACE, f"there is no circle {test[:60]!r}")
-        drawn = (self.bench.compared(self.loaded, each) for each in self._around(wanted))
+        drawn = (self.bench.compare(self.loaded, each) for each in self._study_around(wanted))
         return {
             "stamp": self.loaded.stamp,
             **{
@@ -157,7 +157,7 @@ class MachineView:
             },
         }
 
-    def _around(self, wanted: str) -> tuple[CircleStudy, CircleStudy]:
+    def _study_around(self, wanted: str) -> tuple[CircleStudy, CircleStudy]:
         """Return the studies before and after a step."""
         machine, bench = self.loaded.machine, self.bench
         base = tuple(each for each in machine.effects if each.is_base)
@@ -167,10 +167,10 @@ class MachineView:
             parts = (base + further[: count - 1], base + further[:count])
         else:
             parts = (machine.effects, list_effects_with(machine, wanted, bench.registry, PLACE))
-        before, after = (bench.study(self.loaded, each) for each in parts)
+        before, after = (bench.make_study(self.loaded, each) for each in parts)
         return before, after
 
-    def _failures(self, compared: Sequence[ComparedTest]) -> Iterator[dict[str, Any]]:
+    def _list_failures(self, compared: Sequence[ComparedTest]) -> Iterator[dict[str, Any]]:
         for each in compared:
             for stretch in each.fails[:_MOST_FAILURES]:
                 said = describe_stretch(stretch, is_circle=isinstance(each.test, CircularTest))
@@ -183,41 +183,41 @@ class MachineView:
                     "readings": find_readings_of(stretch, each),
                 }
 
-    def _test(self, found: ComparedTest) -> list[dict[str, Any]]:
+    def _list_test(self, found: ComparedTest) -> list[dict[str, Any]]:
         """Return a test in numbers, but for where it fails, which the page says elsewhere."""
-        section: Section = test_section(found, self.say)
+        section: Section = lay_out_test(found, self.say)
         elsewhere = make_failure_notice([found], self.say)
         return collect_blocks((each for each in section.blocks if each != elsewhere), self.names)
 
-    def _error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
+    def _list_error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
         if study is None:
             return
-        written = f"{self.say.micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
+        written = f"{self.say.write_micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
         yield {"name": self.say(_ERROR), "value": written, "meaning": self.say(_ERROR_IS)}
 
-    def _effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:
+    def _list_effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:
         return {
             "effect": effect.identifier,
-            "name": self.names.text(effect.identifier),
+            "name": self.names.name_in(effect.identifier),
             "title": self.say(effect.title),
             "equation": split_symbol(effect.equation),
             "parameters": [
-                collect_parameter(each, self.language) for each in study.estimates_of(effect.identifier)
+                collect_parameter(each, self.language) for each in study.list_estimates_of(effect.identifier)
             ],
         }
 
-    def _fall(self) -> dict[str, Any]:
+    def _list_fall(self) -> dict[str, Any]:
         rows = find_fall_of(self.bench, self.loaded)
         largest = max(each.rms for each in rows) or 1.0
         names = self.names
-        called = [self.say(_MEASURED), self.say(_BY_AXES), *(names.text(each.effect) for each in rows[2:])]
+        called = [self.say(_MEASURED), self.say(_BY_AXES), *(names.name_in(each.effect) for each in rows[2:])]
         return {
             "unit": MICROMETRE.symbol,
             "rows": [
                 {
                     "effect": each.effect,
                     "name": name,
-                    "rms": self.say.micrometres(each.rms),
+                    "rms": self.say.write_micrometres(each.rms),
                     "share": each.rms / largest,
                     "left_out": "",
                 }
@@ -231,7 +231,7 @@ class MachineView:
 def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     say, u = Sayer(language), term.expanded_uncertainty
-    value, uncertainty = say.general(term.unit.from_si(term.value)), ""
+    value, uncertainty = say.write_general(term.unit.from_si(term.value)), ""
     if u is not None:
         pair = round_pair(term.unit.from_si(term.value), term.unit.from_si(u), language.decimal_sign)
         value, uncertainty = pair

@@ -40,7 +40,7 @@ class CommandResult:
     #: The sheet beside a certificate, to be looked at first; None where there is none.
     sheet: Path | None = None
 
-    def pages(self) -> dict[str, Path]:
+    def list_pages(self) -> dict[str, Path]:
         """Return what can be looked at page by page, in this order: the sheet first."""
         sheet = {_SHEET: self.sheet} if self.sheet else {}
         return sheet | {each.name: each for each in self.files if each.suffix == _PDF}
@@ -107,7 +107,7 @@ class Making:
             )
             Thread(target=self._listen, args=(self._process,), daemon=True).start()
 
-    def state(self) -> dict[str, Any]:
+    def describe_state(self) -> dict[str, Any]:
         """Return how far the command is, what it came to, and of which state of the job."""
         with self._lock:
             if self._process is not None:
@@ -118,17 +118,17 @@ class Making:
             return {
                 "state": "failed" if made.problems else "made",
                 "files": sorted(each.name for each in made.files),
-                "pages": {name: count_pages(path) for name, path in made.pages().items()},
+                "pages": {name: count_pages(path) for name, path in made.list_pages().items()},
                 "problems": list(made.problems),
                 "values": made.values,
                 "stamp": self._stamp,
             }
 
-    def file(self, name: str) -> Path | None:
+    def find_file(self, name: str) -> Path | None:
         """Return where a file lies that the command wrote; None for any other name."""
         with self._lock:
             made = self._made or CommandResult()
-            return (made.pages() | {each.name: each for each in made.files}).get(name)
+            return (made.list_pages() | {each.name: each for each in made.files}).get(name)
 
     def end(self) -> None:
         """End the process, if there is one."""

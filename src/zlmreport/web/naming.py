@@ -36,18 +36,18 @@ class Naming:
         }
         return cls(language, {each.identifier: each.title.in_language(language) for each in known}, described)
 
-    def text(self, text: str) -> str:
+    def name_in(self, text: str) -> str:
         """Return a text, or an identifier alone, with the names of this language in place of identifiers."""
         if self.language is Language.ENGLISH or not self.titles:
             return text
-        return self._pattern.sub(self._named, text)
+        return self._pattern.sub(self._name_found, text)
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         longest_first = sorted(self.titles, key=len, reverse=True)
         return re.compile(rf"(?<![\w.-])(?P<effect>{'|'.join(map(re.escape, longest_first))}){_AFTER}")
 
-    def _named(self, found: re.Match[str]) -> str:
+    def _name_found(self, found: re.Match[str]) -> str:
         effect, number, parameter = found["effect"], found["number"], found["parameter"]
         name = self.titles[effect] + (f" {number}" if number else "")
         if not parameter:

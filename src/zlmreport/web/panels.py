@@ -22,7 +22,7 @@ from zlmreport.document.subjects.fit import (
     write_deviation,
 )
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import split_spans
@@ -69,7 +69,7 @@ class Panels:
         """Return words in the language of the page."""
         return words.in_language(self.language)
 
-    def error(self) -> list[dict[str, str]]:
+    def list_error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
         meanings = {
             self.say(name): self.say(TEXTS[key])
@@ -79,13 +79,13 @@ class Panels:
         facts = list_error_facts(self.whole.error, self.design.axis, self.language)
         return [each | {"meaning": meanings.get(each["name"], chi2)} for each in collect_errors(facts)]
 
-    def effects(self) -> list[dict[str, Any]]:
+    def list_effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
         fit, names = self.whole.fit, self.naming
         return [
             {
                 "effect": term.effect.identifier,
-                "name": names.text(term.effect.identifier),
+                "name": names.name_in(term.effect.identifier),
                 "title": self.say(term.effect.title),
                 "equation": split_symbol(term.effect.equation),
                 "parameters": [
@@ -97,20 +97,20 @@ class Panels:
             for term in fit.model.terms
         ]
 
-    def others(self) -> list[dict[str, str]]:
+    def list_other_effects(self) -> list[dict[str, str]]:
         """Return the installed effects that do not stand in the model, and can be tried on this test."""
         present, names = set(self.whole.fit.model.identifiers), self.naming
         return [
             {
                 "effect": each.identifier,
-                "name": names.text(each.identifier),
+                "name": names.name_in(each.identifier),
                 "title": self.say(each.title),
             }
             for each in self.registry.effects
             if each.identifier not in present and each.untestable(self.design) is None
         ]
 
-    def fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
+    def list_fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
         """Return how the error fell, effect by effect, down to the noise floor."""
         unit = self.design.axis.deviation_unit
         largest = max(each.error.rms for each in history) or 1.0
@@ -121,19 +121,19 @@ class Panels:
             "rows": [
                 {
                     "effect": name,
-                    "name": called.text(name),
-                    "rms": self._deviation(each.error.rms),
+                    "name": called.name_in(name),
+                    "rms": self._write_deviation(each.error.rms),
                     "share": each.error.rms / largest,
-                    "left_out": self._deviation(each.error.cross_validated_rms),
+                    "left_out": self._write_deviation(each.error.cross_validated_rms),
                 }
                 for name, each in zip(names, history, strict=True)
             ],
             "floor": None
             if floor is None
-            else {"rms": self._deviation(floor), "share": min(1.0, floor / largest)},
+            else {"rms": self._write_deviation(floor), "share": min(1.0, floor / largest)},
         }
 
-    def standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
+    def list_standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
         """Return the parameters of each standard: now, by a table of positions, and by the whole model.
 
         `results`: Of the job's standards, in their order.
@@ -154,7 +154,7 @@ class Panels:
                 {
                     "designation": evaluated.evaluation.designation,
                     "unit": self.writer.deviation_unit.symbol,
-                    "rows": [self._row(each, forecast[each.quantity.symbol]) for each in parameters],
+                    "rows": [self._make_row(each, forecast[each.quantity.symbol]) for each in parameters],
                     "unmet": [
                         f"{self.say(finding.requirement)}: {self.say(finding.found)}"
                         for finding in evaluated.evaluation.findings
@@ -164,7 +164,7 @@ class Panels:
             )
         return found
 
-    def excluded(self) -> list[dict[str, str]]:
+    def list_excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""
         position, unit = self.writer.position_unit.symbol, self.writer.deviation_unit.symbol
         return [
@@ -177,10 +177,10 @@ class Panels:
             for each in self.loaded.measurements.provenance.exclusions
         ]
 
-    def _deviation(self, value: float | None) -> str:
+    def _write_deviation(self, value: float | None) -> str:
         return write_deviation(value, self.design.axis, self.language)
 
-    def _row(self, parameter: Parameter, forecast: Any) -> dict[str, Any]:
+    def _make_row(self, parameter: EvaluatedParameter, forecast: Any) -> dict[str, Any]:
         writer, quantity = self.writer, parameter.quantity
         value, uncertainty = write_with_uncertainty(parameter, writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)

@@ -55,7 +55,7 @@ def _list_stairs(
 
 def _name_one_of(step: Mapping[str, Any], names: Naming) -> str:
     """Return the effect of a step, with those that the readings do not tell from it."""
-    titles = [names.text(each) for each in (step["effect"], *step.get("indistinguishable_from", ()))]
+    titles = [names.name_in(each) for each in (step["effect"], *step.get("indistinguishable_from", ()))]
     return list_alternatives(titles).in_language(names.language)
 
 

@@ -44,10 +44,10 @@ SHOWN = 30
 
 def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return the page of a job."""
-    whole = bench.whole(loaded)
+    whole = bench.fit_whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     names = panels.naming
-    entries = BenchJournal.beside(bench.path).entries()
+    entries = BenchJournal.beside(bench.path).read_entries()
     steps = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,
@@ -56,26 +56,26 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
         "subject": _name_subject(loaded.job, language),
         "file": bench.path.name,
         "graphs": collect_graphs(loaded.study, whole, language),
-        "error": panels.error(),
-        "effects": panels.effects(),
-        "others": panels.others(),
-        "excluded": panels.excluded(),
+        "error": panels.list_error(),
+        "effects": panels.list_effects(),
+        "others": panels.list_other_effects(),
+        "excluded": panels.list_excluded(),
         "offered": list_offered(bench, loaded, language),
-        "steps": [step(each, language, names) for each in reversed(entries[-SHOWN:])],
+        "steps": [list_step(each, language, names) for each in reversed(entries[-SHOWN:])],
         "asked": [
             {
                 "key": each.key,
                 "name": each.name.in_language(language),
                 "unit": each.unit,
                 "effects": list(each.effects),
-                "names": [names.text(effect) for effect in each.effects],
+                "names": [names.name_in(effect) for effect in each.effects],
             }
             for each in list_lengths_asked(
                 loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
             )
         ],
         **{
-            name: None if entry is None else names.text(say_done_by(entry).in_language(language))
+            name: None if entry is None else names.name_in(say_done_by(entry).in_language(language))
             for name, entry in zip((UNDO, REDO), steps, strict=True)
         },
     }
@@ -83,11 +83,11 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
 
 def make_results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return what takes longer than the graphs: how the error fell, and what the standards say."""
-    panels = Panels(loaded, bench.registry, bench.whole(loaded), language)
+    panels = Panels(loaded, bench.registry, bench.fit_whole(loaded), language)
     return {
         "stamp": loaded.stamp,
-        "fall": panels.fall(bench.history(loaded)),
-        "standards": panels.standards(bench.evaluated(loaded)),
+        "fall": panels.list_fall(bench.fit_history(loaded)),
+        "standards": panels.list_standards(bench.evaluate(loaded)),
         "moving": say_no_table_takes_away(panels.whole.fit, language),
         "lacking": [collect_field(each, language) for each in list_what_is_lacking(loaded, bench.registry)],
     }
@@ -100,11 +100,11 @@ def collect_before_and_after(bench: Bench, loaded: Loaded, step: str, language: 
 
     Raises `InputError` if there is no such effect, or it cannot be fitted.
     """
-    history = bench.history(loaded)
+    history = bench.fit_history(loaded)
     if step.isdecimal() and 0 < int(step) < len(history):
         fits = history[int(step) - 1], history[int(step)]
     else:
-        fits = history[-1], bench.with_effect(loaded, step)
+        fits = history[-1], bench.fit_with_effect(loaded, step)
     drawn = (collect_graphs(loaded.study, each, language) for each in fits)
     return {
         name: {"model": each["model"], "residual": each["readings"]["residual"]}
@@ -119,7 +119,7 @@ def collect_closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> d
 
     Raises `InputError` if there is no such part.
     """
-    whole, unit = bench.whole(loaded), loaded.job.axis.position_unit
+    whole, unit = bench.fit_whole(loaded), loaded.job.axis.position_unit
     first, last = whole.fit.design.span
     low, high = (min(max(unit.to_si(each), first), last) for each in ends)
     if not low < high:
@@ -130,12 +130,12 @@ def collect_closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> d
     }
 
 
-def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
+def list_step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
     words = say_done_by(entry)
     if entry.action in {UNDO, REDO}:
         words = _STEPS[entry.action].given(subject=words)
-    return {"at": entry.at[11:19], "text": names.text(words.in_language(language))}
+    return {"at": entry.at[11:19], "text": names.name_in(words.in_language(language))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ def collect_diagnosed(
     names = Naming.of((*effects, *(term.effect for term in diagnosis.fit.model.terms)), language)
     return {
         "verdict": diagnosis.verdict.value,
-        "statement": names.text(rows.statement),
+        "statement": names.name_in(rows.statement),
         "failures": [collect_failure(each, diagnosis, study) for each in rows.failures],
         "faults": [_describe_fault(each, study, language) for each in diagnosis.faults],
         "candidates": [_make_candidate(each, rows, names) for each in rows.candidates],
@@ -189,14 +189,14 @@ def collect_diagnosed(
         "hidden": [
             {
                 "effects": list(each.effects),
-                "names": [names.text(effect) for effect in each.effects],
-                "reason": names.text(each.reason),
+                "names": [names.name_in(effect) for effect in each.effects],
+                "reason": names.name_in(each.reason),
             }
             for each in (*rows.hidden, *rows.not_tested)
         ],
         "notExcluded": list(rows.not_excluded),
-        "notExcludedNames": [names.text(each) for each in rows.not_excluded],
-        "remarks": [names.text(each) for each in rows.remarks],
+        "notExcludedNames": [names.name_in(each) for each in rows.not_excluded],
+        "remarks": [names.name_in(each) for each in rows.remarks],
     }
 
 
@@ -214,7 +214,7 @@ def _describe_fault(fault: DataFault, study: Study, language: Language) -> dict[
 def _make_candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) -> dict[str, Any]:
     return {
         "effect": row.effect,
-        "name": names.text(row.effect),
+        "name": names.name_in(row.effect),
         "title": row.title,
         "argument": row.argument,
         "probability": f"{row.probability} %",
@@ -225,9 +225,9 @@ def _make_candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) 
         "rmsAfter": row.error.pairs[0][1],
         "error": collect_errors(row.error),
         "parameters": [collect_parameter(each) for each in row.parameters],
-        "explains": names.text(row.explains),
+        "explains": names.name_in(row.explains),
         "equals": list(row.equals),
-        "equalNames": [names.text(each) for each in row.equals],
-        "tell": names.text(row.tell_apart_by),
-        "remedy": names.text(row.remedy),
+        "equalNames": [names.name_in(each) for each in row.equals],
+        "tell": names.name_in(row.tell_apart_by),
+        "remedy": names.name_in(row.remedy),
     }

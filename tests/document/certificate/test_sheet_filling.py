@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 from document.certificate.documents import lines_of
 from zlmreport.document.blocks import Facts, Notice, Paragraph
 from zlmreport.document.certificate import columns
-from zlmreport.document.certificate.sheet_filling import Filled, Said, fill, lay_out_details
+from zlmreport.document.certificate.sheet_filling import Filled, SheetContent, fill, lay_out_details
 from zlmreport.document.writer import Writer
 from zlmreport.language import Language
 from zlmreport.measurement import units
@@ -23,7 +23,7 @@ CONDITIONS = (
     Facts((("Feed", "600 mm/min"), ("Remarks", "Words of a remark. " * 29))),
     Facts((("Serial number", "EXAMPLE-L-1"),), "Measuring instrument"),
 )
-SAID = Said(
+SAID = SheetContent(
     (Notice("The test deviates from a standard", ("Five targets; found: three, " * 9,)),),
     WHO,
     (
@@ -45,7 +45,7 @@ def pairs(groups: Iterable[object]) -> set[tuple[str, str]]:
 
 def test_a_page_with_room_holds_everything() -> None:
     filled = fill(SAID, 700, WRITER)
-    assert filled.left == Said()
+    assert filled.left == SheetContent()
     assert "Details" not in text(filled)
     assert ("Feed", "600 mm/min") in pairs(filled.others)
 
@@ -64,7 +64,7 @@ def test_a_page_short_of_room_keeps_who_what_and_that_something_is_to_be_noted()
 
 
 def test_where_not_even_headings_have_room_the_page_points_at_what_is_to_be_noted() -> None:
-    long = Said(tuple(Notice(f"Notice {number} " * 12, ("why",)) for number in range(9)))
+    long = SheetContent(tuple(Notice(f"Notice {number} " * 12, ("why",)) for number in range(9)))
     filled = fill(long, 60, WRITER)
     assert text(filled).startswith("! To be noted: see the page “Details”")
     assert filled.left.notices == long.notices
@@ -76,15 +76,15 @@ def test_a_page_that_another_one_follows_has_more_room() -> None:
 
 
 def test_details_say_once_what_several_pages_lack() -> None:
-    lacking = Said(who=WHO, law=(Paragraph("Decision rule."),))
-    title, blocks = lay_out_details((lacking, lacking, Said(who=WHO[:1])), WRITER, PAGE)
+    lacking = SheetContent(who=WHO, law=(Paragraph("Decision rule."),))
+    title, blocks = lay_out_details((lacking, lacking, SheetContent(who=WHO[:1])), WRITER, PAGE)
     assert title == "Details"
     assert blocks == (Facts(WHO), Paragraph("Decision rule."))
 
 
 def test_details_that_are_too_long_for_a_page_stand_in_small_type() -> None:
     remark = ("Remarks", "Words of a remark. " * 100)
-    lacking = Said((), WHO, (Paragraph("Decision rule."),), (Facts((remark,)),))
+    lacking = SheetContent((), WHO, (Paragraph("Decision rule."),), (Facts((remark,)),))
     _, blocks = lay_out_details((lacking,), WRITER, PAGE)
     assert Facts((*WHO, remark)) in blocks
     title, blocks = lay_out_details((lacking,), WRITER, 260.0)
@@ -95,7 +95,7 @@ def test_details_that_are_too_long_for_a_page_stand_in_small_type() -> None:
 _TEXTS = st.text(st.sampled_from("abcdefg äöü-"), min_size=1, max_size=200).map(lambda text: f"x{text}x")
 _PAIRS = st.lists(st.tuples(_TEXTS, _TEXTS), max_size=8, unique=True).map(tuple)
 _SAID = st.builds(
-    Said,
+    SheetContent,
     st.lists(st.builds(Notice, _TEXTS, st.lists(_TEXTS, max_size=2).map(tuple)), max_size=4).map(tuple),
     _PAIRS,
     st.lists(_TEXTS.map(Paragraph), max_size=5, unique=True).map(tuple),
@@ -105,7 +105,7 @@ _SAID = st.builds(
 
 @settings(max_examples=40, deadline=None)
 @given(said=_SAID, room=st.floats(90, 500))
-def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, room: float) -> None:
+def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: SheetContent, room: float) -> None:
     filled = fill(said, room, WRITER)
     shown = text(filled)
     _, left = lay_out_details((filled.left,), WRITER, PAGE)
@@ -118,5 +118,5 @@ def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, 
     ):
         assert words in printed
     assert filled.height <= room
-    assert ("“Details”: " in shown) == (filled.left != Said())
+    assert ("“Details”: " in shown) == (filled.left != SheetContent())
     assert columns.estimate_height(filled.notices) > 0 or not said.notices

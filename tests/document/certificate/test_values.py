@@ -10,7 +10,7 @@ from plugins.standards.installed import STANDARDS
 from zlmreport.document.certificate.values import Values, write_coverage_factor
 from zlmreport.document.writer import Writer, write_uncertainty, write_with_uncertainty
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
@@ -20,10 +20,10 @@ from zlmreport.testing import simulated_test
 SCRIBE = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 2)
 
 
-def parameter(value: float, expanded: float | None, factor: float = 2.0) -> Parameter:
+def parameter(value: float, expanded: float | None, factor: float = 2.0) -> EvaluatedParameter:
     """Return a parameter with values in micrometres."""
     quantity = STANDARDS["iso230-2:2014"].quantities[0]
-    return Parameter(
+    return EvaluatedParameter(
         quantity, value * 1e-6, expanded_uncertainty=expanded and expanded * 1e-6, coverage_factor=factor
     )
 
@@ -89,5 +89,5 @@ def test_there_are_columns_for_what_is_stated(stated: dict[str, bool], columns: 
 
     values = Values.of([found], SCRIBE)
 
-    assert len(tuple(values.columns())) == columns
-    assert all(len(tuple(values.cells(each))) + 2 == columns for each in found.parameters)
+    assert len(tuple(values.list_columns())) == columns
+    assert all(len(tuple(values.list_cells(each))) + 2 == columns for each in found.parameters)

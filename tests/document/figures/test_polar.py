@@ -41,7 +41,7 @@ def test_values_stand_so_far_outside_the_nominal_circle_as_they_are_large():
     assert 0.0 in grid.ticks
     assert grid.ticks[0] <= -3.0
     assert grid.ticks[-1] >= 3.0
-    assert float(grid.radius(grid.ticks[0])) > 0
+    assert float(grid.compute_radius(grid.ticks[0])) > 0
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 3e4])
@@ -108,7 +108,7 @@ def test_a_curve_shows_its_sense_by_an_arrow_along_it():
     for shown, sense in ((forwards, 1.0), (backwards, -1.0)):
         tip, base = tip_and_base(shown)
         frame = lay_out(shown, Language.ENGLISH).panels[0].frame
-        middle = np.array([frame.x_point(0.0), frame.y_point(0.0)])
+        middle = np.array([frame.place_x(0.0), frame.place_y(0.0)])
         arm, way = base - middle, tip - base
         assert np.sign(arm[0] * way[1] - arm[1] * way[0]) == sense
 

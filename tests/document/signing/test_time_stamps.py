@@ -109,8 +109,10 @@ def test_what_was_revoked_later_was_valid_when_it_signed(own: Authority, tmp_pat
     own.revoked.clear()
     kept = SimpleNamespace(as_validation_context=lambda settings: ValidationContext(**settings, crls=listed))
     trust = _Trust(trusted, kept, ())
-    assert trust.against(signer, own.now - timedelta(days=3)) == ""
-    assert trust.against(signer, own.now - timedelta(days=1)).startswith("its certificate was revoked on 20")
+    assert trust.say_against(signer, own.now - timedelta(days=3)) == ""
+    assert trust.say_against(signer, own.now - timedelta(days=1)).startswith(
+        "its certificate was revoked on 20"
+    )
 
 
 def test_a_service_that_does_not_answer_is_named(unsigned: bytes, tmp_path: Path) -> None:

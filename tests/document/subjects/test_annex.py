@@ -36,7 +36,7 @@ def modelled(path: Path = CONFIG / "job.yaml") -> Modelled:
 
 def section(of: Modelled, language: Language = Language.ENGLISH) -> Section:
     loaded = job(CONFIG / "job.yaml")
-    return of.section(Writer.of(pipeline.read(loaded, registry()), language))
+    return of.lay_out_section(Writer.of(pipeline.read(loaded, registry()), language))
 
 
 def text(of: Modelled, language: Language = Language.ENGLISH) -> str:

@@ -27,16 +27,16 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings, Role
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import (
     Arithmetic,
     Basis,
     Evaluation,
     Finding,
-    Group,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.job.types import Options
@@ -68,7 +68,7 @@ class SampleStandard:
             Words(
                 "Range of the mean bidirectional deviation", "Spanne der mittleren beidseitigen Abweichung"
             ),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             "max[x̄_{i}] − min[x̄_{i}]",
             Words("The mean error of a part.", "Der mittlere Fehler eines Teils."),
         ),
@@ -76,7 +76,7 @@ class SampleStandard:
             "R_fwd",
             "R↑",
             Words("Unidirectional repeatability", "Einseitige Wiederholpräzision"),
-            Group.RANDOM,
+            QuantityGroup.RANDOM,
             "max[4s_{i}↑]",
             Words("The scatter of parts.", "Die Streuung von Teilen."),
         ),
@@ -84,7 +84,7 @@ class SampleStandard:
             "B",
             "B",
             Words("Reversal value", "Umkehrspanne"),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             "max[|B_{i}|]",
             Words("The backlash.", "Das Umkehrspiel."),
         ),
@@ -168,7 +168,9 @@ def evaluation(readings: MeasurementSet) -> Evaluation:
     """The sample standard's evaluation, with a limit that is kept and one that is not."""
     unit = readings.axis.deviation_unit
     limits = {"M": unit.to_si(20.0), "R_fwd": unit.to_si(1.5)}
-    return decided(evaluate(SampleStandard(), readings, Options(), limits), decision_rule("simple"))
+    return with_decisions(
+        evaluate(SampleStandard(), readings, Options(), limits), make_decision_rule("simple")
+    )
 
 
 def figure(result: Evaluation, key: str = "means") -> Figure:
@@ -419,8 +421,8 @@ class _Writer:
     def results_table(self) -> Table:
         say = self.say
         headings = {
-            Group.SYSTEMATIC: say("Systematic deviations", "Systematische Abweichungen"),
-            Group.RANDOM: say("Random deviations", "Zufällige Abweichungen"),
+            QuantityGroup.SYSTEMATIC: say("Systematic deviations", "Systematische Abweichungen"),
+            QuantityGroup.RANDOM: say("Random deviations", "Zufällige Abweichungen"),
         }
         groups = []
         for group, heading in headings.items():

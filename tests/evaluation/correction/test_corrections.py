@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.correction.corrections import Air, Corrections, Expansion, correct
+from zlmreport.evaluation.correction.corrections import Air, Corrections, MaterialExpansion, correct
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import simulated_test
@@ -30,7 +30,7 @@ def everywhere(measured: MeasurementSet, value: float) -> np.ndarray:
 
 
 def test_a_warm_axis_is_taken_back_to_20_degrees(measured):
-    warm = Expansion(11.5e-6, everywhere(measured, 293.15 + 4))
+    warm = MaterialExpansion(11.5e-6, everywhere(measured, 293.15 + 4))
     found = correct(measured, Corrections(datum=0.0, expansion=warm))
 
     expected = measured.deviation - displacement(measured, 0.0) * 11.5e-6 * 4
@@ -38,7 +38,9 @@ def test_a_warm_axis_is_taken_back_to_20_degrees(measured):
 
 
 def test_at_20_degrees_nothing_expands(measured):
-    found = correct(measured, Corrections(0.0, expansion=Expansion(11.5e-6, everywhere(measured, 293.15))))
+    found = correct(
+        measured, Corrections(0.0, expansion=MaterialExpansion(11.5e-6, everywhere(measured, 293.15)))
+    )
 
     np.testing.assert_allclose(found.deviation, measured.deviation, rtol=0, atol=EXACT)
 
@@ -57,7 +59,7 @@ def test_the_datum_is_not_moved_by_the_index_of_the_air(measured):
 def test_corrections_follow_each_other_and_are_remembered_in_their_order(measured):
     rising = np.linspace(1.000270, 1.000272, len(measured.deviation))
     corrections = Corrections(
-        0.0, Air(rising, 1.000270), 0.5, Expansion(11.5e-6, everywhere(measured, 294.15))
+        0.0, Air(rising, 1.000270), 0.5, MaterialExpansion(11.5e-6, everywhere(measured, 294.15))
     )
     found = correct(measured, corrections)
 

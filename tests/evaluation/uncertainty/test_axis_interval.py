@@ -12,9 +12,9 @@ from evaluation.uncertainty.budgets import ISO
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.axis_interval import (
     _digamma,
-    _interval,
     _inverse_trigamma,
-    _pooled,
+    _make_interval,
+    _pool,
     _scatter_of,
     _trigamma,
     compute_axis_intervals,
@@ -144,7 +144,7 @@ def test_the_interval_is_of_this_test_and_comes_out_alike_again() -> None:
 
 
 def test_few_cells_are_pooled_by_their_freedom() -> None:
-    variance, freedom = _pooled(
+    variance, freedom = _pool(
         np.array([[1.0, 4.0, np.nan]]), np.array([[4.0, 2.0, 0.0]]), np.array([0.0, 0.1, 0.2])
     )
     assert variance == pytest.approx(np.full((1, 3), 2.0))
@@ -156,7 +156,7 @@ def test_cells_that_differ_by_more_than_chance_are_each_drawn_to_their_common_sc
     logarithms = np.tile([-1.2, -0.4, 0.4, 1.2], 10)
     beyond = logarithms.var(ddof=1) * (1 + math.sqrt(2 / 39)) - CHANCE
     prior = 2 * _inverse_trigamma(beyond)
-    variance, freedom = _pooled(np.exp(logarithms)[np.newaxis], np.full((1, 40), 4.0), np.zeros(40))
+    variance, freedom = _pool(np.exp(logarithms)[np.newaxis], np.full((1, 40), 4.0), np.zeros(40))
     mean = -(_digamma(2.0) - math.log(2.0))
     scale = math.exp(mean + _digamma(prior / 2) - math.log(prior / 2))
     assert freedom == pytest.approx(np.full((1, 40), 4 + prior))
@@ -167,7 +167,7 @@ def test_cells_that_differ_by_more_than_chance_are_each_drawn_to_their_common_sc
 def test_a_cell_stands_out_by_2_2_standard_deviations_of_chance(deviations: float, *, is_alone: bool) -> None:
     variances = np.ones((2, 11))
     variances[1, 4] = math.exp(deviations * math.sqrt(CHANCE))
-    variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    variance, freedom = _pool(variances, np.full((2, 11), 4.0), np.zeros(11))
     alone, common = (variances[1, 4], 1.0), ((21 + variances[1, 4]) / 22,) * 2
     assert (variance[1, 4], variance[0, 0]) == pytest.approx(alone if is_alone else common)
     assert (freedom[1, 4], freedom[0, 0]) == pytest.approx((4, 84) if is_alone else (88, 88))
@@ -178,7 +178,7 @@ def test_a_position_stands_out_by_both_directions_together(deviations: float, *,
     """Of two the mean scatters by 1/√2 of one: 2.2/√2 = 1.556. What they tell of their common s is joined."""
     variances = np.ones((2, 11))
     variances[:, 4] = math.exp(deviations * math.sqrt(CHANCE))
-    variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    variance, freedom = _pool(variances, np.full((2, 11), 4.0), np.zeros(11))
     assert (freedom[:, 4] == 8.0).all() is np.bool_(is_alone)
     if is_alone:
         assert variance[:, 4] == pytest.approx(variances[:, 4])
@@ -188,7 +188,7 @@ def test_a_position_stands_out_by_both_directions_together(deviations: float, *,
 def test_directions_that_scatter_each_by_its_own_at_a_position_are_not_joined() -> None:
     variances = np.ones((2, 11))
     variances[:, 4] = 10.0, 1000.0
-    variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    variance, freedom = _pool(variances, np.full((2, 11), 4.0), np.zeros(11))
     assert variance[:, 4] == pytest.approx([10.0, 1000.0])
     assert freedom[:, 4] == pytest.approx([4.0, 4.0])
 
@@ -196,13 +196,13 @@ def test_directions_that_scatter_each_by_its_own_at_a_position_are_not_joined() 
 def test_a_small_scatter_does_not_stand_out() -> None:
     variances = np.ones((2, 11))
     variances[0, 0] = 0.1
-    _, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    _, freedom = _pool(variances, np.full((2, 11), 4.0), np.zeros(11))
     assert freedom == pytest.approx(np.full((2, 11), 88.0))
 
 
 def test_three_of_ten_may_stand_out_and_the_fourth_is_the_rule() -> None:
     variances = np.array([[1.0] * 6 + [1e4, 1e6, 1e8, 1e10]])
-    _, freedom = _pooled(variances, np.full((1, 10), 4.0), np.zeros(10))
+    _, freedom = _pool(variances, np.full((1, 10), 4.0), np.zeros(10))
     assert (freedom[0, 7:] == 4.0).all()
     assert (freedom[0, :7] != 4.0).all()
 
@@ -212,7 +212,7 @@ def test_scatter_grows_where_its_slope_is_three_standard_errors(slope: float, *,
     """Of 22 cells from −0.5 to 0.5: Σx² = 2.2, and u of the slope √(0.645/2.2) = 0.541."""
     positions = np.linspace(-0.5, 0.5, 11)
     growing = np.broadcast_to(np.exp(slope * positions), (2, 11)).copy()
-    variance, _ = _pooled(growing, np.full((2, 11), 4.0), positions)
+    variance, _ = _pool(growing, np.full((2, 11), 4.0), positions)
     assert (variance == pytest.approx(growing)) is grows
 
 
@@ -228,5 +228,5 @@ def test_the_functions_of_variances_agree_with_what_is_known_of_them() -> None:
 
 def test_a_value_that_reached_nothing_in_a_drawn_test_does_not_go_below() -> None:
     drawn = np.array([0.0, 2.0]), np.array([2.0, 0.0])
-    assert _interval(1.0, *drawn) == pytest.approx((0.0, 3.0), rel=0.1)
-    assert _interval(1.0, drawn[0] - 0.1, drawn[1])[0] < -1.0
+    assert _make_interval(1.0, *drawn) == pytest.approx((0.0, 3.0), rel=0.1)
+    assert _make_interval(1.0, drawn[0] - 0.1, drawn[1])[0] < -1.0

@@ -10,7 +10,7 @@ import pytest
 
 from evaluation.uncertainty.budgets import ISO, MICROMETRE, budget, contribution
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation, Least, Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, Least
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, KnownError, NoBudget
 from zlmreport.evaluation.uncertainty.drift import compute_mean_drift_variance, compute_reading_times
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty, compute_mean_uncertainty
@@ -28,7 +28,7 @@ def stated(of: Budget | NoBudget) -> Evaluation:
     return found
 
 
-def parameters(of: Budget | NoBudget) -> dict[str, Parameter]:
+def parameters(of: Budget | NoBudget) -> dict[str, EvaluatedParameter]:
     return {each.quantity.symbol: each for each in stated(of).parameters}
 
 

@@ -14,7 +14,7 @@ from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.instrument_curves import Form, list_forms, sample_waves
+from zlmreport.evaluation.uncertainty.instrument_curves import CurveForm, list_forms, sample_waves
 from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
@@ -64,15 +64,15 @@ def test_the_bend_of_a_body_leaves_the_straightness_what_errors_one_by_one_make_
 @pytest.mark.parametrize(
     ("quantity", "contributor", "asked"),
     [
-        (STRAIGHTNESS, "instrument", tuple(Form)),
-        (STRAIGHTNESS, None, (Form.AT_EACH_POSITION,)),
-        (None, "instrument", (Form.AT_EACH_POSITION, Form.WAVES)),
-        (None, None, (Form.AT_EACH_POSITION,)),
+        (STRAIGHTNESS, "instrument", tuple(CurveForm)),
+        (STRAIGHTNESS, None, (CurveForm.AT_EACH_POSITION,)),
+        (None, "instrument", (CurveForm.AT_EACH_POSITION, CurveForm.WAVES)),
+        (None, None, (CurveForm.AT_EACH_POSITION,)),
     ],
     ids=["straightness", "straightness, of something else", "positions", "positions, of something else"],
 )
 def test_waves_are_asked_of_an_instrument_and_a_bend_of_a_body_that_lines_are_held_against(
-    quantity: Measurand | None, contributor: str | None, asked: tuple[Form, ...]
+    quantity: Measurand | None, contributor: str | None, asked: tuple[CurveForm, ...]
 ) -> None:
     at, flat = np.linspace(0, 1000, 5), np.zeros((5, 1))
     axis = Axis("X", quantity=quantity, error="EYX") if quantity else Axis("X")
@@ -105,7 +105,7 @@ def test_u_of_a_range_holds_an_instrument_that_errs_by_a_wave() -> None:
 
 
 def test_waves_have_the_stated_size_at_each_position_whatever_their_number() -> None:
-    for form in (Form.BEND, Form.WAVES):
+    for form in (CurveForm.BEND, CurveForm.WAVES):
         drawn = sample_waves(form, np.linspace(0, 1, 7), 40_000, np.random.default_rng(3))
         assert np.sqrt(np.mean(drawn**2, axis=0)) == pytest.approx(np.ones(7), rel=0.02)
         assert np.abs(drawn).max() <= math.sqrt(2)

@@ -46,6 +46,6 @@ def recorded(readings: Iterable[LiveReading], journal: Journal) -> list[Event]:
 
 def written(path: Path, readings: Iterable[LiveReading], plan: Plan | None = None, **changes) -> Path:
     """Write the journal of a sitting."""
-    with Journal.begun(path, header(plan, **changes)) as journal:
+    with Journal.begin(path, header(plan, **changes)) as journal:
         recorded(readings, journal)
     return path

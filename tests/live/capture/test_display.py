@@ -76,7 +76,7 @@ def test_when_it_is_set_back_the_test_goes_on_where_it_was() -> None:
     first = following(listed())
     happened(shown(lambda value: value / INCH, 3.5), first)
     assert first.progress.taken == 0
-    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    second = Follower(first.progress.take_event(Resumed()), SETTINGS)
     events = happened(course(), second)
     assert any(isinstance(event, DatumHolds) for event in events)
     assert filed(events) == pytest.approx(dict.fromkeys(range(1, 7), 6.25))

@@ -212,7 +212,7 @@ def test_a_doubted_reading_is_filed_or_dropped_as_the_operator_says(answer, expe
     axis, follower = Axis(error={0: 0.3}), following(listed(), is_watched=True)
     (event,) = happened(chain(axis.stand(), axis.go(0)), follower)
     assert isinstance(event, Unclear)
-    assert kinds(follower.told(listed()[answer - 1] if answer else None)) == expected
+    assert kinds(follower.take_answer(listed()[answer - 1] if answer else None)) == expected
 
 
 @pytest.mark.parametrize(("slip", "holds"), [(0.004, True), (0.011, False)])
@@ -414,7 +414,7 @@ def test_after_a_lost_zero_the_run_is_taken_again_as_another_attempt() -> None:
     axis, first = Axis(), following(listed(runs=2), datum=-5 * MM)
     happened(chain(axis.stand(), axis.go(0, 100), axis.stand(1.5, **BEAM_LOST)), first)
     axis = Axis(time=500.0)
-    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    second = Follower(first.progress.take_event(Resumed()), SETTINGS)
     events = happened(chain(axis.stand(), axis.go(0)), second)
     assert kinds(events) == ["DatumTaken", "visit 1"]
     assert events[1].attempt == 2
@@ -553,7 +553,7 @@ def _interrupted(moved_by: float = 0.0) -> tuple[Axis, Follower]:
     happened(chain(axis.stand(), axis.go(0, 100)), first)
     axis.time += 1000
     axis.error = dict.fromkeys((0, 100, 200), moved_by)
-    return axis, Follower(first.progress.after(Resumed()), SETTINGS)
+    return axis, Follower(first.progress.take_event(Resumed()), SETTINGS)
 
 
 def test_after_an_interruption_the_datum_is_held_against_an_earlier_reading() -> None:
@@ -572,7 +572,7 @@ def test_the_visit_that_checks_the_datum_is_not_taken_for_a_later_one() -> None:
     axis, first = Axis(), following(listed(Method.PENDULUM, runs=2))
     happened(chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(0)), first)
     axis.time += 1000
-    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    second = Follower(first.progress.take_event(Resumed()), SETTINGS)
     events = happened(chain(axis.turn(5), axis.go(0), axis.turn(-5), axis.go(0)), second)
     assert kinds(events) == ["DatumHolds", "visit 3"]
 
@@ -589,7 +589,7 @@ def test_in_a_later_run_the_check_is_a_visit_itself() -> None:
     axis, first = Axis(), following(listed(Method.UNIDIRECTIONAL, runs=2))
     happened(chain(axis.stand(), axis.go(0, 100, 200)), first)
     axis.time += 1000
-    second = Follower(first.progress.after(Resumed()), SETTINGS)
+    second = Follower(first.progress.take_event(Resumed()), SETTINGS)
     assert kinds(happened(chain(axis.turn(-5), axis.go(0)), second)) == ["DatumHolds", "visit 4"]
 
 

@@ -27,7 +27,7 @@ def journal(tmp_path: Path) -> Path:
 
 def test_everything_that_happened_is_read_as_it_was(tmp_path: Path) -> None:
     axis, path = Axis(), tmp_path / "x.journal"
-    with Journal.begun(path, header()) as journal:
+    with Journal.begin(path, header()) as journal:
         events = recorded(
             chain(axis.stand(), axis.go(0), axis.go(200), axis.turn(150), axis.go(100)), journal
         )
@@ -50,7 +50,7 @@ def test_numbers_lose_no_digit(journal: Path) -> None:
 
 def test_a_journal_goes_on_where_it_ended(journal: Path) -> None:
     axis = Axis(position=95.0, time=200.0)
-    with Journal.continued(journal) as opened:
+    with Journal.resume(journal) as opened:
         assert opened.progress.taken == 2
         opened.append(Resumed(), 100.0)
         events = recorded(chain(axis.go(100, 200)), opened)
@@ -66,7 +66,7 @@ def test_a_line_that_a_power_cut_tore_off_is_left_out_and_cut_away(journal: Path
     history = read_history(journal)
     assert history is not None
     assert (history.progress.taken, history.torn) == (1, left)
-    with Journal.continued(journal) as opened:
+    with Journal.resume(journal) as opened:
         opened.append(Resumed(), 100.0)
     assert journal.read_bytes().startswith(sound + b'{"elapsed"')
     assert read_history(journal).progress.must_check
@@ -103,14 +103,14 @@ def test_a_file_of_somebody_else_is_neither_read_nor_written_over(tmp_path: Path
     path = tmp_path / "notes.txt"
     path.write_bytes(content)
     with pytest.raises(AccessError, match="is no journal"):
-        Journal.begun(path, header())
+        Journal.begin(path, header())
     assert path.read_bytes() == content
 
 
 def test_a_capture_is_not_begun_over_another(journal: Path) -> None:
     before = journal.read_bytes()
     with pytest.raises(AccessError, match=r"holds a capture of CAL-7 .* 2 of 6 visits; go on with --resume"):
-        Journal.begun(journal, header())
+        Journal.begin(journal, header())
     assert journal.read_bytes() == before
 
 
@@ -120,12 +120,12 @@ def test_readings_of_a_run_that_is_to_be_taken_again_are_not_written_over(tmp_pa
     written(path, chain(axis.stand(), axis.go(0), lost))
     assert read_history(path).progress.taken == 0
     with pytest.raises(AccessError, match="go on with --resume"):
-        Journal.begun(path, header())
+        Journal.begin(path, header())
 
 
 def test_a_journal_without_a_reading_gives_way_to_a_new_capture(tmp_path: Path) -> None:
     path = written(tmp_path / "x.journal", Axis().stand())
-    with Journal.begun(path, header(number="CAL-8")):
+    with Journal.begin(path, header(number="CAL-8")):
         pass
     assert read_history(path).header.number == "CAL-8"
 
@@ -133,25 +133,25 @@ def test_a_journal_without_a_reading_gives_way_to_a_new_capture(tmp_path: Path) 
 def test_a_first_line_that_was_torn_off_gives_way_to_a_new_capture(journal: Path) -> None:
     journal.write_bytes(journal.read_bytes()[:30])
     assert read_history(journal) is None
-    with Journal.begun(journal, header()):
+    with Journal.begin(journal, header()):
         pass
     assert read_history(journal).progress.taken == 0
 
 
 def test_only_one_capture_writes_a_journal(journal: Path) -> None:
-    with Journal.continued(journal), pytest.raises(AccessError, match="is being written by another capture"):
-        Journal.continued(journal)
+    with Journal.resume(journal), pytest.raises(AccessError, match="is being written by another capture"):
+        Journal.resume(journal)
 
 
 def test_a_journal_is_free_again_when_its_capture_was_killed(journal: Path) -> None:
     program = f"""if True:
         import os, pathlib
         from zlmreport.live.capture.journal import Journal
-        journal = Journal.continued(pathlib.Path({str(journal)!r}))
+        journal = Journal.resume(pathlib.Path({str(journal)!r}))
         os.kill(os.getpid(), 9)
     """
     run(PYTHON, "-c", program)
-    with Journal.continued(journal) as opened:
+    with Journal.resume(journal) as opened:
         assert opened.progress.taken == 2
 
 
@@ -160,7 +160,7 @@ def test_every_record_is_pushed_to_the_disk(tmp_path: Path, monkeypatch: pytest.
     push = os.fsync
     monkeypatch.setattr(os, "fsync", lambda handle: (pushed.append(os.fstat(handle).st_size), push(handle)))
     path, sizes = tmp_path / "x.journal", []
-    with Journal.begun(path, header()) as journal:
+    with Journal.begin(path, header()) as journal:
         for event in (Resumed(), Ended()):
             journal.append(event, 1.0)
             sizes.append(path.stat().st_size)
@@ -171,14 +171,14 @@ def test_a_full_disk_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     def full(_handle: int, _data: bytes) -> int:
         raise OSError(28, "No space left on device")
 
-    with Journal.begun(tmp_path / "x.journal", header()) as journal:
+    with Journal.begin(tmp_path / "x.journal", header()) as journal:
         monkeypatch.setattr(os, "write", full)
         with pytest.raises(AccessError, match="no space left on device; what happened last is not in it"):
             journal.append(Resumed(), 1.0)
 
 
 def test_time_does_not_go_back_when_a_clock_does(tmp_path: Path) -> None:
-    with Journal.begun(tmp_path / "x.journal", header()) as journal:
+    with Journal.begin(tmp_path / "x.journal", header()) as journal:
         journal.append(Resumed(), 50.0)
         journal.append(Resumed(), 10.0)
     assert [entry.elapsed for entry in read_history(tmp_path / "x.journal").entries] == [50.0, 50.0]
@@ -186,7 +186,7 @@ def test_time_does_not_go_back_when_a_clock_does(tmp_path: Path) -> None:
 
 def test_a_journal_that_is_not_there_says_how_to_begin(tmp_path: Path) -> None:
     with pytest.raises(AccessError, match="nothing was captured yet"):
-        Journal.continued(tmp_path / "x.journal")
+        Journal.resume(tmp_path / "x.journal")
     assert not (tmp_path / "x.journal").exists()
 
 
@@ -209,7 +209,7 @@ def test_a_resumed_pendulum_knows_its_way(tmp_path: Path) -> None:
     plan, axis = planned(Method.PENDULUM, runs=2), Axis()
     path = written(tmp_path / "x.journal", chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(0)), plan)
     axis = Axis(position=5.0, time=400.0)
-    with Journal.continued(path) as journal:
+    with Journal.resume(path) as journal:
         journal.append(Resumed(), 200.0)
         events = recorded(chain(axis.go(0), axis.turn(-5), axis.go(0)), journal)
     assert kinds(events)[-1] == "visit 3"

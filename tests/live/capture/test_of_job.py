@@ -87,7 +87,9 @@ def test_a_turn_at_one_and_a_half_times_the_feed_is_not_to_be_missed(tmp_path: P
 def test_the_time_that_is_left_is_that_of_the_plan(tmp_path: Path) -> None:
     assignment = asked(loaded(tmp_path))
     one = assignment.visits[-1]
-    assert assignment.remaining_time(len(assignment.visits) - 1) == pytest.approx(one.travelled / 0.05 + 3)
+    assert assignment.estimate_remaining_time(len(assignment.visits) - 1) == pytest.approx(
+        one.travelled / 0.05 + 3
+    )
 
 
 def test_a_tolerance_that_covers_two_targets_is_refused(tmp_path: Path) -> None:
@@ -166,7 +168,7 @@ def test_a_journal_of_another_test_is_not_gone_on_with(
     job = loaded(tmp_path)
 
     path = tmp_path / "x.journal"
-    with Journal.begun(path, make_header_of(job, asked(job), dt.datetime(2026, 11, 20, 8, tzinfo=dt.UTC))):
+    with Journal.begin(path, make_header_of(job, asked(job), dt.datetime(2026, 11, 20, 8, tzinfo=dt.UTC))):
         pass
     other, history = loaded(tmp_path, change), read_history(path)
     assert history is not None

@@ -14,7 +14,7 @@ from live.capture.moves import SETTINGS, Axis, following, happened, kinds, liste
 from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
 from zlmreport.live.capture.motion import Programme, Route
-from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merged
+from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merge
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
@@ -73,7 +73,7 @@ def test_an_answer_files_the_reading_that_was_asked_about() -> None:
     axis, follower = Axis(), following(visits, is_watched=True)
     happened(chain(axis.stand(), axis.go(0, 50, 100), axis.turn(-5), axis.go(0)), follower)
     missed = ["Missed"] * 7
-    assert kinds(follower.told(visits[10])) == ["Placed", *missed, "visit 11"]
+    assert kinds(follower.take_answer(visits[10])) == ["Placed", *missed, "visit 11"]
     assert kinds(happened(axis.go(50), follower)) == ["visit 12"]
 
 
@@ -81,20 +81,20 @@ def test_stops_that_follow_a_question_are_filed_with_its_answer() -> None:
     visits = listed(targets=TARGETS, runs=3)
     axis, follower = Axis(), following(visits, is_watched=True)
     happened(chain(axis.stand(), axis.go(0, 50, 100), axis.turn(-5), axis.go(0, 50)), follower)
-    assert kinds(follower.told(visits[0])) == ["Placed", "visit 1", "visit 2"]
+    assert kinds(follower.take_answer(visits[0])) == ["Placed", "visit 1", "visit 2"]
 
 
 def test_a_stop_that_is_no_visit_is_told_to_be_none() -> None:
     axis, follower = Axis(), following(listed(targets=TARGETS, runs=3), is_watched=True)
     happened(chain(axis.stand(), axis.go(0, 50, 100), axis.turn(-5), axis.go(0)), follower)
-    assert kinds(follower.told(None)) == ["Placed", "NotNext"]
+    assert kinds(follower.take_answer(None)) == ["Placed", "NotNext"]
 
 
 def test_a_stop_that_was_told_to_be_none_leaves_open_that_the_program_began_anew() -> None:
     """A feed hold short of the first target of a program that began anew; then the display stood still."""
     axis, follower = Axis(), following(listed(targets=TARGETS, runs=3), is_watched=True)
     happened(chain(axis.stand(), axis.go(0, 50, 100), axis.turn(-5), axis.go(-0.6)), follower)
-    assert kinds(follower.told(None)) == ["Placed", "NotNext"]
+    assert kinds(follower.take_answer(None)) == ["Placed", "NotNext"]
     assert kinds(happened(chain(axis.stand(17), axis.go(0)), follower)) == ["Frozen", "Unclear"]
 
 
@@ -143,53 +143,53 @@ def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Targe
 
 def test_explanations_that_end_alike_weigh_together() -> None:
     guess = _Guess(0, log(0.25), None, 0, 0)
-    assert exp(_merged([guess, guess]).weight) == pytest.approx(0.5)
+    assert exp(_merge([guess, guess]).weight) == pytest.approx(0.5)
 
 
 def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> None:
     place, route = placed(), Route(SETTINGS.tolerance)
     route.add(PROGRAMME.start)
     place.add(stop(1), route)
-    place.told(3)
+    place.take_word(3)
     place.add(stop(5, DOWN, 4.0), route)
-    assert place.odds()[4] > 0.9
+    assert place.list_odds()[4] > 0.9
 
 
 def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
     place = PlaceInProgram(Programme(listed(targets=TARGETS), SETTINGS), SETTINGS, 0)
-    weights = [place._by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2, 3)]
+    weights = [place._weigh_by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2, 3)]
     assert weights[2] < weights[1] < weights[0] == 0.0
 
 
 def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> None:
     """Told to begin, the axis came from anywhere: not with the second run while the first is to be read."""
     place, route = placed(), Route(SETTINGS.tolerance)
-    first, next_target, second_run = (place._from_rest(-1, index, [], route) for index in (0, 1, 6))
+    first, next_target, second_run = (place._weigh_from_rest(-1, index, [], route) for index in (0, 1, 6))
     assert second_run == -inf < next_target < first == 0.0
 
 
 def test_a_program_that_hurried_left_out_as_many_rests_as_time_is_short() -> None:
     """Two visits on are 2 s of way and two rests of 3 s."""
-    place, planned = placed(), PROGRAMME.seconds(0, 2)
+    place, planned = placed(), PROGRAMME.compute_time(0, 2)
     assert planned == pytest.approx(8.0)
-    likely, less = (place._hurried(0, 2, planned - 3.0 * each) for each in (1.0, 2.0))
+    likely, less = (place._weigh_hurry(0, 2, planned - 3.0 * each) for each in (1.0, 2.0))
     assert likely / less == pytest.approx(exp(1.5))
-    assert place._hurried(0, 2, planned - 0.3) == pytest.approx(likely)  # one rest at the least
-    assert place._hurried(0, 2, (planned - 6.0) / 2) == 0.0  # faster than an axis goes
+    assert place._weigh_hurry(0, 2, planned - 0.3) == pytest.approx(likely)  # one rest at the least
+    assert place._weigh_hurry(0, 2, (planned - 6.0) / 2) == 0.0  # faster than an axis goes
 
 
 def test_no_time_at_all_is_a_time_too_short_and_not_a_second() -> None:
     place = placed()
     guess = _Guess(0, 0.0, 5.0, 0, 0)
-    at_once, late = (place._in_time(guess, 1, stop(2, time=time)) for time in (5.0, 9.0))
+    at_once, late = (place._weigh_by_time(guess, 1, stop(2, time=time)) for time in (5.0, 9.0))
     assert at_once == -20.0
     assert late > 0.0
 
 
 def test_a_time_is_as_likely_as_its_distance_from_the_plan_and_what_was_left_out() -> None:
     """30 % too early, in logarithms: one standard deviation; a rest left out counts as well."""
-    time = PROGRAMME.seconds(0, 1) * exp(-0.3)
-    weight = placed()._in_time(_Guess(0, 0.0, 0.0, 0, 0), 1, stop(2, time=time))
+    time = PROGRAMME.compute_time(0, 1) * exp(-0.3)
+    weight = placed()._weigh_by_time(_Guess(0, 0.0, 0.0, 0, 0), 1, stop(2, time=time))
     assert exp(weight) == pytest.approx(NormalDist(0, 0.3).pdf(-0.3) + exp(-3.0 - 1.5))
 
 
@@ -197,7 +197,7 @@ def test_the_way_from_the_start_with_its_turns_speaks_for_a_visit() -> None:
     """The fourth visit is behind a turn; two visits in between went unseen, and one more."""
     route = Route(SETTINGS.tolerance)
     route.add(PROGRAMME.start)
-    assert placed()._from_rest(-1, 3, [0.205], route) == pytest.approx(3.0 - 1.0 * 3)
+    assert placed()._weigh_from_rest(-1, 3, [0.205], route) == pytest.approx(3.0 - 1.0 * 3)
 
 
 def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
@@ -224,7 +224,7 @@ def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_rea
 def test_an_axis_that_goes_on_shows_how_it_came(
     before: Approach | None, after: Approach | None, files: tuple[int | None, ...], weight: float
 ) -> None:
-    guess = placed()._gone_on(_Guess(1, 0.0, 0.0, 0, 0, files=(1,)), stop(2, before), stop(2, after))
+    guess = placed()._go_on(_Guess(1, 0.0, 0.0, 0, 0, files=(1,)), stop(2, before), stop(2, after))
     assert (guess.place, guess.files, guess.weight) == (1, files, weight)
 
 

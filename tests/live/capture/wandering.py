@@ -195,7 +195,7 @@ def trial(method: Method, seed: int, *, is_watched: bool = True, **changes) -> T
                 break
             questions += 1
             truth = machine.visit_at(question.mean.time)
-            new = follower.told(None if truth is None else visits[truth])
+            new = follower.take_answer(None if truth is None else visits[truth])
         if follower.is_halted:
             break
     last = {event.visit.number - 1: event for event in events if isinstance(event, Recorded)}

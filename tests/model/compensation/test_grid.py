@@ -70,7 +70,7 @@ def test_a_wave_that_a_finer_grid_can_carry_is_carried() -> None:
     wave = {"screw-pitch": 0.09}
     assert chosen(known_by(1e-6)).reason is GridReason.TARGETS
     basis = known_by(1e-6, waves=wave)
-    assert basis.left_out(chosen(basis).rows) == {}
+    assert basis.list_left_out(chosen(basis).rows) == {}
 
 
 def test_a_stated_step_is_kept() -> None:

@@ -33,7 +33,7 @@ def _deviation_at(surface: Surface) -> FloatArray:
 
 @pytest.mark.parametrize("approach", Approach)
 def test_readings_without_noise_give_the_coefficients_back(approach: Approach) -> None:
-    found = fitted(measured(sigma=0.0), approach).coefficients()
+    found = fitted(measured(sigma=0.0), approach).compute_coefficients()
     expected = COEFFICIENTS + np.array([approach * LOST_MOTION / 2, 0, 0, 0, 0, 0, 0])
     assert found.values == pytest.approx(expected, rel=1e-7)
 
@@ -45,7 +45,7 @@ def test_where_every_point_has_as_many_readings_the_estimate_is_that_of_the_pape
     (along, across), mean, u = halaj.means(points, surface.fit.deviation)
     pooled = float(np.sqrt(np.mean(u**2)))
     expected, _ = halaj.solve(halaj.columns(along, across), mean, pooled, INSTRUMENT.common)
-    assert surface.coefficients().values == pytest.approx(expected, rel=1e-6)
+    assert surface.compute_coefficients().values == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_covariance_is_that_of_the_textbook() -> None:
@@ -56,7 +56,7 @@ def test_the_covariance_is_that_of_the_textbook() -> None:
         variance = variance + noise.ratios.get(part.source, 0.0) * part.factor @ part.factor.T
     variance = noise.sigma**2 * variance + INSTRUMENT.common**2
     expected = np.linalg.inv(columns.T @ np.linalg.inv(variance) @ columns)
-    found = surface.coefficients().covariance
+    found = surface.compute_coefficients().covariance
     lengths = np.sqrt(np.diag(expected))
     assert found / np.outer(lengths, lengths) == pytest.approx(
         expected / np.outer(lengths, lengths), abs=1e-5
@@ -65,7 +65,7 @@ def test_the_covariance_is_that_of_the_textbook() -> None:
 
 def test_coefficients_and_covariance_give_the_deviation_anywhere() -> None:
     surface = fitted(measured(), instrument=INSTRUMENT)
-    found, predicted = surface.coefficients(), surface.predict(BETWEEN)
+    found, predicted = surface.compute_coefficients(), surface.predict(BETWEEN)
     rows = halaj.columns(*np.array(BETWEEN).T)
     assert rows @ found.values == pytest.approx(predicted.deviation, rel=1e-9)
     u = np.sqrt(np.einsum("np,pq,nq->n", rows, found.covariance, rows))
@@ -134,13 +134,13 @@ def test_lines_of_one_slope_show_no_interaction() -> None:
     ],
 )
 def test_fewer_lines_carry_fewer_powers(lines: tuple[float, ...], names: tuple[str, ...]) -> None:
-    found = fitted(measured(lines=lines)).coefficients()
+    found = fitted(measured(lines=lines)).compute_coefficients()
     assert list_coefficient_names(found.orders) == names
     assert len(found.values) == len(found.powers) == len(names)
 
 
 def test_coefficients_in_printed_units_give_micrometres_for_millimetres() -> None:
-    found = fitted(measured(sigma=0.0)).coefficients().in_units(MILLIMETRE, MICROMETRE)
+    found = fitted(measured(sigma=0.0)).compute_coefficients().in_units(MILLIMETRE, MICROMETRE)
     rows = halaj.columns(np.array([250.0]), np.array([300.0]))
     expected = truth(np.array([0.25]), np.array([0.3]), 1.0)
     assert rows @ found.values == pytest.approx(expected * 1e6, rel=1e-7)
@@ -178,7 +178,7 @@ def test_a_reading_that_stands_off_is_set_aside() -> None:
     spoilt = lines[2].observed.deviation.copy()
     spoilt[17] += 40e-6
     lines[2] = SurfaceLine(lines[2].across, replace(lines[2].observed, deviation=spoilt))
-    assert lines[2].aside().tolist() == [17]
+    assert lines[2].list_aside().tolist() == [17]
     surface = fitted(lines, Approach(int(DESIGN.direction[17])))
     assert len(surface.fit.deviation) == len(LINES) * len(DESIGN.position) // 2 - 1
     assert np.abs(surface.fit.residual).max() < 5e-6

@@ -38,15 +38,17 @@ def _question() -> Question:
     deviation = SLOPE * design.position + noise(design, 3, SIGMA)
     base = fit(AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["backlash"]))), design, deviation)
     fits = [fit(base.model.with_effect(EFFECTS[name]), design, deviation) for name in TIED]
-    return make_question_of(base, [Rival.fitted(each, 0.5) for each in fits], fits)
+    return make_question_of(base, [Rival.of_fit(each, 0.5) for each in fits], fits)
 
 
 def _second_sessions(truth: str) -> tuple[FloatArray, FloatArray]:
     """Return simulated readings of a second session 3 K warmer, and their positions."""
     question = _question()
-    design = question.design(WARMER, EXPECTED)
+    design = question.make_design(WARMER, EXPECTED)
     rival = question.rivals[TIED.index(truth)]
-    readings = question.readings(design, list_noise_parts(design), rival, 50, np.random.default_rng(1))
+    readings = question.simulate_readings(
+        design, list_noise_parts(design), rival, 50, np.random.default_rng(1)
+    )
     own = design.session == 0
     assert question.first is not None
     np.testing.assert_array_equal(readings[~own], np.tile(question.first.deviation[:, np.newaxis], 50))
@@ -75,13 +77,14 @@ def test_simulated_noise_is_drawn_from_what_the_readings_leave_open_of_it() -> N
 def test_the_place_of_a_joint_is_drawn_from_the_whole_gap_between_two_targets() -> None:
     design = expect_design(planned_job().axis, PLAN, EXPECTED)
     deviation = np.where(design.position > 0.3, 10 * SIGMA, 0.0) + noise(design, 3, SIGMA)
-    joint = Rival.fitted(
+    joint = Rival.of_fit(
         fit(AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["scale-joint"]))), design, deviation), 1.0
     )
     finer = expect_design(planned_job().axis, replace(PLAN, targets=np.linspace(0.03, 0.57, 55)), EXPECTED)
     grid, random = joint.effect.grid(finer), np.random.default_rng(1)
     steps = {
-        float(finer.position[np.argmax(joint.deviation(finer, grid, random) > 5 * SIGMA)]) for _ in range(40)
+        float(finer.position[np.argmax(joint.sample_deviation(finer, grid, random) > 5 * SIGMA)])
+        for _ in range(40)
     }
     assert len(steps) > 2
     assert 0.27 - 0.06 < min(steps) < max(steps) < 0.33 + 0.06
@@ -91,9 +94,9 @@ def test_temperatures_begin_as_in_the_first_session_and_three_kelvins_above() ->
     question = _question()
     assert question.first is not None
     first = question.first.design.conditions["axis_temperature"]
-    again = question.design(PLAN, EXPECTED).conditions["axis_temperature"]
+    again = question.make_design(PLAN, EXPECTED).conditions["axis_temperature"]
     assert again[0] == pytest.approx(first[0])
-    design = question.design(WARMER, EXPECTED)
+    design = question.make_design(WARMER, EXPECTED)
     warmer = design.conditions["axis_temperature"][design.session == 0]
     np.testing.assert_allclose(warmer - again, 3.0)
 

@@ -5,7 +5,7 @@ import pytest
 
 from machines.simulated import circle, nothing
 from zlmreport.language import Language
-from zlmreport.machines.design import clear_of_reversals, thinned
+from zlmreport.machines.design import clear_of_reversals, make_thinned_design
 from zlmreport.plugin import MICROMETRE
 from zlmreport.plugin.circle_effect import Estimate
 from zlmreport.plugin.registry import find_plugins
@@ -42,7 +42,7 @@ def test_what_lies_within_its_uncertainty_or_is_over_compensated_is_no_lost_moti
 @pytest.mark.parametrize("first", [0.0, 0.03])
 def test_an_axis_that_turned_in_the_feed_in_has_its_spike_at_the_beginning_of_a_turn(first: float) -> None:
     """X turns at 0° and 180°: each turn shows two spikes of it, though no reading lies at 0° itself."""
-    design = thinned([clear_of_reversals(circle(nothing, noise=0.0, first=first))]).fine
+    design = make_thinned_design([clear_of_reversals(circle(nothing, noise=0.0, first=first))]).fine
     effect = next(each for each in find_plugins().circle_effects if each.identifier == "reversal-spikes")
     column = next(each for each in effect.terms(design, effect.grid(design)[0]) if each.name == "X").column
     for turn in design.turns.tolist():

@@ -102,7 +102,7 @@ class _OnRequest(TextEmulator):
         return b""
 
     def answer(self, data: bytes, time: float) -> bytes:
-        return self._line(time) * data.count(b"M?\r")
+        return self._write_line(time) * data.count(b"M?\r")
 
 
 def test_a_readout_that_is_asked_is_read() -> None:

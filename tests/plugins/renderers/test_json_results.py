@@ -19,7 +19,7 @@ from evaluation.uncertainty.budgets import contribution
 from model.hidden_effect import example_diagnosis
 from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, NoBudget
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
 from zlmreport.job.types import Options
@@ -85,7 +85,7 @@ def test_a_parameter_without_a_limit_has_no_place_for_one() -> None:
 def test_an_undecided_limit_says_so() -> None:
     certificate = samples.certificate(standards=1)
     # The rule needs an uncertainty, and none was evaluated.
-    undecided = decided(certificate.evaluations[0], decision_rule("guard-band"))
+    undecided = with_decisions(certificate.evaluations[0], make_decision_rule("guard-band"))
     results = render(replace(certificate, evaluations=(undecided,)))
     assert results["evaluations"][0]["parameters"][0]["conforms"] is None
 

@@ -44,7 +44,7 @@ def broken_in_run_1(path: Path, *, until: float) -> Path:
     written(path, chain(axis.stand(), axis.go(0, 100), beam_lost(axis)), datum=-5 * MM)
     axis = Axis(time=axis.time + 500, error=dict.fromkeys((0, 100, 200), 0.004))
     targets = [target for target in (0, 100, 200) if target <= until]
-    with Journal.continued(path) as journal:
+    with Journal.resume(path) as journal:
         journal.append(Resumed(), axis.time - 100)
         recorded(chain(axis.stand(), axis.go(*targets)), journal)
         journal.append(Ended(), journal.elapsed)
@@ -106,7 +106,7 @@ def test_a_difference_at_the_check_of_the_datum_is_said(tmp_path: Path) -> None:
     axis, path = Axis(), tmp_path / "x.journal"
     written(path, chain(axis.stand(), axis.go(0, 100)))
     axis = Axis(position=95, time=axis.time + 500, error={100: 0.0031})
-    with Journal.continued(path) as journal:
+    with Journal.resume(path) as journal:
         journal.append(Resumed(), axis.time - 100)
         recorded(axis.go(100), journal)
         journal.append(Ended(), journal.elapsed)
@@ -138,7 +138,7 @@ def test_the_sample_is_the_plan_that_it_says() -> None:
 def test_of_a_visit_that_was_read_again_the_last_reading_counts(tmp_path: Path) -> None:
     axis = Axis(error={-0.025: 0.0})
     written(tmp_path / "x.journal", chain(axis.stand(), axis.go(-0.025, stay=1.5), axis.go(0, 100)))
-    with Journal.continued(tmp_path / "x.journal") as journal:
+    with Journal.resume(tmp_path / "x.journal") as journal:
         journal.append(Ended(), journal.elapsed)
     assert read(tmp_path / "x.journal").deviation[0] == 0.0
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluation import Group, Quantity
+from zlmreport.evaluation.evaluation import Quantity, QuantityGroup
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
 
@@ -194,14 +194,14 @@ def test_parameters_are_grouped_as_the_standards_group_them() -> None:
     }
 
     assert groups == {
-        (Group.COMPOSITE, "A"),
-        (Group.COMPOSITE, "P"),
-        (Group.SYSTEMATIC, "E"),
-        (Group.SYSTEMATIC, "M"),
-        (Group.SYSTEMATIC, "B"),
-        (Group.SYSTEMATIC, "Pa"),
-        (Group.SYSTEMATIC, "U"),
-        (Group.SYSTEMATIC, "O"),
-        (Group.RANDOM, "R"),
-        (Group.RANDOM, "Ps"),
+        (QuantityGroup.COMPOSITE, "A"),
+        (QuantityGroup.COMPOSITE, "P"),
+        (QuantityGroup.SYSTEMATIC, "E"),
+        (QuantityGroup.SYSTEMATIC, "M"),
+        (QuantityGroup.SYSTEMATIC, "B"),
+        (QuantityGroup.SYSTEMATIC, "Pa"),
+        (QuantityGroup.SYSTEMATIC, "U"),
+        (QuantityGroup.SYSTEMATIC, "O"),
+        (QuantityGroup.RANDOM, "R"),
+        (QuantityGroup.RANDOM, "Ps"),
     }

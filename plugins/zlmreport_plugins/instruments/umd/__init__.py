@@ -99,13 +99,13 @@ class UmdDecoder:
             self.understood += 1
             self._low_speed.hear(frame)
             if frame.code or self._counting is None:
-                self._counting = self._how_it_counts()
+                self._counting = self._find_counting()
             if self._counting:
-                readings.append(self._reading(frame, self._counting, now))
+                readings.append(self._make_reading(frame, self._counting, now))
             self._before = frame
         return readings
 
-    def _how_it_counts(self) -> Counting | None:
+    def _find_counting(self) -> Counting | None:
         """Return what readings are formed with; None as long as it is not known."""
         low_speed, name = self._low_speed, self._model.name
         if low_speed.contradicts:
@@ -118,9 +118,9 @@ class UmdDecoder:
                 f"this is no {name}, or the line is bad: it has not said {low_speed.lacks}; "
                 "a µMD1 is named umd1"
             )
-        return low_speed.counting()
+        return low_speed.find_counting()
 
-    def _reading(self, frame: UmdFrame, counting: Counting, now: float) -> LiveReading:
+    def _make_reading(self, frame: UmdFrame, counting: Counting, now: float) -> LiveReading:
         """Return what a line says: (DISP − phase)/mult · λ/2 / fold; NaN for one that is not believed."""
         before = self._before
         index = self._setup.axis
@@ -129,13 +129,13 @@ class UmdDecoder:
                 raise WrongDeviceError(
                     f"the display sends {len(frame.axes)} axis, and axis {index + 1} is wanted"
                 )
-            return self._unreadable(now)
-        follows = before is not None and self._follows(before, frame, counting)
+            return self._make_unreadable(now)
+        follows = before is not None and self._is_next(before, frame, counting)
         self._links = self._links + 1 if follows else 0
         if self._links < _LINKS:
-            return self._unreadable(now)
+            return self._make_unreadable(now)
         counts = frame.axes[index]
-        faults, message = self._faults(frame.reference, counts, counting)
+        faults, message = self._find_faults(frame.reference, counts, counting)
         skipped = 0
         if self._accepted is not None:
             step = frame.sequence - self._accepted
@@ -150,7 +150,7 @@ class UmdDecoder:
         taken = self._clock.time(frame.sequence, counting.rate, now)
         return LiveReading(value, taken, faults, skipped, message, self._low_speed.conditions)
 
-    def _unreadable(self, now: float) -> LiveReading:
+    def _make_unreadable(self, now: float) -> LiveReading:
         self._void += 1
         return LiveReading(
             float("nan"),
@@ -160,7 +160,7 @@ class UmdDecoder:
             conditions=self._low_speed.conditions,
         )
 
-    def _follows(self, before: UmdFrame, frame: UmdFrame, counting: Counting) -> bool:
+    def _is_next(self, before: UmdFrame, frame: UmdFrame, counting: Counting) -> bool:
         index = self._setup.axis
         if frame.sequence != before.sequence + 1 or index >= len(before.axes):
             return False
@@ -176,7 +176,7 @@ class UmdDecoder:
         cycles = abs(counts.measured - frame.reference) * counting.per_cycle
         return abs(cycles - abs(counts.velocity)) <= allowed
 
-    def _faults(self, reference: int, counts: AxisCounts, counting: Counting) -> tuple[Fault, str]:
+    def _find_faults(self, reference: int, counts: AxisCounts, counting: Counting) -> tuple[Fault, str]:
         """Return what the cycles and the phase show to be wrong."""
         if counting.is_homodyne:
             return NO_FAULT, ""

@@ -148,7 +148,7 @@ class LowSpeed:
         changed = self._believed.get(code) != data
         self._believed[code] = data
         if changed and code in self._names:
-            self.conditions = self._conditions()
+            self.conditions = self._collect_conditions()
 
     @property
     def turns(self) -> int:
@@ -174,7 +174,7 @@ class LowSpeed:
         """Whether it says what the display that it should be never says."""
         return not self._model.announces_counting and Code.COUNTING in self._believed
 
-    def counting(self) -> Counting | None:
+    def find_counting(self) -> Counting | None:
         """Return how the display counts; None as long as not enough has been said."""
         if not self.is_complete:
             return None
@@ -190,7 +190,7 @@ class LowSpeed:
             is_homodyne=bool(announced & 0xFF),
         )
 
-    def _conditions(self) -> Mapping[str, float]:
+    def _collect_conditions(self) -> Mapping[str, float]:
         found = {}
         for code, name in self._names.items():
             said = self._believed.get(code, _ABSENT)
@@ -277,7 +277,7 @@ class UmdEmulator:
         self._manner = _MANNERS[model.identifier]
         self._scene = scene
         self._length = length
-        self._per_standard_air = self._air(0.0)
+        self._per_standard_air = self._compute_air(0.0)
         self._start = scene.axis.position(0.0) * self._per_standard_air
         self._sequence = 0
         self._lost = 0
@@ -292,7 +292,7 @@ class UmdEmulator:
         while (self._sequence + 1) / self._manner.rate <= time:
             self._sequence += 1
             at = self._sequence / self._manner.rate
-            line = self._line(at)
+            line = self._write_line(at)
             if not self._scene.troubles.has(Trouble.SKIPPED, at):
                 sent += line
         return bytes(sent)
@@ -301,12 +301,12 @@ class UmdEmulator:
         """Return nothing: it takes no commands."""
         return b""
 
-    def _line(self, at: float) -> bytes:
+    def _write_line(self, at: float) -> bytes:
         """Return the line of the next sample."""
         manner = self._manner
         slot = self._sequence % self._model.slots
         if slot == 0:
-            self._per_standard_air = self._air(at)
+            self._per_standard_air = self._compute_air(at)
         optical = self._scene.axis.position(at) * self._per_standard_air
         exact = (optical - self._start) / self._length * manner.counts
         troubles = self._scene.troubles
@@ -314,7 +314,7 @@ class UmdEmulator:
         # A phase is what a count lacks upwards; a display without phases shows the nearest count.
         count = math.ceil(exact) if manner.phase_steps > 1 else round(exact)
         phase = int((count - exact) * manner.phase_steps) if manner.phase_steps > 1 else 0
-        reference = self._cycles_of_reference()
+        reference = self._count_cycles_of_reference()
         if is_broken:
             step = -manner.direction * reference * manner.counts
             self._lost += step - (count - self._count)
@@ -325,24 +325,24 @@ class UmdEmulator:
         self._count = count
         if troubles.has(Trouble.ERROR, at) and self._model.identifier == "umd1":
             phase = 0x200
-        code, data = self._says(slot, at)
+        code, data = self._say_low_speed(slot, at)
         velocity = step if manner.reference else 0
         fields = (reference, measured, count + self._lost, velocity, phase, self._sequence, code, data)
         return b"%d %d %d %d %d %d %d %d\r\n" % fields
 
-    def _says(self, slot: int, at: float) -> tuple[int, int]:
+    def _say_low_speed(self, slot: int, at: float) -> tuple[int, int]:
         """Return what the low-speed channel says."""
         if slot not in self._manner.sensors:
             return self._manner.says.get(slot, (0, 0))
         code, condition, unit, parts = self._manner.sensors[slot]
         return code, round(unit.from_si(self._scene.condition(condition, at)) * parts)
 
-    def _air(self, at: float) -> float:
+    def _compute_air(self, at: float) -> float:
         """Return how many cycles the air makes of a length for each that standard air makes."""
         state = (np.array(self._scene.condition(name, at)) for name in STATE_OF_AIR)
         return 1 + float(index_change(*state))
 
-    def _cycles_of_reference(self) -> int:
+    def _count_cycles_of_reference(self) -> int:
         before = math.floor(self._counter_of_reference)
         self._counter_of_reference += self._manner.reference / self._manner.rate
         return math.floor(self._counter_of_reference) - before

@@ -63,21 +63,21 @@ class AdministrativeWriter:
 
     language: Language  #: Of the certificate, the only one of its DCC.
 
-    def content(self, words: Words | str) -> ET.Element:
+    def make_content(self, words: Words | str) -> ET.Element:
         """Return a text as content: a phrase with its language, a user's own words as they stand."""
         if isinstance(words, str):
             return dcc("content", words)
         return dcc("content", words.in_language(self.language), lang=self.language.value)
 
-    def named(self, element: str, words: Words | str) -> ET.Element:
+    def make_named(self, element: str, words: Words | str) -> ET.Element:
         """Return an element that holds a text."""
-        return dcc(element, self.content(words))
+        return dcc(element, self.make_content(words))
 
 
 def make_software(certificate: Certificate, writer: AdministrativeWriter) -> ET.Element:
     """Return the program; its release with the letter that PTB's rules ask for."""
     name, _, release = certificate.generator.partition(" ")
-    return dcc("software", writer.named("name", name), dcc("release", f"v{release or '0'}"))
+    return dcc("software", writer.make_named("name", name), dcc("release", f"v{release or '0'}"))
 
 
 def make_serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
@@ -86,7 +86,7 @@ def make_serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
         "identification",
         dcc("issuer", "manufacturer"),
         dcc("value", value),
-        writer.named("name", _SERIAL),
+        writer.make_named("name", _SERIAL),
         refType="basic_serialNumber",
     )
 
@@ -151,7 +151,7 @@ def _make_core_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("usedLangCodeISO639_1", language),
         dcc("mandatoryLangCodeISO639_1", language),
         dcc("uniqueIdentifier", certificate.number),
-        _digest(certificate),
+        _compute_digest(certificate),
         dcc("receiptDate", received.isoformat()) if received else None,
         dcc("beginPerformanceDate", min(days).isoformat()),
         dcc("endPerformanceDate", max(days).isoformat()),
@@ -167,7 +167,7 @@ def _make_core_data(certificate: Certificate, job: Job) -> ET.Element:
     )
 
 
-def _digest(certificate: Certificate) -> ET.Element | None:
+def _compute_digest(certificate: Certificate) -> ET.Element | None:
     """Return the digest of readings and results, by which paper and file are held together."""
     return group(
         "identifications",
@@ -175,7 +175,7 @@ def _digest(certificate: Certificate) -> ET.Element | None:
             "identification",
             dcc("issuer", "calibrationLaboratory"),
             dcc("value", certificate.digest),
-            AdministrativeWriter(certificate.language).named("name", DIGEST),
+            AdministrativeWriter(certificate.language).make_named("name", DIGEST),
         ),
     )
 
@@ -186,8 +186,10 @@ def _make_item(job: Job, writer: AdministrativeWriter) -> ET.Element:
     name = (_AXIS_OF if machine.type else _AXIS).given(**of)
     return dcc(
         "item",
-        writer.named("name", name),
-        dcc("manufacturer", writer.named("name", machine.manufacturer)) if machine.manufacturer else None,
+        writer.make_named("name", name),
+        dcc("manufacturer", writer.make_named("name", machine.manufacturer))
+        if machine.manufacturer
+        else None,
         dcc("model", machine.model) if machine.model else None,
         dcc(
             "identifications",
@@ -196,7 +198,7 @@ def _make_item(job: Job, writer: AdministrativeWriter) -> ET.Element:
                 "identification",
                 dcc("issuer", "other"),
                 dcc("value", job.axis.name),
-                writer.named("name", _AXIS_NAME),
+                writer.make_named("name", _AXIS_NAME),
             ),
         ),
     )
@@ -206,9 +208,9 @@ def _make_contact(
     element: str, party: Laboratory | Customer, writer: AdministrativeWriter, country: str | None = None
 ) -> ET.Element:
     """Return a party with its address line by line: the job does not tell a street from a town."""
-    lines = [dcc("further", writer.content(line)) for line in address_lines(party.address) or ("–",)]
+    lines = [dcc("further", writer.make_content(line)) for line in address_lines(party.address) or ("–",)]
     location = dcc("location", dcc("countryCode", country) if country else None, *lines)
-    return dcc(element, writer.named("name", party.name), location)
+    return dcc(element, writer.make_named("name", party.name), location)
 
 
 def _make_persons(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
@@ -219,7 +221,7 @@ def _make_persons(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
         "respPersons",
         dcc(
             "respPerson",
-            dcc("person", writer.named("name", person.name)),
+            dcc("person", writer.make_named("name", person.name)),
             dcc("role", person.function) if person.function else None,
             dcc("mainSigner", "true"),
         ),
@@ -258,16 +260,16 @@ def make_equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     number = instrument.certificate
     return dcc(
         "measuringEquipment",
-        writer.named("name", instrument.name),
-        dcc("description", writer.content(_CALIBRATION.given(number=number))) if number else None,
-        dcc("manufacturer", writer.named("name", instrument.manufacturer))
+        writer.make_named("name", instrument.name),
+        dcc("description", writer.make_content(_CALIBRATION.given(number=number))) if number else None,
+        dcc("manufacturer", writer.make_named("name", instrument.manufacturer))
         if instrument.manufacturer
         else None,
         dcc("identifications", make_serial_number(instrument.serial, writer)) if instrument.serial else None,
     )
 
 
-def state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Element | None:
+def find_state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Element | None:
     """Return whether the axis was measured before or after an adjustment or repair; None without one.
 
     `when`: ``before`` or ``after``.
@@ -277,9 +279,9 @@ def state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Eleme
         return None
     return dcc(
         "influenceCondition",
-        writer.named("name", _STATE),
+        writer.make_named("name", _STATE),
         dcc("status", f"{when}{work.capitalize()}"),
-        dcc("data", dcc("text", writer.content(_STATES[when]))),
+        dcc("data", dcc("text", writer.make_content(_STATES[when]))),
     )
 
 
@@ -293,15 +295,15 @@ def make_influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Eleme
         if value is None:
             continue
         stated = (
-            dcc("text", writer.content(value))
+            dcc("text", writer.make_content(value))
             if isinstance(value, str)
-            else make_quantity(writer.named("name", name), make_real(value, unit))
+            else make_quantity(writer.make_named("name", name), make_real(value, unit))
         )
         whose = {"environment", f"environment.{key}"} & set(job.keys.provided_by_customer)
         yield _make_condition(name, stated, writer, kind, _BY_CUSTOMER if whose else None)
     for name, text in ((_SENSORS, environment.sensors), (_REMARKS, environment.remarks)):
         if text:
-            yield _make_condition(name, dcc("text", writer.content(text)), writer)
+            yield _make_condition(name, dcc("text", writer.make_content(text)), writer)
 
 
 def _make_condition(
@@ -309,8 +311,8 @@ def _make_condition(
 ) -> ET.Element:
     return dcc(
         "influenceCondition",
-        writer.named("name", name),
-        writer.named("description", remark) if remark else None,
+        writer.make_named("name", name),
+        writer.make_named("description", remark) if remark else None,
         dcc("data", stated),
         **({"refType": kind} if kind else {}),
     )
@@ -384,10 +386,10 @@ def _list_said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, 
             headings = tuple(
                 " ".join(filter(None, (_write_cell(each.heading), each.unit))) for each in columns
             )
-            yield title, caption, tuple(row for group in groups for row in _rows(group, headings))
+            yield title, caption, tuple(row for group in groups for row in _list_rows(group, headings))
 
 
-def _rows(group: RowGroup, headings: tuple[str, ...]) -> Iterator[str]:
+def _list_rows(group: RowGroup, headings: tuple[str, ...]) -> Iterator[str]:
     before = f"{group.heading}: " if group.heading else ""
     if group.note:
         yield before + group.note

@@ -31,10 +31,10 @@ from zlmreport.plugin.renderer import (
 from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc.administrative import (
     AdministrativeWriter,
+    find_state,
     make_equipment,
     make_influences,
     make_software,
-    state,
 )
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
@@ -145,10 +145,10 @@ def _make_results_of_measurement(certificate: Certificate, job: Job, named: str)
     """Yield the results of one measurement; `named` is what its document calls it."""
     writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
-    after = state("after", work, writer)
+    after = find_state("after", work, writer)
     tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, named)]
     if before:
-        tests.insert(0, _Test(state("before", work, writer), found, certificate.budget_as_found, before))
+        tests.insert(0, _Test(find_state("before", work, writer), found, certificate.budget_as_found, before))
     tests += (
         _Test(
             None,
@@ -173,7 +173,7 @@ def _make_readings_alone(
     """Return a measured line that no standard evaluates but together with others."""
     return dcc(
         "measurementResult",
-        writer.named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
+        writer.make_named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
         _make_used_methods(certificate.evaluations, writer),  # what evaluates it together with others
         dcc("usedSoftware", make_software(certificate, writer)),
         group("measuringEquipments", make_equipment(test.job, writer)),
@@ -215,7 +215,7 @@ def _make_measurement_result(
             results.append(_make_result_of_readings(test, measurements, writer))
     return dcc(
         "measurementResult",
-        writer.named("name", name),
+        writer.make_named("name", name),
         _make_used_methods([evaluation], writer),
         dcc("usedSoftware", make_software(certificate, writer)),
         group("measuringEquipments", make_equipment(job, writer)),
@@ -232,7 +232,7 @@ def _make_used_methods(evaluations: Iterable[Evaluation], writer: Administrative
         *(
             dcc(
                 "usedMethod",
-                writer.named("name", each.title),
+                writer.make_named("name", each.title),
                 dcc("reference" if each.is_method else "norm", each.designation),
             )
             for each in evaluations
@@ -249,7 +249,7 @@ def _make_reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]
 def _make_result(
     name: Words, of: Iterable[ET.Element], writer: AdministrativeWriter, **kind: str
 ) -> ET.Element:
-    return dcc("result", writer.named("name", name), dcc("data", dcc("list", *of)), **kind)
+    return dcc("result", writer.make_named("name", name), dcc("data", dcc("list", *of)), **kind)
 
 
 def _make_parameter(
@@ -259,7 +259,7 @@ def _make_parameter(
     unit = write_unit_of(axis_unit)
     uncertainty = parameter.expanded_uncertainty
     return make_quantity(
-        writer.named("name", parameter.quantity.name),
+        writer.make_named("name", parameter.quantity.name),
         make_real(
             axis_unit.from_si(parameter.value),
             unit,
@@ -285,7 +285,7 @@ def _make_changes(
         if each.value is not None:
             uncertainty = each.expanded_uncertainty
             yield make_quantity(
-                writer.named("name", each.either.quantity.name),
+                writer.make_named("name", each.either.quantity.name),
                 make_real(
                     unit.from_si(each.value),
                     write_unit_of(unit),
@@ -304,12 +304,13 @@ def _make_interval(
         return None
     return dcc(
         "metaData",
-        dcc("declaration", writer.content(_INTERVAL)),
+        dcc("declaration", writer.make_content(_INTERVAL)),
         dcc(
             "data",
             *(
                 make_quantity(
-                    writer.named("name", name), make_real(axis_unit.from_si(end), write_unit_of(axis_unit))
+                    writer.make_named("name", name),
+                    make_real(axis_unit.from_si(end), write_unit_of(axis_unit)),
                 )
                 for name, end in zip((_LOWEST, _HIGHEST), parameter.axis_interval, strict=True)
             ),
@@ -328,7 +329,7 @@ def _make_conformity(
     stated = _CONFORMITY.get(decision.conformity)
     return dcc(
         "metaData",
-        dcc("declaration", writer.content(statement)),
+        dcc("declaration", writer.make_content(statement)),
         dcc("conformity", stated) if stated else None,
         dcc("data", *_make_limits(decision, limit, axis_unit, writer)),
         refType="basic_conformity",
@@ -339,12 +340,14 @@ def _make_limits(
     decision: Decision, limit: float, axis_unit: Unit, writer: AdministrativeWriter
 ) -> Iterator[ET.Element]:
     unit = write_unit_of(axis_unit)
-    yield make_quantity(writer.named("name", _LIMIT), make_real(axis_unit.from_si(limit), unit))
+    yield make_quantity(writer.make_named("name", _LIMIT), make_real(axis_unit.from_si(limit), unit))
     accepted = decision.acceptance_limit
     if accepted is not None:
-        yield make_quantity(writer.named("name", _ACCEPTED), make_real(axis_unit.from_si(accepted), unit))
+        yield make_quantity(
+            writer.make_named("name", _ACCEPTED), make_real(axis_unit.from_si(accepted), unit)
+        )
     if decision.risk is not None:
-        yield make_quantity(writer.named("name", _RISK), make_real(decision.risk, ONE))
+        yield make_quantity(writer.make_named("name", _RISK), make_real(decision.risk, ONE))
 
 
 def _make_positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
@@ -352,7 +355,7 @@ def _make_positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Ite
     axis = evaluation.measurements.axis
     targets = axis.position_unit.from_si(evaluation.measurements.target_positions).tolist()
     yield make_quantity(
-        writer.named("name", axis.measurand.target),
+        writer.make_named("name", axis.measurand.target),
         make_real_list(targets, write_unit_of(axis.position_unit)),
         kind="basic_nominalValue",
     )
@@ -360,7 +363,7 @@ def _make_positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Ite
     for name, values, uncertainty in _list_columns(evaluation):
         if np.any(np.isfinite(values)):
             yield make_quantity(
-                writer.named("name", name),
+                writer.make_named("name", name),
                 make_real_list(
                     unit.from_si(values).tolist(),
                     write_unit_of(unit),
@@ -394,8 +397,8 @@ def _make_findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iter
         found = _FOUND.given(requirement=finding.requirement, found=finding.found)
         yield dcc(
             "metaData",
-            writer.named("name", _FINDINGS[finding.met].given(designation=evaluation.designation)),
-            dcc("declaration", writer.content(found)),
+            writer.make_named("name", _FINDINGS[finding.met].given(designation=evaluation.designation)),
+            dcc("declaration", writer.make_content(found)),
         )
 
 
@@ -407,8 +410,8 @@ def _make_budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Eleme
     unit, has_length = test.job.axis.deviation_unit, test.job.axis.has_length
     contributions = (
         make_quantity(
-            writer.named("name", each.name),
-            dcc("description", writer.content(each.stated), writer.content(each.source)),
+            writer.make_named("name", each.name),
+            dcc("description", writer.make_content(each.stated), writer.make_content(each.source)),
             make_real(unit.from_si(each.standard_uncertainty), write_unit_of(unit)),
         )
         for each in budget.contributions
@@ -416,8 +419,8 @@ def _make_budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Eleme
     combined = make_real(unit.from_si(budget.standard_uncertainty), write_unit_of(unit))
     yield dcc(
         "metaData",
-        writer.named("name", _BUDGET if has_length else _BUDGET_OF_NO_LENGTH),
-        dcc("data", *contributions, make_quantity(writer.named("name", _COMBINED), combined)),
+        writer.make_named("name", _BUDGET if has_length else _BUDGET_OF_NO_LENGTH),
+        dcc("data", *contributions, make_quantity(writer.make_named("name", _COMBINED), combined)),
     )
 
 
@@ -430,7 +433,7 @@ def _make_readings(measurements: MeasurementSet, writer: AdministrativeWriter) -
     targets = axis.position_unit.from_si(measurements.target_positions[measurements.target])
 
     def column(name: Words | str, values: Iterable[float], unit: str, kind: str) -> ET.Element:
-        return make_quantity(writer.named("name", name), make_real_list(tuple(values), unit), kind=kind)
+        return make_quantity(writer.make_named("name", name), make_real_list(tuple(values), unit), kind=kind)
 
     yield column(axis.measurand.target, targets, write_unit_of(axis.position_unit), TARGET)
     sense = _SENSE.given(first=axis.measurand.senses[0])

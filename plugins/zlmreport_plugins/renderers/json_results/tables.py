@@ -94,7 +94,7 @@ _CLOCK = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class TableValue:
     """A number: whose it is, what it is, its unit; `target` is None beside the table by position."""
 
     standard: str
@@ -125,7 +125,7 @@ class CsvRenderer:
         return table.getvalue().encode()
 
 
-def list_values(certificate: Certificate) -> Iterator[Value]:
+def list_values(certificate: Certificate) -> Iterator[TableValue]:
     """Yield every number of the evaluations and of the error model."""
     found = collect_results(certificate)
     for test, prefix in list_measured(found):
@@ -133,7 +133,7 @@ def list_values(certificate: Certificate) -> Iterator[Value]:
         for evaluation in test["evaluations"]:
             yield from _list_values_of_evaluation(evaluation, unit, prefix)
         for contributor in _list_missing(test):
-            yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
+            yield TableValue("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
     for part in found.get("parts", {"": found}).values():
         yield from _list_values_of_model(part["model"])
 
@@ -164,7 +164,7 @@ def make_harmless(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA) else text
 
 
-def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
+def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[TableValue]:
     standard = evaluation["standard"]
     for parameter in evaluation["parameters"]:
         numbers = {key: parameter[key] for key in _OF_PARAMETER if key in parameter}
@@ -173,24 +173,24 @@ def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iter
         }
         for key, value in numbers.items():
             own = _NO_UNIT if key in _WITHOUT_UNIT else parameter["unit"]
-            yield Value(standard, parameter["symbol"], None, prefix + key, value, own)
+            yield TableValue(standard, parameter["symbol"], None, prefix + key, value, own)
     for position in evaluation["positions"]:
         for key, value in position.items():
             if key != "target":
                 own = _NO_UNIT if key.startswith("n_") else unit
-                yield Value(standard, key, position["target"], prefix + key, value, own)
+                yield TableValue(standard, key, position["target"], prefix + key, value, own)
 
 
-def _list_values_of_model(model: Json) -> Iterator[Value]:
+def _list_values_of_model(model: Json) -> Iterator[TableValue]:
     for parameter in model["parameters"]:
         symbol = f"{parameter['effect']}.{parameter['name']}"
         for key in ("value", "expanded_uncertainty"):
             if parameter.get(key) is not None:
-                yield Value("", symbol, None, key, parameter[key], parameter["unit"])
+                yield TableValue("", symbol, None, key, parameter[key], parameter["unit"])
     unit = model["error"].get("unit", "")
     for key, value in model["error"].items():
         if not isinstance(value, str):
-            yield Value("", "error", None, key, value, _NO_UNIT if key in _WITHOUT_UNIT else unit)
+            yield TableValue("", "error", None, key, value, _NO_UNIT if key in _WITHOUT_UNIT else unit)
 
 
 class XlsxRenderer:
@@ -267,23 +267,23 @@ class _Sheets:
         found = collect_results(self._certificate)
         for test, prefix in list_measured(found):
             if test["evaluations"]:  # a line of several may have none of its own
-                self._evaluations(test, self._title(prefix), _name_targets(test["measurements"]))
+                self._add_evaluations(test, self._name_sheets(prefix), _name_targets(test["measurements"]))
         parts = self._certificate.parts or {"": self._certificate}
         for name, part in parts.items():
             for line, measurements in (part.measurements.tests or {"": part.measurements}).items():
-                self._readings(measurements, " ".join(filter(None, (name, line))))
+                self._add_readings(measurements, " ".join(filter(None, (name, line))))
         for name, part in found.get("parts", {"": found}).items():
             if part["model"]["parameters"]:
-                self._model(part["model"], name)
+                self._add_model(part["model"], name)
 
-    def _title(self, prefix: str) -> str:
+    def _name_sheets(self, prefix: str) -> str:
         """Return how the sheets of a test are called: ``{sheet}``, ``{sheet} EYX``, ``{sheet} as found``."""
         names = prefix.rstrip(".").split(".")
         is_before = names[-1] == "as_found"
         title = " ".join(filter(None, ("{sheet}", *(names[:-1] if is_before else names))))
         return self._say(_AS_FOUND).replace("{sheet}", title) if is_before else title
 
-    def _evaluations(self, found: Json, title: str, target: Words) -> None:
+    def _add_evaluations(self, found: Json, title: str, target: Words) -> None:
         missing = ", ".join(_list_missing(found))
         rows = [
             [
@@ -297,7 +297,7 @@ class _Sheets:
             for parameter in evaluation["parameters"]
         ]
         headings = map(self._say, (*_PARAMETER_HEADINGS, *([_INCOMPLETE] if missing else ())))
-        self._sheet(title.format(sheet=self._say(_PARAMETERS)), headings, rows)
+        self._add_sheet(title.format(sheet=self._say(_PARAMETERS)), headings, rows)
         units = found["measurements"]["units"]
         positions = [
             (evaluation["standard"], position)
@@ -316,13 +316,13 @@ class _Sheets:
         ]
         if not table:
             return  # what follows from several lines has no positions
-        sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
+        sheet = self._add_sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
         drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
         of_first = sum(row[0] == table[0][0] for row in table)
         if drawn:
-            self._chart(sheet, drawn, of_first, self._say(target), units)
+            self._add_chart(sheet, drawn, of_first, self._say(target), units)
 
-    def _readings(self, measurements: MeasurementSet, name: str) -> None:
+    def _add_readings(self, measurements: MeasurementSet, name: str) -> None:
         if self._certificate.job and self._certificate.job.keys.agreement.simplified:
             return  # agreed with the customer: a document without them
         axis = measurements.axis
@@ -349,17 +349,17 @@ class _Sheets:
                 measurements.run, measurements.approach, measurements.target, deviations, strict=True
             )
         ]
-        self._sheet(" ".join(filter(None, (self._say(_READINGS), name))), headings, rows)
+        self._add_sheet(" ".join(filter(None, (self._say(_READINGS), name))), headings, rows)
 
-    def _model(self, model: Json, name: str) -> None:
+    def _add_model(self, model: Json, name: str) -> None:
         rows = [
             [each["effect"], each["name"], each["value"], each["unit"], each.get("expanded_uncertainty")]
             for each in model["parameters"]
         ]
         title = " ".join(filter(None, (self._say(_MODEL), name)))
-        self._sheet(title, map(self._say, _MODEL_HEADINGS), rows)
+        self._add_sheet(title, map(self._say, _MODEL_HEADINGS), rows)
 
-    def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
+    def _add_sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
         from openpyxl.styles import Font  # noqa: PLC0415 (slow to load)
         from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
 
@@ -378,7 +378,7 @@ class _Sheets:
         sheet.freeze_panes = "A2"
         return sheet
 
-    def _chart(
+    def _add_chart(
         self, sheet: Any, drawn: Sequence[tuple[int, str]], rows: int, target: str, units: Json
     ) -> None:
         """Add a chart of the means over the targets of the first standard, beside the table."""

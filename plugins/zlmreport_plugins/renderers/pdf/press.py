@@ -82,13 +82,13 @@ class Press:
                 for face in FONT_FACES
             }
         )
-        self._faces = self._parsed(faces, supply)
+        self._faces = self._parse(faces, supply)
         self._style = lru_cache(maxsize=4)(
-            lambda accent, paper: self._parsed(
+            lambda accent, paper: self._parse(
                 style_sheet("elements", "certificate", "paged", paper, accent=accent), supply
             )
         )
-        self._own = lru_cache(maxsize=4)(self._of_own_look)
+        self._own = lru_cache(maxsize=4)(self._read_own_look)
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
@@ -116,7 +116,7 @@ class Press:
             )
         return pdf
 
-    def _of_own_look(self, look: Look) -> tuple[CSS, ...]:
+    def _read_own_look(self, look: Look) -> tuple[CSS, ...]:
         """Return the style sheet of a laboratory's own look, if it has one."""
         contents: Contents = {}
 
@@ -126,9 +126,9 @@ class Press:
             return name
 
         style = own_style(look, address)
-        return (self._parsed(style, Supply(contents)),) if style else ()
+        return (self._parse(style, Supply(contents)),) if style else ()
 
-    def _parsed(self, style: str, supply: Supply) -> CSS:
+    def _parse(self, style: str, supply: Supply) -> CSS:
         return CSS(string=style, font_config=self._fonts, url_fetcher=supply)
 
 

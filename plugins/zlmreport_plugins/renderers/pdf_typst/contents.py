@@ -365,7 +365,7 @@ def collect_graph(figure: Figure, language: Language) -> Data:
     return {
         "width": width,
         "height": height,
-        "drawing": canvas.image(width, height),
+        "drawing": canvas.make_image(width, height),
         "labels": canvas.labels,
     }
 
@@ -398,7 +398,7 @@ class GraphCanvas:
         ]
         self.labels.append([first.x, first.y, angle, hexadecimal_colour(colour), spans])
 
-    def image(self, width: float, height: float) -> str:
+    def make_image(self, width: float, height: float) -> str:
         """Return the outlines as an SVG image of a size in points."""
         size = f'width="{width}pt" height="{height}pt" viewBox="0 0 {width} {height}"'
         return "".join((f'<svg xmlns="http://www.w3.org/2000/svg" {size}>', *self._paths, "</svg>"))

@@ -48,7 +48,7 @@ from zlmreport_plugins.sources.channels_csv.proposals import SENSOR, find_channe
 from zlmreport_plugins.sources.channels_csv.tracks import (
     Channel,
     Channels,
-    Track,
+    ChannelTrack,
     add_dates,
     find_unit_of,
     read_channels_of,
@@ -125,7 +125,7 @@ class ChannelsCsv:
         own = _find_channel_of(axis.name, channels, options)
         stated = options.units.get(VALUE)
         unit = find_unit_of(own, stated, LENGTH_UNITS, MICROMETRE)
-        track = channels.track(own, unit, LENGTH_UNITS)
+        track = channels.read_track(own, unit, LENGTH_UNITS)
         conditions = dict(_list_conditions(channels, options))
         table = channels.table
         problems = list(dict.fromkeys([*table.problems, *channels.cells.problems]))
@@ -197,7 +197,7 @@ def _is_column_name(text: str, options: ChannelsCsvOptions) -> bool:
 def _find_channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:
     """Return the channel of a test; raise `InputError` with the nearest name if there is none."""
     called = options.channels.get(name, name)
-    found = channels.named(called)
+    found = channels.find(called)
     if found is not None:
         return found
     names = [each.name for each in channels.of.values()]
@@ -208,7 +208,7 @@ def _find_channel_of(name: str, channels: Channels, options: ChannelsCsvOptions)
     )
 
 
-def _list_conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterator[tuple[str, Track]]:
+def _list_conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterator[tuple[str, ChannelTrack]]:
     """Yield the conditions that were logged, SI where they are known by name, and else in °C."""
     renamed: dict[str, str] = {}
     for name in options.channels:
@@ -219,7 +219,7 @@ def _list_conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterato
         if called is None:
             continue
         kind = CONDITIONS.get(called, _TEMPERATURES)
-        track = channels.track(channel, find_unit_of(channel, None, kind.units, kind.unit), kind.units)
+        track = channels.read_track(channel, find_unit_of(channel, None, kind.units, kind.unit), kind.units)
         yield called, track if called in CONDITIONS else _convert_to_celsius(track, channels, channel)
 
 
@@ -231,7 +231,7 @@ def _name_condition(key: str, channel: Channel) -> str | None:
     return f"{key}{_TEMPERATURE}" if is_temperature else None
 
 
-def _convert_to_celsius(track: Track, channels: Channels, channel: Channel) -> Track:
+def _convert_to_celsius(track: ChannelTrack, channels: Channels, channel: Channel) -> ChannelTrack:
     """Return a temperature as conditions without a name of their own are kept: as found, in °C."""
     celsius = np.asarray(CELSIUS.from_si(track.value))
     for index in np.flatnonzero((celsius < _TEMPERATURES.lowest) | (celsius > _TEMPERATURES.highest))[:1]:
@@ -242,10 +242,10 @@ def _convert_to_celsius(track: Track, channels: Channels, channel: Channel) -> T
                 f"{_TEMPERATURES.highest:g} °C here; is its unit right?",
             )
         )
-    return Track(track.time, celsius, track.places)
+    return ChannelTrack(track.time, celsius, track.places)
 
 
-def _ask_about_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
+def _ask_about_larger_unit(track: ChannelTrack, channel: Channel) -> Iterator[Problem]:
     """Ask where a machine would hardly have moved: the readings are millimetres then."""
     there = track.value[np.isfinite(track.value)]
     if there.size < 2:
@@ -261,7 +261,7 @@ def _ask_about_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
         )
 
 
-def _interpolate_at(time: FloatArray, condition: Track) -> FloatArray:
+def _interpolate_at(time: FloatArray, condition: ChannelTrack) -> FloatArray:
     """Return a condition at some times, linear between those at which it was logged; NaN beyond them."""
     there = np.isfinite(condition.value)
     if not there.any():

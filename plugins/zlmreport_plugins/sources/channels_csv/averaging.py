@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from zlmreport.plugin.source import Averaging
-from zlmreport_plugins.sources.channels_csv.tracks import Track
+from zlmreport_plugins.sources.channels_csv.tracks import ChannelTrack
 
 #: Readings of a channel that are kept as they are.
 MOST_KEPT = 1440
@@ -25,7 +25,7 @@ def choose_interval_for(readings: int, duration: float) -> float | None:
     return next(enough, duration / MOST_KEPT)
 
 
-def average_channel(track: Track, interval: float) -> tuple[Track, Averaging]:
+def average_channel(track: ChannelTrack, interval: float) -> tuple[ChannelTrack, Averaging]:
     """Return the averages of a channel at the middles of intervals, and what they leave out.
 
     An interval in which there is no reading has none; one in which all are missing has one that is missing.
@@ -40,6 +40,6 @@ def average_channel(track: Track, interval: float) -> tuple[Track, Averaging]:
     left = (track.value - mean[which])[there]
     left_out = float(np.sqrt(np.mean(left**2))) if left.size else 0.0
     places = tuple(track.places[index] for index in first.tolist())
-    return Track(np.asarray((slots + 0.5) * interval, dtype=np.float64), mean, places), Averaging(
+    return ChannelTrack(np.asarray((slots + 0.5) * interval, dtype=np.float64), mean, places), Averaging(
         len(track.time), left_out
     )

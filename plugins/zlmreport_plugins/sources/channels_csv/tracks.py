@@ -63,7 +63,7 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True)
-class Track:
+class ChannelTrack:
     """Readings of one channel in the order of time."""
 
     time: FloatArray  #: (N,): s from the beginning of the test, rising.
@@ -86,7 +86,7 @@ class Channels:
         """The table that they stand in."""
         return self.cells.table
 
-    def named(self, name: str) -> Channel | None:
+    def find(self, name: str) -> Channel | None:
         """Return a channel by its name, with or without its unit; None if there is none."""
         return self.of.get(folded(heading_of(name).name)) or self.of.get(folded(name))
 
@@ -111,9 +111,9 @@ class Channels:
         """How often the channel was read that was read most often."""
         return max((len(channel.moments) for channel in self.of.values()), default=0)
 
-    def track(
+    def read_track(
         self, channel: Channel, unit: Unit | ReadingScale, known: Mapping[str, Unit | ReadingScale]
-    ) -> Track:
+    ) -> ChannelTrack:
         """Return the readings of a channel; what is wrong with one is noted."""
         begins = self.begins
         times: list[float] = []
@@ -132,7 +132,7 @@ class Channels:
             times.append(time)
             values.append(value)
             places.append(self.table.place(each.row, each.index))
-        return Track(np.array(times), np.array(values, dtype=np.float64), tuple(places))
+        return ChannelTrack(np.array(times), np.array(values, dtype=np.float64), tuple(places))
 
 
 def _say_out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:

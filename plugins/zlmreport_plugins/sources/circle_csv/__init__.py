@@ -154,7 +154,7 @@ def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[C
     """Return the cells of a table, and which columns it has."""
     table = options.read_table()
     layout = find_circle_columns(table, options, context)
-    return options.cells_of(table, [column.index for column in layout.number_columns()]), layout
+    return options.cells_of(table, [column.index for column in layout.list_number_columns()]), layout
 
 
 def _find_keys_of_one_turn(file: Path) -> dict[str, Any]:

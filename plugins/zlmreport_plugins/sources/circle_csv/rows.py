@@ -40,7 +40,7 @@ class CircleColumns:
     value: TextColumn
     conditions: tuple[TextColumn, ...]
 
-    def number_columns(self) -> Iterator[TextColumn]:
+    def list_number_columns(self) -> Iterator[TextColumn]:
         """Yield the columns that hold numbers with decimals."""
         yield from (column for column in (self.angle, self.time, self.value) if column)
         yield from self.conditions

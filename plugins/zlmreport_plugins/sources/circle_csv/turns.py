@@ -42,7 +42,7 @@ class CircleTurn:
         """The usual way from reading to reading, rad."""
         return float(np.median(np.abs(np.diff(self.angle))))
 
-    def of(self, chosen: BoolArray) -> CircleTurn:
+    def keep(self, chosen: BoolArray) -> CircleTurn:
         """Return some of its readings."""
         return replace(
             self,
@@ -73,7 +73,7 @@ def choose_evaluated_part(
     slack = 1e-9
     way = turn.travelled
     last = min(turn.extent - behind, before + TURN - _CLOSES * turn.step)
-    return turn.of((way >= before - slack) & (way <= last + slack)), before, behind
+    return turn.keep((way >= before - slack) & (way <= last + slack)), before, behind
 
 
 def put_one_after_another(turns: Sequence[CircleTurn]) -> tuple[list[CircleTurn], bool]:

@@ -142,46 +142,46 @@ class Log:
     entries: Mapping[Key, EcmcEntry]  #: By key.
     problems: list[Problem]  #: What is wrong with them; reading adds to it.
 
-    def readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
+    def list_readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
         """Yield the readings cycle by cycle, upwards and then downwards; the log tells no order.
 
         `forward`: The approach that the log calls FWD.
         """
-        positions, cycles = self._count(POSITIONS), self._count(CYCLES)
+        positions, cycles = self._read_count(POSITIONS), self._read_count(CYCLES)
         if positions * cycles > _HARDLY_ANY * len(self.entries):
             message = f"holds {len(self.entries)} entries for {positions} positions and {cycles} cycles"
             self.problems.append(Problem(self.file, f"{message}; are POSITIONS and CYCLES right?"))
             return
         self._refuse_beyond(positions, cycles)
-        targets = sorted(self._targets(positions), key=lambda target: target[1])
+        targets = sorted(self._list_targets(positions), key=lambda target: target[1])
         measured = {name for name, _ in self.entries}
         names = {forward: FORWARD, Approach(-forward): BACKWARD}
         for cycle in range(1, cycles + 1):
             for approach in Approach:
                 if names[approach] in measured:
                     for index, target in targets[:: int(approach)]:
-                        yield self._reading((names[approach], (index, cycle)), target, approach, unit)
+                        yield self._make_reading((names[approach], (index, cycle)), target, approach, unit)
 
-    def _reading(self, key: Key, target: float, approach: Approach, unit: Unit) -> Reading:
+    def _make_reading(self, key: Key, target: float, approach: Approach, unit: Unit) -> Reading:
         """Return a reading; where its entry is empty, or not there, it is a missing one."""
         entry = self.entries.get(key)
-        actual = self._number(key) if entry and entry.value else math.nan
+        actual = self._read_number(key) if entry and entry.value else math.nan
         index, cycle = key[1]
         place = entry.place if entry else self.entries[TARGET, (index,)].place
         return Reading(place, unit.to_si(target), approach, cycle, unit.to_si(actual - target))
 
-    def _targets(self, positions: int) -> Iterator[tuple[int, float]]:
+    def _list_targets(self, positions: int) -> Iterator[tuple[int, float]]:
         """Yield the targets by number; say what is missing, unless it may be in a line that is wrong."""
         keys = [(TARGET, (index,)) for index in range(1, positions + 1)]
         absent = [write_key(key) for key in keys if key not in self.entries]
         if absent and not self.problems:
             stated = self.entries.get((POSITIONS, ()))
             some = f"{', '.join(absent[:5])}{' …' if absent[5:] else ''}"
-            message = f"there is no {some}, and {self._stated(POSITIONS)}"
+            message = f"there is no {some}, and {self._find_stated(POSITIONS)}"
             self.problems.append(Problem(stated.place if stated else self.file, message))
         for key in keys:
             if key in self.entries:
-                target = self._number(key)
+                target = self._read_number(key)
                 if not math.isnan(target):
                     yield key[1][0], target
 
@@ -191,10 +191,10 @@ class Log:
         for key, entry in self.entries.items():
             for (name, limit), index in zip(limits, key[1], strict=False):
                 if index > limit:
-                    message = f"{write_key(key)} is one too many: {self._stated(name)}"
+                    message = f"{write_key(key)} is one too many: {self._find_stated(name)}"
                     self.problems.append(Problem(entry.place, message))
 
-    def _count(self, name: str) -> int:
+    def _read_count(self, name: str) -> int:
         entry = self.entries.get((name, ()))
         if entry and is_count(entry.value):
             return int(entry.value)
@@ -203,13 +203,13 @@ class Log:
             self.problems.append(Problem(entry.place, message))
         return _DEFAULTS[name]
 
-    def _stated(self, name: str) -> str:
+    def _find_stated(self, name: str) -> str:
         entry = self.entries.get((name, ()))
         if entry:
             return f"{name} is {entry.value[:40]}"
         return f"{name} is not stated, which in such a log means {_DEFAULTS[name]}"
 
-    def _number(self, key: Key) -> float:
+    def _read_number(self, key: Key) -> float:
         entry = self.entries[key]
         try:
             return parse_number(entry.value)
@@ -260,7 +260,7 @@ class Ecmc:
             raise InputError.at(text.place(), "holds no entry such as 'TGT_DATA[1]=-20'; is it an ecmc log?")
         log = Log(text.place(), found, problems)
         forward = Approach.NEGATIVE if options.exchange_directions else Approach.POSITIVE
-        readings = list(log.readings(_find_unit(found, context), forward))
+        readings = list(log.list_readings(_find_unit(found, context), forward))
         remarks = (_ORDER, _EXCHANGED) if options.exchange_directions else (_ORDER,)
         provenance = Provenance(self.identifier, (text.source,), remarks)
         return collect_readings(readings, context.axis, provenance, place=text.place(), problems=problems)

@@ -56,9 +56,9 @@ class LaserCsv:
             table = each.read_table(partial(_is_column_name, options=each))
             text = table.source
             layout = (find_wide_layout if each.layout == "wide" else find_long_layout)(table, each, context)
-            cells = each.cells_of(table, [column.index for column in layout.number_columns()])
+            cells = each.cells_of(table, [column.index for column in layout.list_number_columns()])
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
-            readings += put_in_order(layout.readings(cells, sense), each)
+            readings += put_in_order(layout.list_readings(cells, sense), each)
             if of_table := days_of_readings(cells, layout.time):
                 days.append(of_table)
             problems += [*table.problems, *cells.problems]

@@ -16,7 +16,7 @@ from zlmreport.plugin.table import (
 )
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
-from zlmreport_plugins.sources.laser_csv.meanings import READING, number
+from zlmreport_plugins.sources.laser_csv.meanings import READING, read_number
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
 #: What stands for a missing reading, in lower case.
@@ -80,11 +80,11 @@ class Draft:
     units: dict[str, str] = field(default_factory=dict)
     ignored: list[str] = field(default_factory=list)
 
-    def index(self, what: str) -> int | None:
+    def find_column(self, what: str) -> int | None:
         """Return the place of a column; None if there is none."""
         return list(self.table.meanings).index(what) if what in self.table.meanings else None
 
-    def name(self, index: int) -> str:
+    def name_column(self, index: int) -> str:
         """Return the name of a column."""
         return self.table.header.cells[index]
 
@@ -109,7 +109,7 @@ def place_table(draft: Draft) -> None:
     if below:
         beginning = _strip_number_at_end(first_cell(below[0].cells)[:_LONGEST_BEGINNING].strip())
         data = (first_cell(row.cells).casefold() for row in table.rows)
-        is_clear = beginning and number(beginning, table.notation) is None
+        is_clear = beginning and read_number(beginning, table.notation) is None
         if is_clear and not any(each.startswith(beginning.casefold()) for each in data):
             keys["ends_before"] = beginning
         elif not table.layout.is_transposed:
@@ -141,8 +141,8 @@ def note_notation(draft: Draft) -> None:
     words = {
         cell
         for index in measured
-        for cell in table.column(index)
-        if cell and number(cell, table.notation) is None
+        for cell in table.list_cells(index)
+        if cell and read_number(cell, table.notation) is None
     }
     if words and all(word.casefold() in _MISSING for word in words):
         draft.keys["missing"] = sorted(words)
@@ -159,8 +159,8 @@ def name_unit(what: str, draft: Draft, target: int, *columns: int) -> None:
     if len(named) == 1:
         draft.units[what] = named.pop()
         return
-    values = [abs(value) for index in columns for value in table.numbers(index) if value]
-    travel = [value for value in table.numbers(target) if value is not None]
+    values = [abs(value) for index in columns for value in table.list_numbers(index) if value]
+    travel = [value for value in table.list_numbers(target) if value is not None]
     is_small = bool(values) and max(values) < 0.5 and median(values) < 0.1 and max(travel) - min(travel) >= 5
     if is_small:
         draft.units[what] = "mm"
@@ -174,7 +174,7 @@ def is_unit_known(what: str, draft: Draft, index: int) -> bool:
     """Return whether the table names the unit of a column, and say which one if it spells it otherwise."""
     table = draft.table
     below = table.units.cells[index] if table.units and index < len(table.units.cells) else ""
-    behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.column(index) if cell), "")
+    behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.list_cells(index) if cell), "")
     for spelling in (
         read_heading(table.header.cells[index]).bracket or "",
         below.strip("()[] "),

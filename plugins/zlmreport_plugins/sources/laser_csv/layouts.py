@@ -94,11 +94,11 @@ class LongLayout:
         """The columns of readings."""
         return (self.value,)
 
-    def number_columns(self) -> Iterator[TextColumn]:
+    def list_number_columns(self) -> Iterator[TextColumn]:
         """Yield the columns that hold numbers with decimals."""
         return (column for column in self.columns if column not in {self.direction, self.run})
 
-    def readings(self, cells: Cells, sense: float) -> Iterator[Reading]:
+    def list_readings(self, cells: Cells, sense: float) -> Iterator[Reading]:
         """Yield the readings of the sound rows; `sense` is −1 for deviations given as nominal − actual."""
         time_of = time_reader(cells, self.time)
         for row in cells.table.rows:
@@ -286,11 +286,11 @@ class WideLayout:
         """The columns of readings."""
         return tuple(run.column for run in self.runs)
 
-    def number_columns(self) -> Iterator[TextColumn]:
+    def list_number_columns(self) -> Iterator[TextColumn]:
         """Yield the columns that hold numbers with decimals."""
         return iter(self.columns)
 
-    def readings(self, cells: Cells, sense: float) -> Iterator[Reading]:
+    def list_readings(self, cells: Cells, sense: float) -> Iterator[Reading]:
         """Yield the readings run by run, as the linear method takes them: upwards, then downwards.
 
         The table itself does not tell their order. `sense` is −1 for deviations given as nominal − actual.

@@ -176,11 +176,11 @@ _GROUPS = re.compile(r"[1-9][0-9]{0,2}(?:[.,'’ \u00a0\u202f][0-9]{3})+")
 
 
 @lru_cache(maxsize=65536)
-def number(cell: str, notation: Notation) -> float | None:
+def read_number(cell: str, notation: Notation) -> float | None:
     """Return the number that a cell holds in a notation, its unit left out; None for anything else.
 
     >>> german = Notation(DecimalSign.COMMA, ".")
-    >>> [number(cell, german) for cell in ("1.250,5", "0,002 mm", "−3", "kalt")]
+    >>> [read_number(cell, german) for cell in ("1.250,5", "0,002 mm", "−3", "kalt")]
     [1250.5, 0.002, -3.0, None]
     """
     angle = _ANGLE.fullmatch(cell)

@@ -13,7 +13,7 @@ from zlmreport.plugin import Approach
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import Draft
 from zlmreport_plugins.sources.laser_csv.layouts import find_senses
-from zlmreport_plugins.sources.laser_csv.meanings import number
+from zlmreport_plugins.sources.laser_csv.meanings import read_number
 from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction, run_and_direction
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
@@ -21,12 +21,12 @@ from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 def tell_passes(draft: Draft) -> Iterator[Draft]:
     """Yield the draft with what tells directions and runs; where it is open, in the ways that may be."""
     table = draft.table
-    directions, runs = draft.index("direction"), draft.index("run")
-    targets = [value for value in table.numbers(draft.index("target") or 0) if value is not None]
-    if directions is not None and _are_directions(table.column(directions)):
+    directions, runs = draft.find_column("direction"), draft.find_column("run")
+    targets = [value for value in table.list_numbers(draft.find_column("target") or 0) if value is not None]
+    if directions is not None and _are_directions(table.list_cells(directions)):
         taken = [
             (target, read_direction(cell))
-            for target, cell in zip(targets, table.column(directions), strict=False)
+            for target, cell in zip(targets, table.list_cells(directions), strict=False)
             if cell
         ]
         if runs is None and len(set(taken)) < len(taken):
@@ -35,7 +35,7 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
         yield draft
         return
     if directions is not None:
-        draft.ignored.append(draft.name(directions))
+        draft.ignored.append(draft.name_column(directions))
         draft.columns.pop("direction", None)
     taken_in = find_senses(targets)
     goes_back = _find_way_back(targets)
@@ -48,9 +48,9 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
     else:
         draft.keys["direction"] = "by-order"
         draft.asks.append(questions.ORDER_ASKED)
-        numbered = table.column(runs) if runs is not None else []
+        numbered = table.list_cells(runs) if runs is not None else []
         if runs is not None and _are_passes(numbered, taken_in):
-            draft.ignored.append(draft.name(runs))
+            draft.ignored.append(draft.name_column(runs))
             draft.columns.pop("run", None)
             runs = None
         if runs is None:
@@ -81,10 +81,10 @@ def _find_way_back(targets: Sequence[float]) -> str:
 
 def _is_one_pass_each(draft: Draft, taken_in: Sequence[int]) -> bool:
     """Return whether every run goes over the targets once, upwards: the axis went back between them."""
-    runs = draft.index("run")
+    runs = draft.find_column("run")
     if runs is None:
         return False
-    cells = draft.table.column(runs)
+    cells = draft.table.list_cells(runs)
     pairs = list(zip(cells, taken_in, strict=False))
     inside = [sense for (cell, sense), (before, _) in zip(pairs[1:], pairs, strict=False) if cell == before]
     return bool(inside) and all(sense > 0 for sense in inside)
@@ -148,7 +148,7 @@ def _list_stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach 
             return
         header, before = again, max(last, again.line - 3)
         for row in rows:
-            if at < len(row.cells) and number(row.cells[at], table.notation) is not None:
+            if at < len(row.cells) and read_number(row.cells[at], table.notation) is not None:
                 last = row.line
             elif last > header.line:
                 break

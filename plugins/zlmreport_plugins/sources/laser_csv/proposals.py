@@ -26,7 +26,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     are_positions,
     find_meaning,
     find_reading_of,
-    number,
+    read_number,
 )
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
 from zlmreport_plugins.sources.laser_csv.passes import draft_of_parts, tell_passes
@@ -84,27 +84,27 @@ def _draft_wide(draft: Draft) -> None:
     """Say which columns are readings, of what, and leave out the others."""
     table, keys = draft.table, draft.keys
     keys["layout"] = "wide"
-    target = draft.index("target") or 0
+    target = draft.find_column("target") or 0
     readings = [index for index, each in enumerate(table.meanings) if each == READING]
-    told = [find_reading_of(draft.name(index)) or (1, None) for index in readings]
+    told = [find_reading_of(draft.name_column(index)) or (1, None) for index in readings]
     if all(approach is None for _, approach in told):
         keys["direction"] = "+"
         draft.asks.append(questions.DIRECTION_ASKED)
     _name_target(draft, target)
-    if len(set(told)) < len(told) or not draft.name(target) or _has_equal_names(table):
+    if len(set(told)) < len(told) or not draft.name_column(target) or _has_equal_names(table):
         _name_all(draft, target, readings, told)
     else:
         for index, (run, approach) in zip(readings, told, strict=True):
-            if run_and_direction(read_heading(draft.name(index)).name) != (run, approach):
+            if run_and_direction(read_heading(draft.name_column(index)).name) != (run, approach):
                 sign = (approach or Approach.POSITIVE).sign
-                draft.columns[f"{run}{sign}"] = read_heading(draft.name(index)).name
+                draft.columns[f"{run}{sign}"] = read_heading(draft.name_column(index)).name
         draft.ignored += [
             name
             for index, name in enumerate(table.header.cells)
             if name and index != target and index not in readings
         ]
     first = readings[0]
-    if are_positions(table.numbers(target), table.numbers(first)):
+    if are_positions(table.list_numbers(target), table.list_numbers(first)):
         keys["values"] = "position"
         name_unit("position", draft, target, first)
     else:
@@ -118,7 +118,7 @@ def _has_equal_names(table: FoundTable) -> bool:
 
 
 def _name_target(draft: Draft, target: int) -> None:
-    name = read_heading(draft.name(target)).name
+    name = read_heading(draft.name_column(target)).name
     if name and folded(name) != "target":
         draft.columns["target"] = name
     is_unit_known("target", draft, target)
@@ -138,7 +138,7 @@ def _name_all(
     others = {
         index: f"column {index + 1}"
         for index, cells in enumerate(draft.table.header.cells)
-        if index not in names and (cells or any(draft.table.column(index)))
+        if index not in names and (cells or any(draft.table.list_cells(index)))
     }
     last = max({**names, **others})
     draft.keys["header"] = [names.get(index) or others.get(index, "") for index in range(last + 1)]
@@ -151,11 +151,11 @@ def _name_all(
 
 def _draft_value(draft: Draft) -> None:
     """Say what a long table holds, and where: deviations, or actual positions."""
-    target = draft.index("target") or 0
-    deviation, position = draft.index("deviation"), draft.index("position")
+    target = draft.find_column("target") or 0
+    deviation, position = draft.find_column("deviation"), draft.find_column("position")
     if not draft.table.layout.header_rows and deviation is None and position is None:
         other = 1
-        is_position = are_positions(draft.table.numbers(target), draft.table.numbers(other))
+        is_position = are_positions(draft.table.list_numbers(target), draft.table.list_numbers(other))
         names = list(draft.table.header.cells)
         if not any(names):
             names = ["target", "position" if is_position else "deviation"]
@@ -166,7 +166,7 @@ def _draft_value(draft: Draft) -> None:
     if not draft.keys.get("header") or any(draft.table.header.cells):
         _name_target(draft, target)
     if deviation is not None and position is not None:
-        draft.ignored.append(draft.name(position))
+        draft.ignored.append(draft.name_column(position))
         _compare(draft, target, deviation, position)
     elif position is not None:
         name_unit("position", draft, target, position)
@@ -182,7 +182,10 @@ def _compare(draft: Draft, target: int, deviation: int, position: int) -> None:
     products = [
         (actual - at) * value
         for at, value, actual in zip(
-            table.numbers(target), table.numbers(deviation), table.numbers(position), strict=True
+            table.list_numbers(target),
+            table.list_numbers(deviation),
+            table.list_numbers(position),
+            strict=True,
         )
         if at is not None and value is not None and actual is not None
     ]
@@ -199,12 +202,12 @@ def _draft_other_columns(draft: Draft) -> None:
     for index, (name, what) in enumerate(zip(table.header.cells, table.meanings, strict=True)):
         if not name or name in draft.ignored:
             continue
-        cells = [cell for cell in table.column(index) if cell]
+        cells = [cell for cell in table.list_cells(index) if cell]
         if what == "time" and not _is_time(cells, table.notation):
             draft.ignored.append(name)
             draft.asks.append(questions.TIME_ASKED.format(name=repr(name), example=repr(cells[0])))
         elif what is None and (
-            any(number(cell, table.notation) is None for cell in cells)
+            any(read_number(cell, table.notation) is None for cell in cells)
             or find_meaning(name) is not None
             or not cells
         ):
@@ -219,13 +222,19 @@ def _draft_other_columns(draft: Draft) -> None:
 
 
 def _is_time(cells: Sequence[str], notation: Notation) -> bool:
-    return all(number(cell, notation) is not None or moment(cell) is not None for cell in cells[:1])
+    return all(read_number(cell, notation) is not None or moment(cell) is not None for cell in cells[:1])
 
 
 def _ask_for_kind(draft: Draft, axis: str) -> None:
-    targets = [each for each in draft.table.numbers(draft.index("target") or 0) if each is not None]
+    targets = [
+        each for each in draft.table.list_numbers(draft.find_column("target") or 0) if each is not None
+    ]
     is_turn = max(targets) - min(targets) == _WHOLE_TURN
-    if is_turn and axis not in _TURNING and not is_unit_known("target", draft, draft.index("target") or 0):
+    if (
+        is_turn
+        and axis not in _TURNING
+        and not is_unit_known("target", draft, draft.find_column("target") or 0)
+    ):
         draft.asks.append(questions.TURN_ASKED)
 
 

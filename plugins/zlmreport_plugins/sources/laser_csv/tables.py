@@ -29,7 +29,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     VALUE,
     Notation,
     find_meaning,
-    number,
+    read_number,
     resolve_meanings,
 )
 
@@ -115,13 +115,13 @@ class FoundTable:
             -self.layout.header_rows,
         )
 
-    def column(self, index: int) -> list[str]:
+    def list_cells(self, index: int) -> list[str]:
         """Return the cells of a column."""
         return [row.cells[index] if index < len(row.cells) else "" for row in self.rows]
 
-    def numbers(self, index: int) -> list[float | None]:
+    def list_numbers(self, index: int) -> list[float | None]:
         """Return the numbers of a column; None for a cell that holds none."""
-        return [number(cell, self.notation) for cell in self.column(index)]
+        return [read_number(cell, self.notation) for cell in self.list_cells(index)]
 
 
 def list_texts(file: Path) -> Iterator[FoundText]:
@@ -173,7 +173,7 @@ def _list_delimiters(found: FoundText) -> Sequence[str]:
 
 def _find_upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield the tables whose header is a row of the text, or two."""
-    rows = _rows(found.lines, delimiter)
+    rows = _list_rows(found.lines, delimiter)
     for index in range(min(len(rows), _DEEPEST)):
         for count in (1, 2):
             if not rows[index] or len(rows) <= index + count or not all(rows[index : index + count]):
@@ -196,7 +196,7 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield the tables that lie on their side: a row of targets, and readings below it."""
     if len(found.lines) > _WIDEST:
         return
-    rows = _rows(found.lines, delimiter)
+    rows = _list_rows(found.lines, delimiter)
     for index, row in enumerate(rows[:_DEEPEST]):
         if row is None or find_meaning(row.cells[0]) not in _TARGET:
             continue
@@ -218,7 +218,7 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
 
 def _find_nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield a table of two columns of numbers without names, but those that a comment may give."""
-    rows = _rows(found.lines, delimiter)
+    rows = _list_rows(found.lines, delimiter)
     first = next((row for row in rows if row and all(map(_is_number, row.cells))), None)
     if first is None or len(first.cells) < 2:
         return
@@ -232,7 +232,7 @@ def _find_nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
 
 
 def _is_number(cell: str) -> bool:
-    return number(cell, Notation.of([cell])) is not None
+    return read_number(cell, Notation.of([cell])) is not None
 
 
 def _find_commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str, ...]:
@@ -247,7 +247,7 @@ def _find_commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str
     return ()
 
 
-def _rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow | None]:
+def _list_rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow | None]:
     """Return the rows of lines; None for one whose quotation marks enclose nothing."""
     found: list[TextRow | None] = []
     width = 0
@@ -280,7 +280,7 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     width = len(header.cells)
     notation = Notation.of((cell for row in rows[:_ENOUGH] for cell in row.cells), is_workbook=is_workbook)
     columns = [
-        [number(row.cells[index], notation) if index < len(row.cells) else None for row in rows]
+        [read_number(row.cells[index], notation) if index < len(row.cells) else None for row in rows]
         for index in range(width)
     ]
     meanings = resolve_meanings(header.cells, columns)

@@ -87,7 +87,7 @@ def list_remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) ->
             if said:
                 yield introduction.given(text="; ".join(said))
     if "ENVIRONMENT" in sections:
-        for entry in sections["ENVIRONMENT"].entries():
+        for entry in sections["ENVIRONMENT"].list_entries():
             try:
                 remark = _say_recorded(entry)
             except ValueError as error:
@@ -171,7 +171,7 @@ class RenishawRtl:
         """Read a test file; raise `InputError` with every defect and its place."""
         text = read_text(options.file, options.encoding)
         parts = split_sections(text, (_TARGETS, _DEVIATIONS))
-        kind = _kind(text, parts, context)
+        kind = _find_kind(text, parts, context)
         unit = _find_deviation_unit(options, context)
         targets = read_target_positions(parts[_TARGETS])
         problems: list[Problem] = []
@@ -191,7 +191,7 @@ class RenishawRtl:
         )
 
 
-def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
+def _find_kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
     """Return the kind of file, rtl or rta, which must be that of the axis."""
     own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
     kind, place = _find_told_kind(text, parts) or (own, text.place())
@@ -209,7 +209,7 @@ def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContex
 
 def _find_told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Place] | None:
     """Return the kind that the file's header or else its suffix tells, and where."""
-    entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
+    entry = parts["HEADER"].find_entry("filetype") if "HEADER" in parts else None
     if entry and entry.value:
         return entry.value.casefold(), entry.line.place
     suffix = text.source.name.rpartition(".")[2].casefold()

@@ -22,13 +22,13 @@ class RtlLine:
     place: Place  #: Of its first character.
     text: str  #: The line.
 
-    def at(self, column: int) -> Place:
+    def place_character(self, column: int) -> Place:
         """Return the place of a character, counted from 0."""
         return Place(self.place.file, self.place.line, column + 1)
 
-    def words(self) -> list[tuple[Place, str]]:
+    def split_words(self) -> list[tuple[Place, str]]:
         """Return what blanks part, each with its place."""
-        return [(self.at(match.start()), match[0]) for match in re.finditer(r"\S+", self.text)]
+        return [(self.place_character(match.start()), match[0]) for match in re.finditer(r"\S+", self.text)]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +48,16 @@ class RtlSection:
     head: RtlLine
     lines: tuple[RtlLine, ...]
 
-    def entries(self) -> Iterator[RtlEntry]:
+    def list_entries(self) -> Iterator[RtlEntry]:
         """Yield the lines of the form ``key : value``."""
         for line in self.lines:
             entry = read_as_entry(line)
             if entry:
                 yield entry
 
-    def value(self, key: str) -> RtlEntry | None:
+    def find_entry(self, key: str) -> RtlEntry | None:
         """Return the entry of a key, written so; None if there is none."""
-        return next((entry for entry in self.entries() if entry.key == key), None)
+        return next((entry for entry in self.list_entries() if entry.key == key), None)
 
 
 def read_as_entry(line: RtlLine) -> RtlEntry | None:
@@ -117,11 +117,11 @@ def read_target_positions(section: RtlSection) -> tuple[float, ...]:
     if begin is None:
         raise InputError.at(section.head.place, "this section has no key 'Targets :', so no target positions")
     colon = begin.text.index(":") + 1
-    words = [(place, word) for place, word in begin.words() if place.column > colon]
+    words = [(place, word) for place, word in begin.split_words() if place.column > colon]
     for line in lines:
         if ":" in line.text:
             break
-        words.extend(line.words())
+        words.extend(line.split_words())
     positions: list[float] = []
     problems: list[Problem] = []
     for place, word in words:
@@ -141,7 +141,7 @@ def read_stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | No
 
     Raises `InputError` if what it states is no number.
     """
-    entry = section.value(key)
+    entry = section.find_entry(key)
     if entry is None or not entry.value:
         return None
     if not _COUNT.fullmatch(entry.value):
@@ -226,7 +226,7 @@ def list_passes(
 
 
 def _read_deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Deviation | None:
-    words = line.words()
+    words = line.split_words()
     if len(words) != 3:
         shown = quoted(line.text.strip())
         message = f"{shown} is no deviation line, which has a run, a target and a deviation"

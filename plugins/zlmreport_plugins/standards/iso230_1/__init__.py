@@ -119,10 +119,10 @@ class Iso230Part1:
             values = between.compute_values(self.what, statistics, options.reference_line, options.square)
             return Arithmetic({each.symbol: values[each.symbol] for each in self.quantities})
         if self.measurand.identifier == ANGLE.identifier:
-            return self._angles(statistics)
-        return self._straightness(statistics, options)
+            return self._evaluate_angles(statistics)
+        return self._evaluate_straightness(statistics, options)
 
-    def _straightness(self, statistics: PositionStatistics, options: LineOptions) -> Arithmetic:
+    def _evaluate_straightness(self, statistics: PositionStatistics, options: LineOptions) -> Arithmetic:
         x, line, symbol = statistics.positions, options.reference_line, self.quantities[0].symbol
         mean = mean_of_all_runs(statistics)
         of_each = straightness(x, statistics.mean, line)
@@ -144,7 +144,7 @@ class Iso230Part1:
         }
         return Arithmetic(parameters, columns)
 
-    def _angles(self, statistics: PositionStatistics) -> Arithmetic:
+    def _evaluate_angles(self, statistics: PositionStatistics) -> Arithmetic:
         symbol, mean = self.quantities[0].symbol, statistics.mean
         of_each, both = span_over_positions(mean), mean.reshape(*mean.shape[:-2], -1)
         over_both = np.where(statistics.is_bidirectional, span_over_positions(both), np.nan)

@@ -37,10 +37,10 @@ _MEAN = {
 def draw_figures(edition: Edition, evaluation: Evaluation) -> Iterator[Figure]:
     """Yield the edition's graphs, as far as the test defines what they show."""
     graphs = _Graphs(edition, evaluation)
-    yield graphs.means()
+    yield graphs.draw_means()
     if graphs.diagram.is_bidirectional:
-        yield graphs.overall()
-    yield graphs.unidirectional()
+        yield graphs.draw_overall()
+    yield graphs.draw_unidirectional()
 
 
 class _Graphs:
@@ -58,26 +58,26 @@ class _Graphs:
         self.worst_reversal = worst_position(np.abs(statistics.reversal_value))
         self.worst_repeatability = worst_position(evaluation.column("R"))
 
-    def means(self) -> Figure:
+    def draw_means(self) -> Figure:
         """Return the means and limits of both directions, with B_i and R_i where they are largest."""
         shown = diagram_panel(
-            bands=[self._limits(approach) for approach in Approach],
+            bands=[self._draw_limits(approach) for approach in Approach],
             readings=self.diagram.readings(),
-            curves=self._means(),
-            arrows=self._bidirectional_arrows(f"B{self.i}", f"R{self.i}"),
+            curves=self._draw_all_means(),
+            arrows=self._draw_bidirectional_arrows(f"B{self.i}", f"R{self.i}"),
         )
         title = Words(
             "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and "
             "repeatability"
         )
-        return self._figure("means", title.given(k=self.k), shown)
+        return self._make_figure("means", title.given(k=self.k), shown)
 
-    def overall(self) -> Figure:
+    def draw_overall(self) -> Figure:
         """Return the bidirectional parameters at the places where they arise."""
         shown = diagram_panel(
-            bands=[self._limits(approach) for approach in Approach],
-            curves=self._means(),
-            arrows=self._bidirectional_arrows("B", "R"),
+            bands=[self._draw_limits(approach) for approach in Approach],
+            curves=self._draw_all_means(),
+            arrows=self._draw_bidirectional_arrows("B", "R"),
             brackets=[
                 self.diagram.bracket("A", self.lower, self.upper),
                 self.diagram.bracket("E", self.mean, self.mean),
@@ -85,22 +85,22 @@ class _Graphs:
             ],
         )
         title = Words("Axis {axis}: bidirectional parameters and where they arise")
-        return self._figure("overall", title, shown)
+        return self._make_figure("overall", title, shown)
 
-    def unidirectional(self) -> Figure:
+    def draw_unidirectional(self) -> Figure:
         """Return a panel for each direction that was measured, with its own parameters."""
-        panels = [self._direction(approach) for approach in self.diagram.approaches]
+        panels = [self._draw_direction(approach) for approach in self.diagram.approaches]
         title = Words("Axis {axis}: unidirectional parameters and where they arise")
-        return self._figure("unidirectional", title, *panels)
+        return self._make_figure("unidirectional", title, *panels)
 
-    def _direction(self, approach: Approach) -> Panel:
+    def _draw_direction(self, approach: Approach) -> Panel:
         accuracy, systematic, repeatability = _SYMBOLS[approach]
         lower, upper, mean = (array[approach.index] for array in (self.lower, self.upper, self.mean))
         return diagram_panel(
             APPROACH_TITLES[approach],
-            bands=[self._limits(approach)],
+            bands=[self._draw_limits(approach)],
             readings=self.diagram.readings(approach),
-            curves=[self._mean(approach)],
+            curves=[self._draw_mean(approach)],
             arrows=[
                 self.diagram.arrow(
                     f"R{approach.arrow}", worst_position(self.evaluation.column(repeatability)), lower, upper
@@ -112,15 +112,15 @@ class _Graphs:
             ],
         )
 
-    def _mean(self, approach: Approach) -> Curve | None:
+    def _draw_mean(self, approach: Approach) -> Curve | None:
         notation = f"x̄{self.i}{approach.arrow}"
         return self.diagram.curve(notation, MEAN_ROLES[approach], self.mean[approach.index])
 
-    def _means(self) -> list[Curve | None]:
+    def _draw_all_means(self) -> list[Curve | None]:
         both = self.diagram.curve(f"x̄{self.i}", Role.MEAN_BIDIRECTIONAL, self.mean_bidirectional)
-        return [*map(self._mean, Approach), both]
+        return [*map(self._draw_mean, Approach), both]
 
-    def _limits(self, approach: Approach) -> Band | None:
+    def _draw_limits(self, approach: Approach) -> Band | None:
         arrow = approach.arrow
         return self.diagram.band(
             f"x̄{self.i}{arrow} ± {self.k}s{self.i}{arrow}",
@@ -129,7 +129,7 @@ class _Graphs:
             self.upper[approach.index],
         )
 
-    def _bidirectional_arrows(self, reversal: str, repeatability: str) -> list[Arrow | None]:
+    def _draw_bidirectional_arrows(self, reversal: str, repeatability: str) -> list[Arrow | None]:
         positive, negative = (self.mean[approach.index] for approach in Approach)
         # R_i is the width of the two directions' limits taken together: its three cases are the choices
         # of the direction that gives the upper and of the one that gives the lower end.
@@ -139,7 +139,7 @@ class _Graphs:
             self.diagram.arrow(repeatability, self.worst_repeatability, lower, upper),
         ]
 
-    def _figure(self, key: str, title: Words, *panels: Panel) -> Figure:
+    def _make_figure(self, key: str, title: Words, *panels: Panel) -> Figure:
         axis = self.diagram.axis
         alternative = alternative_text(
             graph_in_words(self.evaluation),

@@ -146,7 +146,7 @@ def _from_the_first(values: FloatArray) -> FloatArray:
 
 def _make_bracket(notation: str, times: FloatArray, values: FloatArray, hours: Hours) -> Bracket:
     """Return the range of values in the hours, with the times at which its ends arise."""
-    inside = np.where(hours.hold(times), values, np.nan)
+    inside = np.where(hours.select(times), values, np.nan)
     low, high = int(np.nanargmin(inside)), int(np.nanargmax(inside))
     at = HOUR.from_si(times)
     return Bracket(notation, float(values[low]), float(values[high]), float(at[low]), float(at[high]))

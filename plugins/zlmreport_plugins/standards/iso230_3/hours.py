@@ -31,26 +31,26 @@ class Hours:
         """Whether the length is."""
         return math.isfinite(self.length)
 
-    def hold(self, times: FloatArray) -> BoolArray:
+    def select(self, times: FloatArray) -> BoolArray:
         """Return which times, s, lie in them; a millisecond beyond their ends is rounding."""
         slack = 1e-3
         return np.asarray((times >= self.start - slack) & (times <= self.start + self.length + slack))
 
-    def covered(self, times: FloatArray) -> float:
+    def measure_covered(self, times: FloatArray) -> float:
         """Return for how long there are readings in them, s.
 
         `times`: Of the readings, s, rising. Of stated hours one interval of readings may be lacking, as
         averages stand in the middles of theirs, but no more than a fiftieth.
         """
         if not self.are_stated:
-            return self.extent(times)
+            return self.measure_extent(times)
         if self.are_covered(times):
             return self.length
-        return self.extent(times)
+        return self.measure_extent(times)
 
-    def extent(self, times: FloatArray) -> float:
+    def measure_extent(self, times: FloatArray) -> float:
         """Return the time from the first to the last reading in them, s."""
-        inside = times[self.hold(times)]
+        inside = times[self.select(times)]
         return float(inside[-1] - inside[0]) if inside.size > 1 else 0.0
 
     def are_covered(self, times: FloatArray) -> bool:
@@ -58,7 +58,7 @@ class Hours:
         if not self.are_stated:
             return True
         spare = min(find_usual_interval(times), _MAY_LACK * self.length)
-        return self.extent(times) + spare >= self.length * (1 - 1e-9)
+        return self.measure_extent(times) + spare >= self.length * (1 - 1e-9)
 
 
 def find_usual_interval(times: FloatArray) -> float:
@@ -98,7 +98,7 @@ def compute_tilt_in(
 
 def _compute_span(values: FloatArray, lines: tuple[PositionStatistics, ...], hours: Hours) -> FloatArray:
     """Return the range of values at the times of the first of some sensors, in hours that all go over."""
-    inside = hours.hold(lines[0].positions)
+    inside = hours.select(lines[0].positions)
     if not all(hours.are_covered(each.positions) for each in lines) or np.count_nonzero(inside) < 2:
         return np.full(values.shape[:-1], np.nan)
     return span_over_positions(values[..., inside])

@@ -64,7 +64,7 @@ def list_temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, Float
 
 def _find_duration(tests: Mapping[str, MeasurementSet], hours: Hours) -> float:
     """Return for how long the shortest record goes over the hours, s."""
-    return min((hours.covered(each.target_positions) for each in tests.values()), default=0.0)
+    return min((hours.measure_covered(each.target_positions) for each in tests.values()), default=0.0)
 
 
 def _convert_to_hours(seconds: float) -> float:
@@ -83,7 +83,7 @@ def _check_stated(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
 
 def _check_covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     short = {
-        name: hours.covered(each.target_positions)
+        name: hours.measure_covered(each.target_positions)
         for name, each in tests.items()
         if not hours.are_covered(each.target_positions)
     }
@@ -109,7 +109,7 @@ def _check_long_enough(tests: Mapping[str, MeasurementSet], hours: Hours) -> Fin
 def _check_without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     gaps = {
         name: find_longest_gap(
-            each.target_positions[_find_what_is_there(each) & hours.hold(each.target_positions)]
+            each.target_positions[_find_what_is_there(each) & hours.select(each.target_positions)]
         )
         for name, each in tests.items()
     }

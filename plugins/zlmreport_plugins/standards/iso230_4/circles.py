@@ -108,7 +108,7 @@ def find_minimum_zone(points: FloatArray, angles: FloatArray) -> Zone:
     upper = lower = points[..., order].reshape(-1, len(order))
     if len(begins) < len(order):
         upper, lower = (each.reduceat(upper, begins, axis=-1) for each in (np.maximum, np.minimum))
-    centre = _Search(upper, lower, angles[order][begins]).centres().reshape(*batch, 2)
+    centre = _Search(upper, lower, angles[order][begins]).find_centres().reshape(*batch, 2)
     return find_zone_about(centre, points, angles)
 
 
@@ -125,7 +125,7 @@ class _Search:
         self.held = np.tile(np.arange(4) * count // 4, (tests, 1))
         self.begins_outside = np.ones(tests, dtype=np.bool_)
 
-    def centres(self) -> FloatArray:
+    def find_centres(self) -> FloatArray:
         """Return them, (test, 2)."""
         active = np.arange(len(self.upper))
         for _ in range(_MOST_EXCHANGES):
@@ -147,7 +147,7 @@ class _Search:
 
     def _fit(self, active: IntArray) -> tuple[IntArray, IntArray]:
         """Hold the circles at four points each; return the points that stand out most, on either side."""
-        held, sign = self.held[active], self._signs(active)
+        held, sign = self.held[active], self._find_signs(active)
         rows = active[:, np.newaxis]
         values = np.where(sign > 0, self.upper[rows, held], self.lower[rows, held])
         system = np.empty((len(active), 4, 4))
@@ -166,12 +166,12 @@ class _Search:
         self.bound[active] = np.maximum(self.bound[active], 2 * solved[:, 3])
         return outermost, innermost
 
-    def _signs(self, active: IntArray) -> FloatArray:
+    def _find_signs(self, active: IntArray) -> FloatArray:
         return np.where(self.begins_outside[active][:, np.newaxis], _ALTERNATING, -_ALTERNATING)
 
     def _exchange(self, active: IntArray, point: IntArray, side: float) -> BoolArray:
         """Exchange the neighbour on the same side for a point; not one whose angle is held already."""
-        held, sign = self.held[active], self._signs(active)
+        held, sign = self.held[active], self._find_signs(active)
         free: BoolArray = ~(held == point[:, np.newaxis]).any(axis=1)
         before = (np.count_nonzero(held <= point[:, np.newaxis], axis=1) - 1) % 4
         each = np.arange(len(active))

@@ -53,8 +53,8 @@ def draw_figures(evaluation: Evaluation, zone_of: ZoneOf, options: Any) -> Itera
     """Yield the paths drawn outwards from the nominal circle, and the same over the angle."""
     graphs = _Graphs(evaluation, zone_of, options)
     if graphs.senses:
-        yield graphs.on_circle()
-        yield graphs.over_angle()
+        yield graphs.draw_on_circle()
+        yield graphs.draw_over_angle()
 
 
 class _Graphs:
@@ -80,14 +80,15 @@ class _Graphs:
         self.paths = compute_about(self.zone.centre, paths, self.angles) - nominal
         self.inner, self.outer = float(self.zone.inner) - nominal, float(self.zone.outer) - nominal
 
-    def on_circle(self) -> Figure:
+    def draw_on_circle(self) -> Figure:
         """Return the paths about the nominal circle, or about the mean one where no length is known."""
         first, second = self.axes
         levels = tuple(
-            Level(self.symbol, Role.BAND_LIMIT, self._printed(each)) for each in (self.inner, self.outer)
+            Level(self.symbol, Role.BAND_LIMIT, self._convert_to_printed(each))
+            for each in (self.inner, self.outer)
         )
         panel = Panel(
-            curves=tuple(map(self._as_run, self.senses, self.paths)),
+            curves=tuple(map(self._draw_as_run, self.senses, self.paths)),
             levels=levels if self.symbol else (),
             projection="polar",
             directions=(
@@ -105,9 +106,9 @@ class _Graphs:
             radius=circle.radius * 1e3 if circle else 0.0,
             feed=float(f"{circle.feed * 60e3:.6g}") if circle else 0.0,
         )
-        return self._figure("circle", title, panel)
+        return self._make_figure("circle", title, panel)
 
-    def over_angle(self) -> Figure:
+    def draw_over_angle(self) -> Figure:
         """Return the paths over the angle, with the circular deviation where it arises."""
         bracket = []
         if self.symbol:
@@ -116,15 +117,15 @@ class _Graphs:
             bracket = [
                 Bracket(
                     self.symbol,
-                    self._printed(self.inner),
-                    self._printed(self.outer),
-                    self._degrees(self.angles[lowest % count]),
-                    self._degrees(self.angles[highest % count]),
+                    self._convert_to_printed(self.inner),
+                    self._convert_to_printed(self.outer),
+                    self._convert_to_degrees(self.angles[lowest % count]),
+                    self._convert_to_degrees(self.angles[highest % count]),
                 )
             ]
         curves = tuple(
             Curve(
-                self._notation(each),
+                self._write_notation(each),
                 MEAN_ROLES[each],
                 read_only_floats(self.axis.position_unit.from_si(self.angles)),
                 read_only_floats(self.axis.deviation_unit.from_si(path)),
@@ -132,7 +133,7 @@ class _Graphs:
             for each, path in zip(self.senses, self.paths, strict=True)
         )
         panel = Panel(curves=curves, brackets=tuple(bracket))
-        return self._figure("over-angle", _OVER_ANGLE.given(paths=self.paths_in_words), panel)
+        return self._make_figure("over-angle", _OVER_ANGLE.given(paths=self.paths_in_words), panel)
 
     @property
     def axes(self) -> tuple[str, str]:
@@ -148,7 +149,7 @@ class _Graphs:
             paths = _ONE_PATH.given(plane=self.axis.name, sense=list(SENSES.values())[self.senses[0].index])
         return paths if self.is_about_nominal else _FROM_MEAN.given(paths=paths)
 
-    def _as_run(self, sense: Approach, path: FloatArray) -> Curve:
+    def _draw_as_run(self, sense: Approach, path: FloatArray) -> Curve:
         """Return a path in the order in which it was run; a full turn ends where it began."""
         order = np.arange(len(self.angles))
         if sense is Approach.NEGATIVE:
@@ -159,13 +160,13 @@ class _Graphs:
         if is_full_turn(self.angles):
             order = np.append(order, order[0])
         return Curve(
-            self._notation(sense),
+            self._write_notation(sense),
             MEAN_ROLES[sense],
             read_only_floats(self.axis.position_unit.from_si(self.angles[order])),
             read_only_floats(self.axis.deviation_unit.from_si(path[order])),
         )
 
-    def _figure(self, key: str, title: Words, panel: Panel) -> Figure:
+    def _make_figure(self, key: str, title: Words, panel: Panel) -> Figure:
         first, second = self.axes
         zone = self.zone
         ranges = (
@@ -196,13 +197,13 @@ class _Graphs:
         )
 
     @staticmethod
-    def _notation(sense: Approach) -> str:
+    def _write_notation(sense: Approach) -> str:
         return f"r({list(SENSES)[sense.index]})"
 
-    def _printed(self, value: float) -> float:
+    def _convert_to_printed(self, value: float) -> float:
         return float(self.axis.deviation_unit.from_si(value))
 
-    def _degrees(self, angle: float) -> float:
+    def _convert_to_degrees(self, angle: float) -> float:
         return float(self.axis.position_unit.from_si(angle))
 
 

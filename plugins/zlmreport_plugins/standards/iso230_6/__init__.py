@@ -73,21 +73,21 @@ class SpaceKeys(JobPart):
     Z: tuple[Finite, Finite] | None = Field(None, description="Of Z, mm.", examples=[[0, 300]])
 
     @model_validator(mode="after")
-    def _rising(self) -> SpaceKeys:
+    def _refuse_falling(self) -> SpaceKeys:
         for name in type(self).model_fields:
             ends = getattr(self, name)
             if ends and ends[0] >= ends[1]:
                 raise ValueError(f"{name}: the first position must be less than the last")
         return self
 
-    def side(self, axis: str) -> float | None:
+    def find_side(self, axis: str) -> float | None:
         """Return how far an axis moves, m; None where nobody stated it."""
         ends = getattr(self, axis)
         return float(MILLIMETRE.to_si(ends[1] - ends[0])) if ends else None
 
-    def length(self, axes: str) -> float | None:
+    def compute_diagonal(self, axes: str) -> float | None:
         """Return the diagonal over some of the axes, m; None where one of them is not stated."""
-        sides = [self.side(axis) for axis in axes]
+        sides = [self.find_side(axis) for axis in axes]
         known = [side for side in sides if side is not None]
         return math.hypot(*known) if len(known) == len(sides) else None
 
@@ -162,7 +162,7 @@ class Iso230Part6:
 
     def figures(self, evaluation: Evaluation, options: DiagonalOptions) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
         """Return the mean deviations along body diagonals, and along those of faces."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 def squareness(
@@ -174,7 +174,7 @@ def squareness(
     (ε_1 − ε_2)·D²/(2ab); ε is the elongation of each diagonal. NaN where a side is not stated.
     """
     axes = FACES[symbol][0]
-    a, b = space.side(axes[0]), space.side(axes[1])
+    a, b = space.find_side(axes[0]), space.find_side(axes[1])
     if a is None or b is None:
         return np.full(first.mean.shape[:-2], np.nan)
     smaller = (_compute_elongation(first) - _compute_elongation(second)) * (a * a + b * b) / (2 * a * b)
@@ -219,7 +219,7 @@ def _check_four(tests: Mapping[str, MeasurementSet]) -> Finding:
 def _check_within(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iterator[Finding]:
     """Yield whether the diagonals have room in the work space as it is stated."""
     for name, line in tests.items():
-        whole, measured = space.length(_name_axes_of(name)), measured_length(line)
+        whole, measured = space.compute_diagonal(_name_axes_of(name)), measured_length(line)
         if whole is None:
             yield Finding(_IN_SPACE, _NOT_STATED, None)
             return
@@ -240,7 +240,7 @@ def _check_whole(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Itera
     if not lengths:
         return
     wholes = {
-        name: space.length(_name_axes_of(name))
+        name: space.compute_diagonal(_name_axes_of(name))
         or max(length for other, length in lengths.items() if _name_axes_of(other) == _name_axes_of(name))
         for name in lengths
     }
@@ -257,7 +257,7 @@ def _check_whole(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Itera
     yield Finding(_OVER_WHOLE, said, met=False)
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     tests = evaluation.measurements.tests
     for key, names, title in (("body", BODY, _OF_BODY), ("faces", FACE, _OF_FACES)):
         shown = [name for name in names if name in tests]

@@ -48,7 +48,7 @@ def draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
         _PLAN,
         axis,
         plate,
-        _plan(plate, above),
+        _draw_plan(plate, above),
         _SIDES.given(width=_name_side(plate, 0), depth=_name_side(plate, 1)),
     )
 
@@ -79,14 +79,14 @@ def _draw_wire(plate: Plate, above: dict[str, FloatArray], magnified: float) -> 
     ground = _project_places(_list_corners(plate), np.zeros(5), magnified)
     curves = [Curve("", Role.BAND_LIMIT, *ground)]
     for names, role in _KINDS:
-        lines = [_project_places(plate.places(name), above[name], magnified) for name in names]
+        lines = [_project_places(plate.lay_stations(name), above[name], magnified) for name in names]
         curves.append(Curve(_write_notation(names), role, *_join_in_one(lines)))
     notes = []
     for name in LINES:
-        places, heights = plate.places(name), above[name]
+        places, heights = plate.lay_stations(name), above[name]
         x, y = _project_places(places, heights, magnified)
         for index in _choose_told(name, heights, above):
-            notes.append(Note(float(x[index]), float(y[index]), _number(heights[index])))
+            notes.append(Note(float(x[index]), float(y[index]), _write_number(heights[index])))
             foot = _project_places(places[[index, index]], np.array([heights[index], 0.0]), magnified)
             curves.append(Curve("", Role.PATH, *foot))
     return Panel(curves=tuple(curves), notes=tuple(notes), projection="wire")
@@ -111,24 +111,24 @@ def _choose_told(name: str, heights: FloatArray, above: dict[str, FloatArray]) -
     yield from sorted(found)
 
 
-def _plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
+def _draw_plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
     """Return the plate from above, north at the top, with the height of each station in micrometres."""
     curves, notes = [], list[Note]()
     written: list[FloatArray] = []
     sides = np.array(plate.sides)
     for names, role in _KINDS:
-        lines = [_write_millimetres(plate.places(name)) for name in names]
+        lines = [_write_millimetres(plate.lay_stations(name)) for name in names]
         curves.append(
             Curve(_write_notation(names), role, *_join_in_one([(each[:, 0], each[:, 1]) for each in lines]))
         )
     for name in (*EDGES, *DIAGONALS, *CENTRE_LINES):
-        for place, height in zip(plate.places(name), above[name], strict=True):
+        for place, height in zip(plate.lay_stations(name), above[name], strict=True):
             # Where lines meet they tell the same height; where they come near, the first one is told.
             if any(np.abs((place - other) / sides).max() < _NEAR for other in written):
                 continue
             written.append(place)
             east, north = _write_millimetres(place).tolist()
-            notes.append(Note(east, north, _number(height)))
+            notes.append(Note(east, north, _write_number(height)))
     for name, words in _POINTS.items():
         east, north = _write_millimetres(np.array(_find_corner(plate, name))).tolist()
         notes.append(Note(east, north, words, is_below=True))
@@ -178,7 +178,7 @@ def _write_notation(names: Sequence[str]) -> str:
     return ", ".join(name.replace("-", "–") for name in names)
 
 
-def _number(height: float) -> float:
+def _write_number(height: float) -> float:
     return float(MICROMETRE.from_si(height))
 
 

@@ -39,20 +39,20 @@ class Profile:
     heights: FloatArray  #: (..., n + 1), m.
     length: float  #: m.
 
-    def at_half(self) -> FloatArray:
+    def interpolate_half(self) -> FloatArray:
         """Return the height at half its length, m, (...): between two stations where none is there."""
         after = min(max(int(np.searchsorted(self.shares, _HALF - 1e-9)), 1), len(self.shares) - 1)
         low, high = self.shares[after - 1], self.shares[after]
         part = (_HALF - low) / (high - low)
         return np.asarray((1 - part) * self.heights[..., after - 1] + part * self.heights[..., after])
 
-    def between(self, first: FloatArray, last: FloatArray) -> Profile:
+    def lay_between(self, first: FloatArray, last: FloatArray) -> Profile:
         """Return the profile laid so that its ends have two heights, m, (...)."""
         begins, ends = self.heights[..., :1], self.heights[..., -1:]
         rise = self.shares * ((last[..., np.newaxis] - first[..., np.newaxis]) - (ends - begins))
         return Profile(self.shares, self.heights - begins + first[..., np.newaxis] + rise, self.length)
 
-    def lifted(self, by: FloatArray) -> Profile:
+    def lift(self, by: FloatArray) -> Profile:
         """Return the profile, every height larger by as much, m, (...)."""
         return Profile(self.shares, self.heights + by[..., np.newaxis], self.length)
 
@@ -73,7 +73,7 @@ class Plate:
         )
         return along, across
 
-    def places(self, name: str) -> FloatArray:
+    def lay_stations(self, name: str) -> FloatArray:
         """Return where the stations of a line lie, m, (n + 1, 2): towards the east, towards the north."""
         first, last = (np.array(PLACES[point]) for point in name.split("-"))
         shares = self.profiles[name].shares[:, np.newaxis]
@@ -82,7 +82,7 @@ class Plate:
     @property
     def points(self) -> FloatArray:
         """The places of all stations, m, (N, 2)."""
-        return np.concatenate([self.places(name) for name in LINES])
+        return np.concatenate([self.lay_stations(name) for name in LINES])
 
     @property
     def heights(self) -> FloatArray:
@@ -107,19 +107,19 @@ def find_plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
     corners: dict[str, FloatArray] = {}
     for name in DIAGONALS:
         nothing = np.zeros(measured[name].heights.shape[:-1])
-        level = measured[name].between(nothing, nothing)
-        laid[name] = level.lifted(-level.at_half())
+        level = measured[name].lay_between(nothing, nothing)
+        laid[name] = level.lift(-level.interpolate_half())
         for corner, at in zip(name.split("-"), (0, -1), strict=True):
             corners[corner] = laid[name].heights[..., at]
     for name in EDGES:
         first, last = name.split("-")
-        laid[name] = measured[name].between(corners[first], corners[last])
+        laid[name] = measured[name].lay_between(corners[first], corners[last])
     closures = {}
     for name, edges in zip(CENTRE_LINES, (ACROSS, ALONG), strict=True):
-        ends = [laid[edge].at_half() for edge in edges]
-        line = measured[name].between(*ends)
-        closures[name] = line.at_half()
-        laid[name] = line.lifted(-closures[name])
+        ends = [laid[edge].interpolate_half() for edge in edges]
+        line = measured[name].lay_between(*ends)
+        closures[name] = line.interpolate_half()
+        laid[name] = line.lift(-closures[name])
     return Plate(laid, closures)
 
 

@@ -128,7 +128,7 @@ class VdiGuideline:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the guideline's two diagrams."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 _RUNS = 5
@@ -194,11 +194,11 @@ def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
     return {"U": reversal_span(statistics), "Ps": position_spread(statistics, k)}
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield both diagrams, as far as the test defines what they show."""
     graphs = _Graphs(evaluation)
-    yield graphs.means()
-    yield graphs.overall()
+    yield graphs.draw_means()
+    yield graphs.draw_overall()
 
 
 class _Graphs:
@@ -213,20 +213,20 @@ class _Graphs:
         self.reversal, self.spread = evaluation.column("U"), evaluation.column("Ps")
         self.half = half_width(self.reversal, self.spread, self.statistics)
 
-    def means(self) -> Figure:
+    def draw_means(self) -> Figure:
         """Return means, reversal and spread by position, with U_j/2 and P_sj/2 where the band is widest."""
         title = Words("Axis {axis}: mean deviations, reversal span and position spread")
         if not self.bidirectional:
             title = Words("Axis {axis}: mean deviations and position spread")
         shown = diagram_panel(
-            bands=[self._spread_band(), self._reversal_band()],
+            bands=[self._draw_spread_band(), self._draw_reversal_band()],
             readings=self.diagram.readings(),
-            curves=self._curves(),
-            arrows=self._arrows(),
+            curves=self._draw_curves(),
+            arrows=self._draw_arrows(),
         )
-        return self._figure("means", title, shown)
+        return self._make_figure("means", title, shown)
 
-    def overall(self) -> Figure:
+    def draw_overall(self) -> Figure:
         """Return P, P_a and U_max at the places where they arise."""
         title = Words(
             "Axis {axis}: position uncertainty, position deviation and reversal span where they arise"
@@ -234,17 +234,17 @@ class _Graphs:
         if not self.bidirectional:
             title = Words("Axis {axis}: position uncertainty and position deviation where they arise")
         shown = diagram_panel(
-            bands=[self._spread_band()],
-            curves=self._curves(),
+            bands=[self._draw_spread_band()],
+            curves=self._draw_curves(),
             brackets=[
                 self.diagram.bracket("P", self.mean - self.half, self.mean + self.half),
                 self.diagram.bracket("Pa", self.mean, self.mean),
-                self._largest_reversal(),
+                self._draw_largest_reversal(),
             ],
         )
-        return self._figure("overall", title, shown)
+        return self._make_figure("overall", title, shown)
 
-    def _curves(self) -> list[Curve | None]:
+    def _draw_curves(self) -> list[Curve | None]:
         by_direction = [
             self.diagram.curve(f"x̄_{{j}}{each.arrow}", MEAN_ROLES[each], self.statistics.mean[each.index])
             for each in Approach
@@ -253,15 +253,15 @@ class _Graphs:
             return list(by_direction)
         return [*by_direction, self.diagram.curve("x̄_{j}", Role.MEAN_BIDIRECTIONAL, self.mean)]
 
-    def _reversal_band(self) -> Band | None:
+    def _draw_reversal_band(self) -> Band | None:
         half = self.reversal / 2
         return self.diagram.band("x̄_{j} ± ½U_{j}", Role.REVERSAL, self.mean - half, self.mean + half)
 
-    def _spread_band(self) -> Band | None:
+    def _draw_spread_band(self) -> Band | None:
         notation = "x̄_{j} ± ½(U_{j} + P_{sj})" if self.bidirectional else "x̄_{j} ± ½P_{sj}"
         return self.diagram.band(notation, Role.SPREAD, self.mean - self.half, self.mean + self.half)
 
-    def _arrows(self) -> list[Arrow | None]:
+    def _draw_arrows(self) -> list[Arrow | None]:
         """Return U_j/2 upwards from the mean and P_sj/2 upwards from there, at the widest place."""
         if not self.bidirectional:
             return [
@@ -276,14 +276,14 @@ class _Graphs:
             self.diagram.arrow("P_{sj}/2", at, reversal_end, self.mean + self.half),
         ]
 
-    def _largest_reversal(self) -> Bracket | None:
+    def _draw_largest_reversal(self) -> Bracket | None:
         at = worst_position(self.reversal)
         if at is None:
             return None
         only_there = np.where(np.arange(self.reversal.size) == at, self.statistics.mean, np.nan)
         return self.diagram.bracket("U_max", only_there, only_there)
 
-    def _figure(self, key: str, title: Words, shown: Panel) -> Figure:
+    def _make_figure(self, key: str, title: Words, shown: Panel) -> Figure:
         axis = self.diagram.axis
         alternative = alternative_text(
             graph_in_words(self.evaluation),

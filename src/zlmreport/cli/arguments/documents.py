@@ -8,7 +8,14 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
-from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, read_port, read_position
+from zlmreport.cli.arguments.parser import (
+    JSON_HELP,
+    CommandParser,
+    add_jobs,
+    read_point,
+    read_port,
+    read_position,
+)
 from zlmreport.errors import did_you_mean
 from zlmreport.version import __version__
 
@@ -64,9 +71,9 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
         help="sign the PDF with the key in a PKCS#12 file (ID.p12) or a token (pkcs11:…); its password is "
         f"asked for, or stands in the environment variable {SIGN_PASSWORD}",
     )
-    parser.flag("--quiet", "print nothing but mistakes")
-    parser.flag("--json", JSON_HELP)
-    parser.flag("--fail-on-nonconformity", "exit with 1 if a stated limit is not met")
+    parser.add_flag("--quiet", "print nothing but mistakes")
+    parser.add_flag("--json", JSON_HELP)
+    parser.add_flag("--fail-on-nonconformity", "exit with 1 if a stated limit is not met")
     return parser
 
 
@@ -87,8 +94,8 @@ def check(command: str) -> CommandParser:
         "example:\n  zlmreport check x-axis.yaml",
     )
     add_jobs(parser)
-    parser.flag("--quiet", "print nothing but mistakes")
-    parser.flag("--json", JSON_HELP)
+    parser.add_flag("--quiet", "print nothing but mistakes")
+    parser.add_flag("--json", JSON_HELP)
     return parser
 
 
@@ -208,14 +215,14 @@ def verify(command: str) -> CommandParser:
     parser.add_argument(
         "certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not, or a file of one"
     )
-    parser.flag("--json", "print every finding as JSON")
+    parser.add_flag("--json", "print every finding as JSON")
     parser.add_argument(
         "--trusted",
         metavar="CERT.pem|FOLDER",
         type=Path,
         help="certificates of signers or authorities that are trusted (default: the user's configuration)",
     )
-    parser.flag("--require-signature", "only what bears an intact signature that is trusted holds")
+    parser.add_flag("--require-signature", "only what bears an intact signature that is trusted holds")
     parser.add_argument(
         "--dcc-schema",
         metavar="DIR",
@@ -260,8 +267,8 @@ def model(command: str) -> CommandParser:
     parser.add_argument(
         "-o", "--output", metavar="FILE", type=Path, help="of learn: the file; without it, it is printed"
     )
-    parser.flag("--dry-run", "of build: show what would be added, and leave the job as it is")
-    parser.flag("--json", "print the values in full precision as JSON")
+    parser.add_flag("--dry-run", "of build: show what would be added, and leave the job as it is")
+    parser.add_flag("--json", "print the values in full precision as JSON")
     return parser
 
 
@@ -321,15 +328,15 @@ def machine(command: str) -> CommandParser:
         help="of compensate: job of a circle that was run again with the tables in effect; may be given "
         "several times",
     )
-    parser.flag("--trial", "of compensate: a file with one value, which shows that way")
+    parser.add_flag("--trial", "of compensate: a file with one value, which shows that way")
     parser.add_argument(
         "--step",
         metavar="MM",
         type=read_position,
         help="of compensate: between rows; as measured without it",
     )
-    parser.flag("--dry-run", "of build: write nothing")
-    parser.flag("--json", "print the values in full precision as JSON")
+    parser.add_flag("--dry-run", "of build: write nothing")
+    parser.add_flag("--json", "print the values in full precision as JSON")
     return parser
 
 
@@ -364,13 +371,13 @@ def surface(command: str) -> CommandParser:
     parser.add_argument(
         "--at",
         metavar="P,R",
-        type=point,
+        type=read_point,
         action="append",
         default=[],
         help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
         "is negative); may be given several times",
     )
-    parser.flag("--json", "print the values in full precision as JSON (zlmreport/surface/1)")
+    parser.add_flag("--json", "print the values in full precision as JSON (zlmreport/surface/1)")
     return parser
 
 
@@ -389,7 +396,7 @@ def fleet(command: str) -> CommandParser:
         "work on it; 4 done, but jobs failed, or something is missing that should be there",
     )
     _add_fleet(parser)
-    parser.flag("--dry-run", "say what would be done, and why; make and write nothing")
+    parser.add_flag("--dry-run", "say what would be done, and why; make and write nothing")
     parser.add_argument(
         "--workers", metavar="N", type=_read_workers, help="number of processes, instead of the fleet file's"
     )
@@ -399,9 +406,9 @@ def fleet(command: str) -> CommandParser:
         type=_read_minutes,
         help="begin no job after that; the rest is the next night's",
     )
-    parser.flag("--quiet", "print nothing but failures")
-    parser.flag("--json", "print what became of every job as JSON")
-    parser.flag("--log-json", "log each job as a line of JSON")
+    parser.add_flag("--quiet", "print nothing but failures")
+    parser.add_flag("--json", "print what became of every job as JSON")
+    parser.add_flag("--log-json", "log each job as a line of JSON")
     return parser
 
 
@@ -491,5 +498,5 @@ def workbench(command: str) -> CommandParser:
     parser.add_argument(
         "--port", metavar="N", type=read_port, default=0, help="a TCP port; without it any free one"
     )
-    parser.flag("--no-browser", "print the address, and open no browser")
+    parser.add_flag("--no-browser", "print the address, and open no browser")
     return parser

@@ -56,7 +56,7 @@ def plan(command: str) -> CommandParser:
         type=int,
         help="write only the programs of one run, for a run that is taken again",
     )
-    parser.flag("--json", "print the plan as JSON (zlmreport/plan/1, or that of an extension)")
+    parser.add_flag("--json", "print the plan as JSON (zlmreport/plan/1, or that of an extension)")
     return parser
 
 
@@ -111,9 +111,11 @@ def compensate(command: str) -> CommandParser:
         type=Path,
         help="folder of the table and its sheet; with --confirm of the job that shows both tests",
     )
-    parser.flag("--unconfirmed", "write a format, too, that was never tried on the control itself")
-    parser.flag("--confirm", "two jobs: did the table of the first do what was forecast?")
-    parser.flag("--json", "print the forecast as JSON (zlmreport/compensation/1, zlmreport/confirmation/1)")
+    parser.add_flag("--unconfirmed", "write a format, too, that was never tried on the control itself")
+    parser.add_flag("--confirm", "two jobs: did the table of the first do what was forecast?")
+    parser.add_flag(
+        "--json", "print the forecast as JSON (zlmreport/compensation/1, zlmreport/confirmation/1)"
+    )
     return parser
 
 
@@ -224,7 +226,7 @@ def capture(command: str) -> CommandParser:
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
     _add_test(parser)
-    parser.flag("--resume", "go on with a capture that was interrupted, from its journal")
+    parser.add_flag("--resume", "go on with a capture that was interrupted, from its journal")
     parser.add_argument(
         "--answer",
         metavar="VISIT",
@@ -239,10 +241,10 @@ def capture(command: str) -> CommandParser:
         help="go on, but first take a visit again, by its number, or a run ('run 2'); also when all visits\n"
         "were taken; the earlier readings stay in the journal",
     )
-    parser.flag("--end", "close a capture that was interrupted: what was not taken is missing")
+    parser.add_flag("--end", "close a capture that was interrupted: what was not taken is missing")
     parser.add_argument("--journal", metavar="FILE", type=Path, help="journal, instead of the job's")
-    parser.flag("--json", "print what happens as JSON, a line each, as it stands in the journal")
-    parser.flag(
+    parser.add_flag("--json", "print what happens as JSON, a line each, as it stands in the journal")
+    parser.add_flag(
         "--steered",
         "for a program that shows the capture: the present moment and questions as JSON, too,\nand orders "
         "from standard input, a line each, as they are typed at a terminal",

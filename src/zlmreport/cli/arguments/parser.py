@@ -49,7 +49,7 @@ class CommandParser(argparse.ArgumentParser):
             self._known.extend(name for name in names if name.startswith("--"))
         return action
 
-    def flag(self, name: str, meaning: str) -> None:
+    def add_flag(self, name: str, meaning: str) -> None:
         """Add an option that is there or is not."""
         self.add_argument(name, action="store_true", help=meaning)
 
@@ -129,7 +129,7 @@ def read_position(text: str) -> float:
     return position
 
 
-def point(text: str) -> tuple[float, float]:
+def read_point(text: str) -> tuple[float, float]:
     """Read two positions, parted by a comma."""
     along, _, across = text.partition(",")
     try:

@@ -34,7 +34,7 @@ from zlmreport.document.certificate.conditions import lay_out_corrections
 from zlmreport.document.certificate.values import limit, tell_columns_apart
 from zlmreport.document.figures.prescribed import draw_comparison
 from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
-from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, compare_parameters
+from zlmreport.evaluation.evaluation import Change, EvaluatedParameter, Evaluation, compare_parameters
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
@@ -242,7 +242,7 @@ def lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     return Table(told, columns, groups, symbols=symbols)
 
 
-def _both(change: Change) -> Iterator[Parameter]:
+def _both(change: Change) -> Iterator[EvaluatedParameter]:
     yield from filter(None, (change.before, change.after))
 
 
@@ -273,7 +273,7 @@ def lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(
-            writer.say(Words("Limit")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit")) + writer.marks.write_after("evaluate.tolerances"),
             writer.deviation_unit.symbol,
             Align.RIGHT,
         ),

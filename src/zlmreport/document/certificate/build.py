@@ -210,7 +210,7 @@ def _link_readings(job: Job, interpretation: Interpretation, writer: Writer) -> 
     is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
     if keys.agreement.simplified or not is_shown:
         return None
-    return interpretation.linked(writer)
+    return interpretation.list_linked(writer)
 
 
 def _drop_readings(material: Material) -> Material:

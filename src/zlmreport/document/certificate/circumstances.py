@@ -248,5 +248,7 @@ class Fact(NamedTuple):
 def select_stated_facts(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
     """Return the facts that have a value, named and marked in the document's language."""
     return tuple(
-        (writer.say(fact.name) + writer.marks.after(*fact.keys), fact.value) for fact in facts if fact.value
+        (writer.say(fact.name) + writer.marks.write_after(*fact.keys), fact.value)
+        for fact in facts
+        if fact.value
     )

@@ -26,7 +26,7 @@ from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
 
@@ -163,17 +163,20 @@ def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
         for evaluation in part.evaluations:
             own = replace(values, writer=Writer.of(evaluation.measurements, writer.language, writer.marks))
             rows = tuple(
-                (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.cells(each))
+                (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.list_cells(each))
                 for each in _choose_in_brief(evaluation)
             )
             heading = _GROUP.given(subject=part.subtitle, designation=evaluation.designation)
             groups.append(RowGroup(rows, writer.say(heading), section=_name_key_of_first(name, part)))
     return Table(
-        writer.say(_SUMMARY), tuple(values.columns()), tuple(each for each in groups if each.rows), dense=True
+        writer.say(_SUMMARY),
+        tuple(values.list_columns()),
+        tuple(each for each in groups if each.rows),
+        dense=True,
     )
 
 
-def _choose_in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+def _choose_in_brief(evaluation: Evaluation) -> tuple[EvaluatedParameter, ...]:
     return (
         tuple(each for each in evaluation.parameters if each.limit is not None) or evaluation.parameters[:1]
     )

@@ -326,7 +326,7 @@ def lay_out_corrections(measurements: MeasurementSet, writer: Writer) -> Iterato
     columns = (
         Column(writer.say(Words("Correction"))),
         Column(writer.say(Words("By"))),
-        Column(writer.say(Words("From")) + writer.marks.after("environment", "corrections")),
+        Column(writer.say(Words("From")) + writer.marks.write_after("environment", "corrections")),
         Column(writer.say(Words("Largest")), writer.deviation_unit.symbol, Align.RIGHT),
     )
     rows: tuple[tuple[Cell, ...], ...] = tuple(

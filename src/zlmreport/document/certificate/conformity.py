@@ -27,7 +27,7 @@ from zlmreport.language.formatting import write_fixed_number, write_percentage, 
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
     from zlmreport.job.evaluation_keys import DecisionRuleKeys
 
 #: Of a risk that no double holds: it is small, and not none.
@@ -91,7 +91,7 @@ _CAPTION = Words(
 )
 
 
-def make_verdict_cell(parameter: Parameter, writer: Writer) -> Cell:
+def make_verdict_cell(parameter: EvaluatedParameter, writer: Writer) -> Cell:
     """Return what is stated of a parameter's limit; nothing where it has none."""
     if parameter.limit is None or parameter.decision is None:
         return NOTHING
@@ -129,7 +129,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
         for each in limited
         if each.specification
     )
-    mark = writer.marks.after("evaluate.specification")
+    mark = writer.marks.write_after("evaluate.specification")
     return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
 
 
@@ -165,7 +165,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Amount")), unit, Align.RIGHT),
         Column(
-            writer.say(Words("Limit TL")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"),
             unit,
             Align.RIGHT,
         ),
@@ -184,7 +184,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
     yield Table(writer.say(_CAPTION), columns, groups)
 
 
-def _lay_out_row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
+def _lay_out_row(parameter: EvaluatedParameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
     writer = writer.of_quantity(parameter.quantity)
 
     def shown(number: str) -> str:
@@ -203,19 +203,19 @@ def _lay_out_row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tup
     )
 
 
-def _write_accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
+def _write_accepted(limit: float, parameter: EvaluatedParameter, writer: Writer) -> str:
     if limit == parameter.limit:
         return writer.number(writer.deviation_unit.from_si(limit))
     return _write_rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words("none"))
 
 
-def _write_rounded(value: float, parameter: Parameter, writer: Writer) -> str:
+def _write_rounded(value: float, parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write a value (m or rad) with the decimals that the parameter has in every other table."""
     expanded = parameter.expanded_uncertainty
     return write_rounded_together(value, expanded, writer)[0] if expanded else writer.deviation(value)
 
 
-def _say_rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writer) -> Words:
+def _say_rule(keys: DecisionRuleKeys, limited: Sequence[EvaluatedParameter], writer: Writer) -> Words:
     coverage_factor = max(2.0, min((each.coverage_factor or 2.0) for each in limited))
     match keys.rule:
         case "guard-band":
@@ -230,7 +230,7 @@ def _say_rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writ
             return _SIMPLE.given(largest=_say_largest_risk(limited, writer))
 
 
-def _say_largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:
+def _say_largest_risk(limited: Sequence[EvaluatedParameter], writer: Writer) -> Words:
     """Return what is said of the largest risk of a document: nothing where none is known."""
     risks = [
         (each.decision.risk, each) for each in limited if each.decision and each.decision.risk is not None

@@ -21,7 +21,7 @@ from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.results import Evaluated, list_subscripted, make_section_key
 from zlmreport.document.certificate.statements import make_amendment_notice, write_person
 from zlmreport.document.certificate.values import Values, tell_columns_apart
-from zlmreport.evaluation.evaluation import Group
+from zlmreport.evaluation.evaluation import QuantityGroup
 from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.certificate.material import Material
     from zlmreport.document.writer import Writer
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
 
@@ -145,14 +145,14 @@ def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
 
 def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
     values = Values.of((page[0].evaluation for page in pages), writer)
-    columns = tuple(values.columns())
+    columns = tuple(values.list_columns())
     groups = tuple(
         RowGroup(
             tuple(
                 (
                     Symbol(parameter.quantity.notation),
                     writer.say(parameter.quantity.name),
-                    *values.cells(parameter),
+                    *values.list_cells(parameter),
                 )
                 for parameter in _choose_in_brief(page[0].evaluation)
             ),
@@ -167,11 +167,13 @@ def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, 
     return Table(told, columns, groups, dense, symbols)
 
 
-def _choose_in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+def _choose_in_brief(evaluation: Evaluation) -> tuple[EvaluatedParameter, ...]:
     """Return what a customer looks for: what has a limit, else the composite parameters, else all."""
     limited = tuple(parameter for parameter in evaluation.parameters if parameter.limit is not None)
     composite = tuple(
-        parameter for parameter in evaluation.parameters if parameter.quantity.group is Group.COMPOSITE
+        parameter
+        for parameter in evaluation.parameters
+        if parameter.quantity.group is QuantityGroup.COMPOSITE
     )
     return limited or composite or evaluation.parameters
 

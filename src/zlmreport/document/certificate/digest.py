@@ -21,7 +21,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.units import Unit
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: What it is called where it stands.
@@ -79,7 +79,7 @@ def _list_readings(measurements: MeasurementSet) -> Iterator[str]:
         yield f"reading {target} {approach:+d} {run} {_write_value(deviation, axis.deviation_unit)}"
 
 
-def _write_result(parameter: Parameter, unit: Unit) -> str:
+def _write_result(parameter: EvaluatedParameter, unit: Unit) -> str:
     numbers = parameter.value, parameter.expanded_uncertainty, parameter.limit
     decision = parameter.decision.conformity.value if parameter.decision else _ABSENT
     written = " ".join(_write_value(each, unit) for each in numbers)

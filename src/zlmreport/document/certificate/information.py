@@ -15,7 +15,7 @@ from zlmreport.evaluation.correction.compensated import find_compensated_by_inst
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
 from zlmreport.evaluation.uncertainty.reasons import is_placeholder, is_reference
-from zlmreport.language import Row, Words
+from zlmreport.language import PhraseRow, Words
 from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.measurement.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN
 
@@ -84,7 +84,7 @@ def check_information(
             continue
         if each is not Information.REFERENCE_TEMPERATURE:
             lacking = tuple(_list_lacking(each, job, measurements))
-            found = _LACKING.given(lacking=Row(lacking)) if lacking else _STATED
+            found = _LACKING.given(lacking=PhraseRow(lacking)) if lacking else _STATED
             yield Finding(_REQUIREMENTS[each], found, met=None if lacking else True)
         elif job.axis.has_length:
             yield _check_reference_temperature(job, measurements, budget)

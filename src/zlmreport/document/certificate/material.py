@@ -44,11 +44,11 @@ class Interpretation(Protocol):
         """Other tests that it rests on."""
         ...
 
-    def section(self, writer: Writer) -> Section:
+    def lay_out_section(self, writer: Writer) -> Section:
         """Return the annex."""
         ...
 
-    def linked(self, writer: Writer) -> Linked:
+    def list_linked(self, writer: Writer) -> Linked:
         """Return the annex's graphs as values, for documents in which readings can be pointed at."""
         ...
 
@@ -141,7 +141,7 @@ def lay_out_opinions_and_model(of: Material) -> Iterator[Section]:
     """Yield what is an opinion and no result: the job's, and what the error model says."""
     yield from lay_out_opinions(of.job.keys, of.writer)
     if of.interpretation:
-        yield of.interpretation.section(of.writer)
+        yield of.interpretation.lay_out_section(of.writer)
 
 
 def lay_out_in_full(of: Material) -> LaidOut:

@@ -20,7 +20,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
 from zlmreport.document.writer import NOTHING, Writer
-from zlmreport.language import Row, Words, same
+from zlmreport.language import PhraseRow, Words, same
 from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterato
         if len(names) == count > 1 or not names[0]:
             yield sentence
         else:
-            yield _NAMED.given(name=Row(tuple(map(same, names))), said=sentence)
+            yield _NAMED.given(name=PhraseRow(tuple(map(same, names))), said=sentence)
 
 
 def make_writer_of(test: Tested, writer: Writer) -> Writer:

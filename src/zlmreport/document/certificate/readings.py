@@ -66,7 +66,7 @@ def lay_out_readings(
         is_over_time = measurements.axis.measurand.coordinate is Coordinate.TIME
         said = _IN_FILES_OVER_TIME if is_over_time else _IN_FILES
         blocks.append(Paragraph(writer.say(said.given(count=count))))
-        return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks))
+        return Section("readings", writer.say(_TITLE) + writer.marks.write_after(key), tuple(blocks))
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))
     ]
@@ -75,7 +75,7 @@ def lay_out_readings(
         _lay_out_table(measurements, chosen, writer)
         for chosen in ([columns] if fit else _split_by_approach(columns))
     )
-    return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks))
+    return Section("readings", writer.say(_TITLE) + writer.marks.write_after(key), tuple(blocks))
 
 
 def list_missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[Notice]:

@@ -28,7 +28,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate import conformity
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.document.writer import write_uncertainty
-from zlmreport.evaluation.evaluation import Basis, Finding, Group
+from zlmreport.evaluation.evaluation import Basis, Finding, QuantityGroup
 from zlmreport.evaluation.uncertainty.wording import RAISED_TO
 from zlmreport.language import Words
 from zlmreport.language.formatting import write_plain
@@ -64,15 +64,15 @@ class Tested:
 
 
 _GROUPS = {
-    Group.SYSTEMATIC: (
+    QuantityGroup.SYSTEMATIC: (
         Words("Systematic deviations"),
         Words("What repeats from run to run: the average error to expect."),
     ),
-    Group.RANDOM: (
+    QuantityGroup.RANDOM: (
         Words("Random deviations"),
         Words("How far repeated approaches to one position scatter."),
     ),
-    Group.COMPOSITE: (
+    QuantityGroup.COMPOSITE: (
         Words("Composite deviations"),
         Words("Systematic and random deviations together."),
     ),
@@ -166,14 +166,14 @@ def say_parameters(evaluation: Evaluation) -> Words:
 
 def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = tuple(values.columns(Words("Parameter and what it means")))
+    columns = tuple(values.list_columns(Words("Parameter and what it means")))
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(
             (
                 Symbol(parameter.quantity.notation),
                 Explained(writer.say(parameter.quantity.name), writer.say(parameter.quantity.meaning)),
-                *values.cells(parameter),
+                *values.list_cells(parameter),
             )
             for parameter in evaluation.parameters
             if parameter.quantity.group is group

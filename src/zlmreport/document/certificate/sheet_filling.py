@@ -48,7 +48,7 @@ _NAMES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class SheetContent:
     """What there is to say, each in the order in which it matters."""
 
     notices: tuple[Notice, ...] = ()  #: What must not be overlooked.
@@ -72,7 +72,7 @@ class Filled:
 
     notices: tuple[Notice, ...]
     others: tuple[Block, ...]
-    left: Said
+    left: SheetContent
 
     @property
     def height(self) -> float:
@@ -80,7 +80,7 @@ class Filled:
         return columns.estimate_height(self.notices) + columns.estimate_height(self.others)
 
 
-def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled:
+def fill(said: SheetContent, room: float, writer: Writer, gained: float = 0.0) -> Filled:
     """Return what a page with so much room holds; `gained` is what it has besides if it is not the last."""
     whole = _fill_with_all(said, room, writer)
     if whole:
@@ -89,13 +89,15 @@ def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled
     return _fill_with_what_matters(said, room + gained, writer, filled.left.names)
 
 
-def measure_least(said: Said, writer: Writer) -> float:
+def measure_least(said: SheetContent, writer: Writer) -> float:
     """Return the points of a page that no more than says where all of it stands."""
     pointed_at = _list_ways_to_note(said.notices, writer)[-1]
     return columns.estimate_height([_say_elsewhere(said.names, writer), *pointed_at])
 
 
-def lay_out_details(left: Iterable[Said], writer: Writer, page: float) -> tuple[str, tuple[Block, ...]]:
+def lay_out_details(
+    left: Iterable[SheetContent], writer: Writer, page: float
+) -> tuple[str, tuple[Block, ...]]:
     """Return title and blocks of the page of what sheets do not hold; what several lack stands there once.
 
     What is too long for a page of so many points stands there in small type.
@@ -124,7 +126,7 @@ def lay_out_details(left: Iterable[Said], writer: Writer, page: float) -> tuple[
     return title, next((blocks for blocks in once if columns.estimate_height(blocks) <= room), once[-1])
 
 
-def _fill_with_all(said: Said, room: float, writer: Writer) -> Filled | None:
+def _fill_with_all(said: SheetContent, room: float, writer: Writer) -> Filled | None:
     """Return everything, with as many facts in columns as there is room for; None where not all fits."""
     notices = _box_notices(said.notices, writer)
     short, _ = _split_by_length(said.who)
@@ -139,13 +141,15 @@ def _fill_with_all(said: Said, room: float, writer: Writer) -> Filled | None:
             *_set_fine(_write_in_running_text(_drop_facts(said.conditions, shown))),
             *said.corrections,
         )
-        filled = Filled(notices, others, Said())
+        filled = Filled(notices, others, SheetContent())
         if filled.height <= room:
             return filled
     return None
 
 
-def _fill_with_what_matters(said: Said, room: float, writer: Writer, reserved: Iterable[str]) -> Filled:
+def _fill_with_what_matters(
+    said: SheetContent, room: float, writer: Writer, reserved: Iterable[str]
+) -> Filled:
     """Return the page whose room is taken in the order of what matters, with the line that says what is gone.
 
     `reserved`: What of its names that line has room for.
@@ -165,7 +169,7 @@ def _fill_with_what_matters(said: Said, room: float, writer: Writer, reserved: I
     running = page.choose(pairs, lambda pairs: _set_fine(_write_in_running_text(_keep_facts(further, pairs))))
     corrections = page.upgrade((), [said.corrections])
     cut = said.notices if noted == pointed_at else _cut(said.notices, writer)
-    left = Said(
+    left = SheetContent(
         notices=() if noted == in_full else cut,
         who=_keep_others(said.who, (*who, *long_who)),
         law=_keep_others(said.law, law),
@@ -183,7 +187,7 @@ def _fill_with_what_matters(said: Said, room: float, writer: Writer, reserved: I
     return Filled(noted, (*others, *pointer), left)
 
 
-def _who(said: Said, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+def _who(said: SheetContent, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
     """Take room for who and what was measured; return what of it stands in columns, and what in a line.
 
     In columns stands what leaves room for the law.

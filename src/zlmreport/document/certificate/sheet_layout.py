@@ -29,7 +29,13 @@ from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.material import LaidOut, Material
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.results import Evaluated, make_section_key
-from zlmreport.document.certificate.sheet_filling import Pair, Said, fill, lay_out_details, measure_least
+from zlmreport.document.certificate.sheet_filling import (
+    Pair,
+    SheetContent,
+    fill,
+    lay_out_details,
+    measure_least,
+)
 from zlmreport.document.certificate.standard_layout import (
     find_main_graph,
     fit_on_a_page,
@@ -93,7 +99,7 @@ class _Sheet:
     """A page as it is printed, and what has no place on it."""
 
     section: Section
-    left: Said
+    left: SheetContent
 
 
 def lay_out(of: Material) -> LaidOut:
@@ -179,7 +185,7 @@ def _fill_sheet(of: Material, page: _Page) -> _Sheet:
     said = _gather_said(of, page)
     room = _measure_room_beside(main, free, measure_least(said, writer))
     filled = fill(said, room, writer, page.gained)
-    free += page.gained if filled.left != Said() else 0.0
+    free += page.gained if filled.left != SheetContent() else 0.0
     free -= columns.estimate_height(filled.notices) + columns.estimate_height(filled.others)
     table = tuple(results.lay_out_by_position(evaluation, writer))
     with_graph = _measure_with_graph(_measure_usual_height(main)) if main else 0.0
@@ -273,7 +279,7 @@ def _digest(of: Material) -> Iterator[Paragraph]:
         yield Paragraph(of.writer.say(_DIGEST.given(name=DIGEST, digest=of.digest)), fine=True)
 
 
-def _gather_said(of: Material, page: _Page) -> Said:
+def _gather_said(of: Material, page: _Page) -> SheetContent:
     """Return what a page says besides; that of several measurements leaves out what their document says."""
     job, writer, evaluations = of.job, of.writer, page.evaluations
     said = (
@@ -296,7 +302,7 @@ def _gather_said(of: Material, page: _Page) -> Said:
     if page.head is not Head.WHOLE:
         who = (*who, *_list_laboratory(of))
     groups = [(key, replace(group, heading="") if key in _PLAIN_GROUPS else group) for key, group in stated]
-    return Said(
+    return SheetContent(
         notices=notices,
         who=who,
         law=tuple(each for each in said if isinstance(each, Paragraph)),

@@ -26,7 +26,7 @@ from zlmreport.document.certificate.results import Evaluated, make_section_key
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.document.figures.figure import Figure, Panel
 from zlmreport.document.writer import Writer
-from zlmreport.evaluation.evaluation import Evaluation, Group
+from zlmreport.evaluation.evaluation import Evaluation, QuantityGroup
 from zlmreport.language import Words
 
 #: Heights of graphs, mm: of the main one, of panels beside each other, of any other, of what is no result.
@@ -308,7 +308,7 @@ def _list_numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
     """Return what is printed of an evaluation, but for its limits."""
     without_limits = Values(writer, has_uncertainty=True, has_limits=False)
     parameters = [
-        (each.quantity.notation, each.quantity.group, tuple(without_limits.cells(each)))
+        (each.quantity.notation, each.quantity.group, tuple(without_limits.list_cells(each)))
         for each in evaluation.parameters
     ]
     return [parameters, *results.lay_out_by_position(evaluation, writer)]
@@ -327,14 +327,14 @@ def _list_shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Itera
 def lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
     values = Values.of([evaluation], writer, with_interval=True)
-    headings = tuple(values.columns())
+    headings = tuple(values.list_columns())
     groups = (
         tuple(
-            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))
+            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.list_cells(each))
             for each in evaluation.parameters
             if each.quantity.group is group
         )
-        for group in Group
+        for group in QuantityGroup
     )
     caption = results.say_parameters(evaluation)
     if evaluation.measurements.axis.measurand.is_position:

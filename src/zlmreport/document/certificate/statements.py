@@ -164,7 +164,7 @@ def make_exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str
     exclusions = measurements.provenance.exclusions
     if exclusions:
         heading = (_ONE if len(exclusions) == 1 else _SEVERAL).given(count=len(exclusions))
-        marked = writer.say(heading) + writer.marks.after(key)
+        marked = writer.say(heading) + writer.marks.write_after(key)
         yield Notice(marked, tuple(_write_item(each, writer) for each in exclusions))
 
 
@@ -179,7 +179,7 @@ def list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAME
     items = [
         writer.say(
             words.given(
-                mark=writer.marks.after(key),
+                mark=writer.marks.write_after(key),
                 target=with_unit(writer.number(each.target), writer.position_unit.symbol),
                 arrow=_ARROWS[each.direction],
                 run=each.run,

@@ -201,7 +201,9 @@ def _lay_out_table(budget: Budget, writer: Writer) -> Table:
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Contribution and its source"))),
-        Column(writer.say(Words("Stated")) + writer.marks.after("instrument", "environment", "uncertainty")),
+        Column(
+            writer.say(Words("Stated")) + writer.marks.write_after("instrument", "environment", "uncertainty")
+        ),
         Column(writer.say(Words("Distribution"))),
         Column(Symbol("u"), writer.deviation_unit.symbol, Align.RIGHT),
         Column(writer.say(Words("Share")), "%", Align.RIGHT),

@@ -14,7 +14,7 @@ from zlmreport.language.formatting import write_fixed_number, write_plain
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, PositionQuantity, Quantity
 
 _SYMBOL = Words("Symbol")
 _PARAMETER = Words("Parameter")
@@ -50,8 +50,8 @@ class Values:
             is_mixed(parameters, writer),
         )
 
-    def columns(self, parameter: Words = _PARAMETER) -> Iterator[Column]:
-        """Yield the headings of a row's symbol, of its parameter, and of what `cells` are."""
+    def list_columns(self, parameter: Words = _PARAMETER) -> Iterator[Column]:
+        """Yield the headings of a row's symbol, of its parameter, and of what `list_cells` are."""
         say, unit = self.writer.say, "" if self.is_mixed else self.writer.deviation_unit.symbol
         yield Column(say(_SYMBOL))
         yield Column(say(parameter))
@@ -62,30 +62,32 @@ class Values:
         if self.has_interval:
             yield Column(say(_AXIS), unit, Align.RIGHT)
         if self.has_limits:
-            yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
+            yield Column(
+                say(_LIMIT) + self.writer.marks.write_after("evaluate.tolerances"), unit, Align.RIGHT
+            )
             yield Column(say(_CONFORMITY))
 
-    def cells(self, parameter: Parameter) -> Iterator[Cell]:
+    def list_cells(self, parameter: EvaluatedParameter) -> Iterator[Cell]:
         """Yield how large a parameter is, cell by cell."""
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
-        yield self._with_unit(value, parameter)
+        yield self._add_unit(value, parameter)
         if self.has_uncertainty:
-            yield self._with_unit(uncertainty, parameter)
+            yield self._add_unit(uncertainty, parameter)
             yield write_coverage_factor(parameter, self.writer)
         if self.has_interval:
-            yield self._with_unit(write_interval(parameter, self.writer), parameter)
+            yield self._add_unit(write_interval(parameter, self.writer), parameter)
         if self.has_limits:
-            yield self._with_unit(limit(parameter, self.writer), parameter)
+            yield self._add_unit(limit(parameter, self.writer), parameter)
             yield conformity.make_verdict_cell(parameter, self.writer)
 
-    def _with_unit(self, number: str, parameter: Parameter) -> str:
+    def _add_unit(self, number: str, parameter: EvaluatedParameter) -> str:
         """Write the unit beside a number, where the column has none."""
         if not self.is_mixed or number == NOTHING:
             return number
         return with_unit(number, parameter.quantity.unit_or(self.writer.deviation_unit).symbol)
 
 
-def is_mixed(parameters: Iterable[Parameter], writer: Writer) -> bool:
+def is_mixed(parameters: Iterable[EvaluatedParameter], writer: Writer) -> bool:
     """Return whether parameters have units other than that of what was measured."""
     return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
 
@@ -108,14 +110,14 @@ def tell_columns_apart(
     return writer.say(_TOLD_APART.given(caption=caption, others=named)), ("U", *others)
 
 
-def write_coverage_factor(parameter: Parameter, writer: Writer) -> str:
+def write_coverage_factor(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write k; nothing where there is no uncertainty to cover."""
     if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
         return NOTHING
     return write_fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def write_interval(parameter: Parameter, writer: Writer) -> str:
+def write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write where another test of the same plan would find a parameter, with the sign that is printed."""
     if parameter.axis_interval is None:
         return NOTHING
@@ -124,7 +126,7 @@ def write_interval(parameter: Parameter, writer: Writer) -> str:
     return " … ".join(write_rounded_together(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
 
 
-def limit(parameter: Parameter, writer: Writer) -> str:
+def limit(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write a parameter's limit as the job states it, with no digits added."""
     if parameter.limit is None:
         return NOTHING

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from zlmreport.document.figures.figure import Bar, Figure, Level, Panel, Role
 from zlmreport.document.figures.prescribed import alternative_text
-from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
@@ -52,7 +52,7 @@ def draw_conformity(evaluation: Evaluation) -> Figure | None:
     )
 
 
-def _make_bar(parameter: Parameter) -> Bar:
+def _make_bar(parameter: EvaluatedParameter) -> Bar:
     limit = parameter.limit or 1.0
     decision = parameter.decision
     accepted = None if decision is None else decision.acceptance_limit
@@ -67,7 +67,7 @@ def _make_bar(parameter: Parameter) -> Bar:
     )
 
 
-def _write_sentence(parameter: Parameter, bar: Bar) -> Words:
+def _write_sentence(parameter: EvaluatedParameter, bar: Bar) -> Words:
     words = _BAR.given(symbol=write_plain(parameter.quantity.notation), percent=bar.value)
     if bar.uncertainty:
         words = _UNCERTAIN.given(bar=words, uncertainty=number_words(bar.uncertainty, 1))

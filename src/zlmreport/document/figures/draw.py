@@ -182,11 +182,11 @@ def place_reading_marks(
 
 def _draw_grid(frame: Frame) -> Iterator[Shape]:
     box = frame.box
-    across = [[(box.left, y), (box.right, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
-    along = [[(x, box.bottom), (x, box.top)] for x in map(frame.x_point, frame.x_scale.ticks)]
+    across = [[(box.left, y), (box.right, y)] for y in map(frame.place_y, frame.y_scale.ticks)]
+    along = [[(x, box.bottom), (x, box.top)] for x in map(frame.place_x, frame.x_scale.ticks)]
     yield join_lines("grid", across + along, GRID)
     if frame.y_scale.lower <= 0 <= frame.y_scale.upper:
-        zero = frame.y_point(0.0)
+        zero = frame.place_y(0.0)
         yield join_lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
 
 
@@ -195,14 +195,14 @@ def _draw_axes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     notations = [bar.label.in_language(Language.ENGLISH) for bar in layout.panel.bars if bar.is_symbol]
     symbols = {write_plain(each): each for each in notations}
     yield join_lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
-    ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
+    ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.place_y, frame.y_scale.ticks)]
     for positions, length in ((frame.x_scale.ticks, TICK_LENGTH), (frame.x_scale.marks, TICK_LENGTH / 2)):
-        ticks += [[(x, box.bottom - length), (x, box.bottom)] for x in map(frame.x_point, positions)]
+        ticks += [[(x, box.bottom - length), (x, box.bottom)] for x in map(frame.place_x, positions)]
     yield join_lines("tick", ticks, TICK)
     right = box.left - TICK_LENGTH - TICK_GAP
     for value, text in zip(frame.y_scale.ticks, frame.y_scale.labels, strict=True):
         label = make_plain_label(text, TICK_TEXT_SIZE)
-        place = PlacedLabel(label, right - label.width, frame.y_point(value) - label.rise)
+        place = PlacedLabel(label, right - label.width, frame.place_y(value) - label.rise)
         yield Lettering("tick y", place, INK)
     if is_lowest:
         top = box.bottom - TICK_LENGTH - TICK_GAP
@@ -210,7 +210,7 @@ def _draw_axes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
             for line, part in enumerate(text.split("\n")):
                 setting = make_symbol_label if part in symbols else make_plain_label
                 label = setting(symbols.get(part, part), TICK_TEXT_SIZE)
-                middle = frame.x_point(value)
+                middle = frame.place_x(value)
                 place = PlacedLabel(label, middle - label.width / 2, top - 2 * label.rise - line * TICK_LINE)
                 yield Lettering("tick x", place, INK)
 
@@ -220,10 +220,10 @@ def _draw_bars(layout: PanelLayout) -> Iterator[Shape]:
     frame = layout.frame
     for number, bar in enumerate(layout.panel.bars):
         left, right = _find_ends(frame, number, _HALF_BAR)
-        bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
+        bottom, top = sorted((frame.place_y(0.0), frame.place_y(bar.y)))
         yield outline_area("bar", Box(left, bottom, right, top).corners, *BAR)
         if bar.accepted is not None:
-            height = frame.y_point(bar.accepted)
+            height = frame.place_y(bar.accepted)
             ends = [(end, height) for end in _find_ends(frame, number, _HALF_ACCEPTED)]
             yield join_lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
         if bar.uncertainty:
@@ -232,13 +232,13 @@ def _draw_bars(layout: PanelLayout) -> Iterator[Shape]:
 
 def _find_ends(frame: Frame, number: int, half: float) -> tuple[float, float]:
     """Return where something begins and ends that is centred on a bar, `half` in distances of bars."""
-    middle, reach = frame.x_point(number), half * min(frame.x_factor, _WIDEST_DISTANCE)
+    middle, reach = frame.place_x(number), half * min(frame.x_factor, _WIDEST_DISTANCE)
     return middle - reach, middle + reach
 
 
 def _draw_whisker(frame: Frame, number: int, bar: Bar) -> Outline:
-    low, high = (frame.y_point(bar.y + side * bar.uncertainty) for side in (-1, 1))
-    middle = frame.x_point(number)
+    low, high = (frame.place_y(bar.y + side * bar.uncertainty) for side in (-1, 1))
+    middle = frame.place_x(number)
     left, right = _find_ends(frame, number, _HALF_WHISKER)
     across = [[(left, height), (right, height)] for height in (low, high)]
     return join_lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
@@ -273,7 +273,7 @@ def _draw_lone_values(
     finite = np.concatenate([[False], np.isfinite(x) & np.isfinite(y), [False]])
     lone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
     if lone.any():
-        places = frame.points(x[lone], y[lone]).tolist()
+        places = frame.place_points(x[lone], y[lone]).tolist()
         dashes = [[(left - _LONE_DASH, height), (left + _LONE_DASH, height)] for left, height in places]
         yield join_lines(kind, dashes, Stroke(stroke.colour, stroke.width))
 
@@ -367,11 +367,11 @@ def draw(figure: Figure, language: Language, canvas: Canvas) -> None:
     for shape in draw_figure_shapes(layout):
         match shape:
             case Outline():
-                pen.outline(shape)
+                pen.draw_outline(shape)
             case PointMarks():
-                pen.marks(shape)
+                pen.draw_marks(shape)
             case Lettering():
-                pen.lettering(shape)
+                pen.set_lettering(shape)
 
 
 def to_svg(figure: Figure, language: Language) -> str:
@@ -391,9 +391,9 @@ class _Pen:
         self._canvas = canvas
         self._height = height
 
-    def outline(self, outline: Outline) -> None:
+    def draw_outline(self, outline: Outline) -> None:
         """Draw an outline."""
-        places = self._places(np.concatenate(outline.parts), outline.frame).tolist()
+        places = self._place(np.concatenate(outline.parts), outline.frame).tolist()
         segments: list[Segment] = []
         begin = 0
         for part in outline.parts:
@@ -407,9 +407,9 @@ class _Pen:
         if segments:
             self._canvas.outline(outline.kind, segments, outline.stroke, outline.fill)
 
-    def marks(self, marks: PointMarks) -> None:
+    def draw_marks(self, marks: PointMarks) -> None:
         """Draw all marks as one outline of many parts."""
-        places = self._places(marks.points, marks.frame)
+        places = self._place(marks.points, marks.frame)
         places = places[np.isfinite(places).all(axis=1)]
         segments: list[tuple[Segment, ...]] = []
         for operator, points in _SHAPES[marks.mark]:
@@ -420,7 +420,7 @@ class _Pen:
             drawn = [segment for mark in zip(*segments, strict=True) for segment in mark]
             self._canvas.outline(marks.kind, drawn, marks.stroke, marks.fill)
 
-    def lettering(self, lettering: Lettering) -> None:
+    def set_lettering(self, lettering: Lettering) -> None:
         """Set a label."""
         placed = lettering.placed
         cosine, sine = math.cos(math.radians(placed.angle)), math.sin(math.radians(placed.angle))
@@ -436,7 +436,7 @@ class _Pen:
         ]
         self._canvas.text(lettering.kind, runs, lettering.colour, placed.angle)
 
-    def _places(self, points: FloatArray, frame: Frame | None) -> FloatArray:
+    def _place(self, points: FloatArray, frame: Frame | None) -> FloatArray:
         """Return where points lie on the canvas, shape (N, 2)."""
         if frame is not None:
             points = (points - (frame.x_scale.lower, frame.y_scale.lower)) * (

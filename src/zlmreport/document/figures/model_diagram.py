@@ -55,7 +55,7 @@ class ModelDiagram:
     @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions in which there are readings, the positive one first."""
-        return tuple(each for each in Approach if np.any(self.of(each)))
+        return tuple(each for each in Approach if np.any(self.select(each)))
 
     @property
     def noise(self) -> float:
@@ -68,24 +68,28 @@ class ModelDiagram:
         """The target position of each reading in the unit of the page, shape (N,)."""
         return self.axis.position_unit.from_si(self.design.position)
 
-    def of(self, approach: Approach) -> BoolArray:
+    def select(self, approach: Approach) -> BoolArray:
         """Return which readings are of a direction of approach, shape (N,)."""
         return np.asarray(self.design.direction == approach, dtype=np.bool_)
 
-    def printed(self, values: FloatArray) -> FloatArray:
+    def convert_to_printed(self, values: FloatArray) -> FloatArray:
         """Return deviations in the unit of the page."""
         return read_only_floats(self.axis.deviation_unit.from_si(values))
 
-    def readings(self, x: FloatArray, values: FloatArray) -> tuple[Readings, ...]:
+    def draw_readings(self, x: FloatArray, values: FloatArray) -> tuple[Readings, ...]:
         """Return values of single readings, shape (N,), over anything in the unit of the page."""
         return tuple(
             Readings(
-                approach, read_only_floats(x[self.of(approach)]), self.printed(values[self.of(approach)])
+                approach,
+                read_only_floats(x[self.select(approach)]),
+                self.convert_to_printed(values[self.select(approach)]),
             )
             for approach in self.approaches
         )
 
-    def means(self, notation: str, role: Role, x: FloatArray, values: FloatArray, group: IntArray) -> Curve:
+    def draw_means(
+        self, notation: str, role: Role, x: FloatArray, values: FloatArray, group: IntArray
+    ) -> Curve:
         """Return a curve through the means of groups of readings.
 
         `x`, `values`, (k,): Of readings: in the unit of the page, and m or rad.
@@ -94,15 +98,15 @@ class ModelDiagram:
         _, place, count = np.unique(group, return_inverse=True, return_counts=True)
         mean_x = np.bincount(place, weights=x) / count
         mean_y = np.bincount(place, weights=values) / count
-        return Curve(notation, role, read_only_floats(mean_x), self.printed(mean_y))
+        return Curve(notation, role, read_only_floats(mean_x), self.convert_to_printed(mean_y))
 
-    def scatter_of_single_readings(self, x: FloatArray) -> Band:
+    def draw_scatter(self, x: FloatArray) -> Band:
         """Return the band in which residuals of an adequate model lie, over the range of `x`."""
         ends = read_only_floats([x.min(), x.max()])
         half = np.full(2, SPREAD * self.noise)
-        return Band("± 2σ", Role.NOISE, ends, self.printed(-half), self.printed(half))
+        return Band("± 2σ", Role.NOISE, ends, self.convert_to_printed(-half), self.convert_to_printed(half))
 
-    def range_sentence(self, name: Words, values: FloatArray) -> Words:
+    def say_range(self, name: Words, values: FloatArray) -> Words:
         """Return where deviations (m or rad) lie."""
         return _RANGE.given(
             name=name,
@@ -110,7 +114,7 @@ class ModelDiagram:
             high=wording.deviation(self.axis, float(values.max())),
         )
 
-    def residual_sentences(self) -> tuple[Words, Words]:
+    def say_residuals(self) -> tuple[Words, Words]:
         """Return what the residuals amount to, for those who cannot see them."""
         residual = self.fit.residual
         return (
@@ -122,7 +126,7 @@ class ModelDiagram:
             _NOISE.given(noise=wording.deviation(self.axis, self.noise)),
         )
 
-    def figure(  # noqa: PLR0913 - a figure has a key, words for each of its parts, a unit, and panels
+    def make_figure(  # noqa: PLR0913 - a figure has a key, words for each of its parts, a unit, and panels
         self,
         key: str,
         title: Words,
@@ -169,21 +173,21 @@ def estimate(diagram: ModelDiagram) -> Figure:
         found = fit.predict(place_at_positions(diagram.design, positions, approach))
         value, half = found.deviation, found.expanded_uncertainty
         arrow = approach.arrow
-        curves.append(Curve(f"x̂{arrow}", MODEL[approach], x, diagram.printed(value)))
+        curves.append(Curve(f"x̂{arrow}", MODEL[approach], x, diagram.convert_to_printed(value)))
         bands.append(
             Band(
                 f"x̂{arrow} ± U",
                 UNCERTAINTY[approach],
                 x,
-                diagram.printed(value - half),
-                diagram.printed(value + half),
+                diagram.convert_to_printed(value - half),
+                diagram.convert_to_printed(value + half),
             )
         )
-        sentences.append(diagram.range_sentence(_ESTIMATE.given(arrow=arrow), value))
+        sentences.append(diagram.say_range(_ESTIMATE.given(arrow=arrow), value))
         largest = max(largest, float(half.max()))
     moves = any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms)
     title = _AT_THE_MEAN.given(title=_TITLE) if moves else _TITLE
-    return diagram.figure(
+    return diagram.make_figure(
         "estimate",
         _REACH.given(title=title) if shows_reach_only(fit, diagram.span) else title,
         alternative_text(*sentences, _LARGEST.given(largest=wording.deviation(axis, largest))),
@@ -192,6 +196,6 @@ def estimate(diagram: ModelDiagram) -> Figure:
         Panel(
             curves=tuple(curves),
             bands=tuple(bands),
-            readings=diagram.readings(diagram.positions, fit.deviation),
+            readings=diagram.draw_readings(diagram.positions, fit.deviation),
         ),
     )

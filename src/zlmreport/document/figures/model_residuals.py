@@ -47,30 +47,30 @@ def draw_over_position(diagram: ModelDiagram) -> Figure:
     fit, x = diagram.fit, diagram.positions
     model, residual = [], []
     for approach in diagram.approaches:
-        chosen = diagram.of(approach)
+        chosen = diagram.select(approach)
         arrow, targets = approach.arrow, fit.design.target[chosen]
         model.append(
-            diagram.means(f"x̂_{{i}}{arrow}", MODEL[approach], x[chosen], fit.fitted[chosen], targets)
+            diagram.draw_means(f"x̂_{{i}}{arrow}", MODEL[approach], x[chosen], fit.fitted[chosen], targets)
         )
         residual.append(
-            diagram.means(f"ē_{{i}}{arrow}", MEANS[approach], x[chosen], fit.residual[chosen], targets)
+            diagram.draw_means(f"ē_{{i}}{arrow}", MEANS[approach], x[chosen], fit.residual[chosen], targets)
         )
-    return diagram.figure(
+    return diagram.make_figure(
         "model",
         _AGAINST_MODEL,
         alternative_text(
-            diagram.range_sentence(Words("Readings"), fit.deviation),
-            diagram.range_sentence(Words("Model"), fit.fitted),
-            *diagram.residual_sentences(),
+            diagram.say_range(Words("Readings"), fit.deviation),
+            diagram.say_range(Words("Model"), fit.fitted),
+            *diagram.say_residuals(),
         ),
         POSITION_TITLE,
         diagram.axis.position_unit.symbol,
-        Panel(heading=_MEASURED, curves=tuple(model), readings=diagram.readings(x, fit.deviation)),
+        Panel(heading=_MEASURED, curves=tuple(model), readings=diagram.draw_readings(x, fit.deviation)),
         Panel(
             heading=RESIDUAL_TITLE,
             curves=tuple(residual),
-            readings=diagram.readings(x, fit.residual),
-            bands=(diagram.scatter_of_single_readings(x),),
+            readings=diagram.draw_readings(x, fit.residual),
+            bands=(diagram.draw_scatter(x),),
         ),
     )
 
@@ -79,11 +79,11 @@ def draw_over_run(diagram: ModelDiagram) -> Figure:
     """Return the residuals over the number of the run, with the mean of each run and direction."""
     runs = diagram.design.run
     curves = [
-        diagram.means(
+        diagram.draw_means(
             f"ē{approach.arrow}", MEANS[approach], runs[chosen].astype(np.float64), residual, runs[chosen]
         )
         for approach in diagram.approaches
-        for chosen in (diagram.of(approach),)
+        for chosen in (diagram.select(approach),)
         for residual in (diagram.fit.residual[chosen],)
     ]
     panel = _make_panel(diagram, runs.astype(np.float64))
@@ -116,7 +116,7 @@ def draw_slopes_over_time(diagram: ModelDiagram) -> Figure:
     slope = find_unit_of(Dimension.SLOPE, diagram.axis.kind)
     curves = []
     for approach in diagram.approaches:
-        passes = [(diagram.of(approach)) & (design.run == run) for run in np.unique(design.run)]
+        passes = [(diagram.select(approach)) & (design.run == run) for run in np.unique(design.run)]
         seen = [each for each in passes if len(np.unique(design.position[each])) > 1]
         slopes = [np.polyfit(design.position[each], residual[each], 1)[0] * slope.per_si for each in seen]
         times = [float(time[each].mean()) for each in seen]
@@ -169,10 +169,10 @@ def _draw_residuals(
 ) -> Figure:
     title, in_sentence = quantity
     caption = _OVER.given(quantity=in_sentence)
-    return diagram.figure(
+    return diagram.make_figure(
         f"residuals-{key}",
         caption,
-        alternative_text(Words("{caption}.").given(caption=caption), *diagram.residual_sentences()),
+        alternative_text(Words("{caption}.").given(caption=caption), *diagram.say_residuals()),
         title,
         unit,
         panel,
@@ -183,11 +183,11 @@ def _draw_residuals(
 def _make_panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
     """Return the residuals over anything that changes from reading to reading."""
     residual = diagram.fit.residual
-    curve = diagram.means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _group_followers(x))
+    curve = diagram.draw_means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _group_followers(x))
     return Panel(
         curves=(curve,),
-        readings=diagram.readings(x, residual),
-        bands=(diagram.scatter_of_single_readings(x),),
+        readings=diagram.draw_readings(x, residual),
+        bands=(diagram.draw_scatter(x),),
     )
 
 

@@ -98,7 +98,7 @@ def _set_scales(
     frame: Frame, axes: Axes, size: tuple[float, float], *, is_lowest: bool, is_bare: bool
 ) -> None:
     """Set limits and ticks: the frame is a part of the axes, and the rest holds legend and brackets."""
-    (left, bottom), (right, top) = frame.values(np.array([(0.0, 0.0), size])).tolist()
+    (left, bottom), (right, top) = frame.find_values(np.array([(0.0, 0.0), size])).tolist()
     axes.set(xlim=(left, right), ylim=(bottom, top))
     if is_bare:
         axes.set_aspect("equal")
@@ -119,13 +119,13 @@ def _make_artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
     """Return what draws a shape, at values of the frame."""
     match shape:
         case Outline():
-            parts = shape.parts if shape.frame else [frame.values(part) for part in shape.parts]
+            parts = shape.parts if shape.frame else [frame.find_values(part) for part in shape.parts]
             paths = (Path(part, closed=shape.is_closed) for part in parts)
             return [
                 PathPatch(Path.make_compound_path(*paths), **_look(shape), capstyle="butt", joinstyle="miter")
             ]
         case PointMarks():
-            points = shape.points if shape.frame else frame.values(shape.points)
+            points = shape.points if shape.frame else frame.find_values(shape.points)
             rim = {"mew": shape.stroke.width, "mec": shape.stroke.colour} if shape.stroke else {"mew": 0.0}
             inside = shape.fill.colour if shape.fill else "none"
             return [
@@ -133,7 +133,7 @@ def _make_artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
             ]
         case Lettering():
             placed = shape.placed
-            ((x, y),) = frame.values(np.array([(placed.x, placed.y)])).tolist()
+            ((x, y),) = frame.find_values(np.array([(placed.x, placed.y)])).tolist()
             return [
                 Annotation(
                     run.text,

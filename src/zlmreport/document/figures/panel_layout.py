@@ -118,8 +118,8 @@ def measure_levels(panel: Panel) -> float:
 
 def _make_span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> DimensionSpan:
     ends = [
-        (frame.y_point(one.low), frame.x_point(low_at)),
-        (frame.y_point(one.high), frame.x_point(high_at)),
+        (frame.place_y(one.low), frame.place_x(low_at)),
+        (frame.place_y(one.high), frame.place_x(high_at)),
     ]
     (low, low_from), (high, high_from) = sorted(ends)
     return DimensionSpan(make_symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
@@ -127,7 +127,7 @@ def _make_span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float
 
 def _place_levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
     levels = select_drawable_levels(panel)
-    heights = [frame.y_point(level.y) for level in levels]
+    heights = [frame.place_y(level.y) for level in levels]
     labels = [make_symbol_label(level.notation, TEXT_SIZE) for level in levels]
     distance = max((label.height for label in labels), default=0.0)
     return tuple(
@@ -141,7 +141,7 @@ def _place_levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, Place
 def _place_bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
     """Return the values above their bars, none of them on a line."""
     labels = [make_plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
-    lines = sorted(frame.y_point(level.y) for level in select_drawable_levels(panel))
+    lines = sorted(frame.place_y(level.y) for level in select_drawable_levels(panel))
 
     def foot(top_of_bar: float, height: float) -> float:
         at = top_of_bar + _VALUE_GAP
@@ -153,8 +153,8 @@ def _place_bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[P
     return tuple(
         PlacedLabel(
             label,
-            frame.x_point(number) - label.width / 2,
-            foot(frame.y_point(bar.y + bar.uncertainty), label.height),
+            frame.place_x(number) - label.width / 2,
+            foot(frame.place_y(bar.y + bar.uncertainty), label.height),
         )
         for number, (bar, label) in enumerate(zip(panel.bars, labels, strict=True))
     )
@@ -162,17 +162,17 @@ def _place_bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[P
 
 def _collect_marks(panel: Panel, frame: Frame) -> FloatArray:
     """Return where curves and readings have their marks."""
-    points = [frame.points(curve.x, curve.y) for curve in panel.curves]
-    points += [frame.points(readings.x, readings.y) for readings in panel.readings]
+    points = [frame.place_points(curve.x, curve.y) for curve in panel.curves]
+    points += [frame.place_points(readings.x, readings.y) for readings in panel.readings]
     return np.concatenate([np.empty((0, 2)), *points])
 
 
 def _collect_lines(panel: Panel, frame: Frame, brackets: Sequence[DrawnDimension]) -> FloatArray:
     """Return points along all lines inside the frame, those that lead to the brackets among them."""
-    lines = [frame.points(curve.x, curve.y) for curve in panel.curves]
+    lines = [frame.place_points(curve.x, curve.y) for curve in panel.curves]
     for band in panel.bands:
-        lines += [frame.points(band.x, band.lower), frame.points(band.x, band.upper)]
-    for height in map(frame.y_point, (0.0, *(level.y for level in select_drawable_levels(panel)))):
+        lines += [frame.place_points(band.x, band.lower), frame.place_points(band.x, band.upper)]
+    for height in map(frame.place_y, (0.0, *(level.y for level in select_drawable_levels(panel)))):
         lines.append(np.array([(frame.box.left, height), (frame.box.right, height)]))
     for bracket in brackets:
         span = bracket.span

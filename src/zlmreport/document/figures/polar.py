@@ -70,14 +70,14 @@ class PolarGrid:
         """From circle to circle."""
         return self.ticks[1] - self.ticks[0] if len(self.ticks) > 1 else 0.0
 
-    def radius(self, value: FloatArray | float) -> FloatArray:
+    def compute_radius(self, value: FloatArray | float) -> FloatArray:
         """Return the distance from the middle, in the unit of the values."""
         return np.asarray(value) - self.base
 
-    def around(self, angle: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def place_around(self, angle: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return where values over angles, °, are drawn."""
         radians = np.radians(angle)
-        radius = self.radius(value)
+        radius = self.compute_radius(value)
         return radius * np.cos(radians), radius * np.sin(radians)
 
     def scale(self, side: float) -> AxisScale:
@@ -108,17 +108,17 @@ def place_on_circle(panel: Panel, grid: PolarGrid) -> Panel:
     """Return the panel with everything where it is drawn; what has no place on a circle is left out."""
 
     def placed(curve: Curve) -> Curve:
-        x, y = grid.around(curve.x, curve.y)
+        x, y = grid.place_around(curve.x, curve.y)
         return replace(curve, x=x, y=y)
 
     curves = [placed(curve) for curve in panel.curves]
     for band in panel.bands:
         for limit in (band.lower, band.upper):
-            x, y = grid.around(band.x, limit)
+            x, y = grid.place_around(band.x, limit)
             curves.append(Curve(band.notation, band.role, x, y))
     readings = []
     for each in panel.readings:
-        x, y = grid.around(each.x, each.y)
+        x, y = grid.place_around(each.x, each.y)
         readings.append(replace(each, x=x, y=y))
     return replace(
         panel, curves=tuple(curves), readings=tuple(readings), bands=(), arrows=(), brackets=(), levels=()
@@ -134,14 +134,14 @@ def find_largest_square(box: Box) -> Box:
 
 def draw_polar_grid(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
     """Yield the circles and rays behind the curves; the nominal circle is drawn as zero is elsewhere."""
-    outermost = float(grid.radius(grid.ticks[-1]))
+    outermost = float(grid.compute_radius(grid.ticks[-1]))
     for value in grid.ticks:
         yield _draw_circle("zero" if value == 0 else "grid", grid, value, frame)
     rays = []
     for direction in map(math.radians, _DIRECTIONS):
-        inner = float(grid.radius(grid.ticks[0]))
+        inner = float(grid.compute_radius(grid.ticks[0]))
         ends = np.outer([inner, outermost], [math.cos(direction), math.sin(direction)])
-        rays.append([tuple(point) for point in frame.points(ends[:, 0], ends[:, 1]).tolist()])
+        rays.append([tuple(point) for point in frame.place_points(ends[:, 0], ends[:, 1]).tolist()])
     yield join_lines("grid", rays, GRID)
     for level in panel.levels:
         if math.isfinite(level.y):
@@ -153,15 +153,15 @@ def draw_direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterato
     """Yield a point on the nominal circle at each direction that has a name."""
     if panel.directions:
         angles = np.array([angle for angle, _ in panel.directions])
-        points = np.column_stack(grid.around(angles, np.zeros_like(angles)))
+        points = np.column_stack(grid.place_around(angles, np.zeros_like(angles)))
         yield PointMarks(
             "direction", points, PointShape.DISC, MARK_SIZES[PointShape.DISC], RIM, Fill(INK), frame
         )
 
 
 def _draw_circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:
-    radius = float(grid.radius(value))
-    points = frame.points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
+    radius = float(grid.compute_radius(value))
+    points = frame.place_points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
     return Outline(kind, (points,), ZERO if kind == "zero" else GRID)
 
 
@@ -170,16 +170,16 @@ def place_grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[L
     names = dict(panel.directions)
     told_at = math.radians(_TOLD_AT)
     for value, text in zip(grid.ticks, grid.labels, strict=True):
-        radius = float(grid.radius(value))
-        x, y = frame.x_point(radius * math.cos(told_at)), frame.y_point(radius * math.sin(told_at))
+        radius = float(grid.compute_radius(value))
+        x, y = frame.place_x(radius * math.cos(told_at)), frame.place_y(radius * math.sin(told_at))
         label = make_plain_label(text, TICK_TEXT_SIZE)
         yield Lettering("circle", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
-    outermost = float(grid.radius(grid.ticks[-1]))
+    outermost = float(grid.compute_radius(grid.ticks[-1]))
     for degrees in _DIRECTIONS:
         across, up = (round(part(math.radians(degrees)), 9) for part in (math.cos, math.sin))
         label = make_plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
-        x = frame.x_point(outermost * across) + _ANGLE_GAP * across
-        y = frame.y_point(outermost * up) + _ROOM / 2 * up
+        x = frame.place_x(outermost * across) + _ANGLE_GAP * across
+        y = frame.place_y(outermost * up) + _ROOM / 2 * up
         # Right of the circle it begins there, left of it it ends; above and below it has its middle there.
         shift = 0.0 if across > 0 else label.width * (1.0 if across < 0 else 0.5)
         yield Lettering("ray", PlacedLabel(label, x - shift, y - label.rise), INK)
@@ -192,7 +192,7 @@ def draw_senses(panel: Panel, frame: Frame) -> Iterator[Shape]:
     """
     for curve in panel.curves:
         style = ROLES[curve.role]
-        points = frame.points(curve.x, curve.y)
+        points = frame.place_points(curve.x, curve.y)
         if len(points) < 3 or not curve.notation:
             continue
         at = max(1, int(_SENSE_AT * len(points)))
@@ -206,7 +206,7 @@ def draw_senses(panel: Panel, frame: Frame) -> Iterator[Shape]:
         corners = [tip, base + 0.45 * _HEAD * across, base - 0.45 * _HEAD * across, tip]
         fill = Fill(style.stroke.colour)
         yield Outline("sense", (np.array(corners),), None, fill, is_closed=True)
-        radial = start - np.array([frame.x_point(0.0), frame.y_point(0.0)])
+        radial = start - np.array([frame.place_x(0.0), frame.place_y(0.0)])
         radial = radial / (float(np.hypot(*radial)) or 1.0)
         ends = [tuple(start - 2 * _START * radial), tuple(start + 2 * _START * radial)]
         yield join_lines("start", [ends], EXTENSION)

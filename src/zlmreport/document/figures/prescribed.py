@@ -93,20 +93,22 @@ class Diagram:
         """Return a line through one value at each target, shape (m,)."""
         if not np.isfinite(values).any():
             return None
-        shown = self._shown(values)
-        return Curve(notation, role, read_only_floats(self.positions[shown]), self._printed(values[shown]))
+        shown = self._select_shown(values)
+        return Curve(
+            notation, role, read_only_floats(self.positions[shown]), self._convert_to_printed(values[shown])
+        )
 
     def band(self, notation: str, role: Role, lower: FloatArray, upper: FloatArray) -> Band | None:
         """Return the area between two limits, each of shape (m,)."""
         if not (np.isfinite(lower) & np.isfinite(upper)).any():
             return None
-        shown = self._shown(lower + upper)
+        shown = self._select_shown(lower + upper)
         return Band(
             notation,
             role,
             read_only_floats(self.positions[shown]),
-            self._printed(lower[shown]),
-            self._printed(upper[shown]),
+            self._convert_to_printed(lower[shown]),
+            self._convert_to_printed(upper[shown]),
         )
 
     def readings(self, *approaches: Approach) -> tuple[Readings, ...]:
@@ -118,7 +120,7 @@ class Diagram:
             of_approach = present & (measurements.approach == approach)
             if of_approach.any():
                 x = self.positions[measurements.target[of_approach]]
-                y = self._printed(measurements.deviation[of_approach])
+                y = self._convert_to_printed(measurements.deviation[of_approach])
                 found.append(Readings(approach, read_only_floats(x), y))
         return tuple(found)
 
@@ -126,7 +128,7 @@ class Diagram:
         """Return an arrow at one target between two of the values of shape (m,), given in any order."""
         if at is None or not (np.isfinite(low[at]) and np.isfinite(high[at])):
             return None
-        ends = sorted((float(self._printed(low)[at]), float(self._printed(high)[at])))
+        ends = sorted((float(self._convert_to_printed(low)[at]), float(self._convert_to_printed(high)[at])))
         return Arrow(notation, float(self.positions[at]), ends[0], ends[1])
 
     def bracket(self, symbol: str, lower: FloatArray, upper: FloatArray) -> Bracket | None:
@@ -147,8 +149,8 @@ class Diagram:
         number = len(self.positions)
         return Bracket(
             parameter.quantity.notation,
-            low=float(self._printed(lower).flat[lowest]),
-            high=float(self._printed(upper).flat[highest]),
+            low=float(self._convert_to_printed(lower).flat[lowest]),
+            high=float(self._convert_to_printed(upper).flat[highest]),
             low_at=float(self.positions[lowest % number]),
             high_at=float(self.positions[highest % number]),
         )
@@ -172,7 +174,7 @@ class Diagram:
             panels=tuple(panels),
         )
 
-    def _shown(self, values: FloatArray) -> BoolArray:
+    def _select_shown(self, values: FloatArray) -> BoolArray:
         """Return the positions that a line runs through: all, so that what is missing leaves a gap.
 
         But where each target can be reached in one direction only, a line runs from one of these to the next.
@@ -181,7 +183,7 @@ class Diagram:
         shown: BoolArray = np.isfinite(values) if one_sided else np.ones(values.shape, dtype=np.bool_)
         return shown
 
-    def _printed(self, values: FloatArray) -> FloatArray:
+    def _convert_to_printed(self, values: FloatArray) -> FloatArray:
         return read_only_floats(self.axis.deviation_unit.from_si(values))
 
 

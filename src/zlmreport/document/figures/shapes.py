@@ -199,15 +199,15 @@ class Frame:
         """Points for each unit of the value."""
         return self.box.height / (self.y_scale.upper - self.y_scale.lower)
 
-    def x_point(self, x: float) -> float:
+    def place_x(self, x: float) -> float:
         """Return where a position is drawn."""
         return self.box.left + (x - self.x_scale.lower) * self.x_factor
 
-    def y_point(self, y: float) -> float:
+    def place_y(self, y: float) -> float:
         """Return where a value is drawn."""
         return self.box.bottom + (y - self.y_scale.lower) * self.y_factor
 
-    def points(self, x: FloatArray, y: FloatArray) -> FloatArray:
+    def place_points(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return where values are drawn, shape (N, 2); those that are not finite are left out."""
         points = np.column_stack(
             [
@@ -217,7 +217,7 @@ class Frame:
         )
         return points[np.isfinite(points).all(axis=1)]
 
-    def values(self, points: FloatArray) -> FloatArray:
+    def find_values(self, points: FloatArray) -> FloatArray:
         """Return the position and value that are drawn at each of some points, shape (N, 2)."""
         box, x_scale, y_scale = self.box, self.x_scale, self.y_scale
         lower, factors = (x_scale.lower, y_scale.lower), (self.x_factor, self.y_factor)

@@ -49,7 +49,7 @@ def draw_tiles(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
     """Yield the tiles."""
     across, upwards = (
         [point(each) for each in edges.tolist()]
-        for point, edges in zip((frame.x_point, frame.y_point), tiles.edges, strict=True)
+        for point, edges in zip((frame.place_x, frame.place_y), tiles.edges, strict=True)
     )
     for left, right, values in zip(across, across[1:], tiles.values, strict=False):
         for bottom, top, value in zip(upwards, upwards[1:], values.tolist(), strict=False):
@@ -63,7 +63,7 @@ def place_tile_values(tiles: Tiles, frame: Frame, language: Language) -> Iterato
     for x, values in zip(tiles.x[::2].tolist(), tiles.values[::2], strict=True):
         for y, value in zip(tiles.y[::2].tolist(), values[::2].tolist(), strict=True):
             label = make_plain_label(write_fixed_number(value, digits, language.decimal_sign), _LETTERS)
-            place = PlacedLabel(label, frame.x_point(x) - label.width / 2, frame.y_point(y) - label.rise)
+            place = PlacedLabel(label, frame.place_x(x) - label.width / 2, frame.place_y(y) - label.rise)
             yield Lettering("tile", place, WHITE if value / tiles.darkest > _DARK else INK)
 
 

@@ -45,6 +45,6 @@ def place_notes(panel: Panel, frame: Frame, language: Language) -> Iterator[Plac
         else:
             text = write_fixed_number(value, 1, language.decimal_sign)
         label = make_plain_label(text, TICK_TEXT_SIZE)
-        x, y = frame.x_point(note.x), frame.y_point(note.y)
+        x, y = frame.place_x(note.x), frame.place_y(note.y)
         foot = y - _GAP - label.height if note.is_below else y + _GAP
         yield PlacedLabel(label, x - label.width / 2, foot)

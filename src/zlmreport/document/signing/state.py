@@ -159,7 +159,7 @@ def _check_signature(embedded: Any, trust: _Trust) -> Signature:
     certificate, is_stamp = embedded.signer_cert, embedded.sig_object_type == "/DocTimeStamp"
     time, stamped_by, is_time_trusted = embedded.self_reported_timestamp, "", False
     if is_stamp:
-        holds, is_time_trusted, time = trust.of_stamp(
+        holds, is_time_trusted, time = trust.check_stamp(
             embedded.signed_data, lambda _: embedded.compute_digest()
         )
     else:
@@ -167,11 +167,11 @@ def _check_signature(embedded: Any, trust: _Trust) -> Signature:
             validate_sig_integrity(embedded.signer_info, certificate, "data", embedded.compute_digest())
         )
         for stamp in extract_tst_data_iter(embedded.signer_info, signed=False):
-            is_intact, is_time_trusted, time = trust.of_stamp(
+            is_intact, is_time_trusted, time = trust.check_stamp(
                 stamp, message_imprint_checker(embedded.signer_info)
             )
             stamped_by, holds = _name_stamper(stamp), holds and is_intact
-    distrust = "" if is_stamp else trust.against(certificate, time)
+    distrust = "" if is_stamp else trust.say_against(certificate, time)
     return Signature(
         signer=certificate.subject.human_friendly,
         fingerprint=certificate.sha256.hex(),
@@ -269,7 +269,7 @@ class _Trust:
     kept: Any
     others: tuple[Any, ...]
 
-    def _context(self, moment: datetime) -> Any:
+    def _make_context(self, moment: datetime) -> Any:
         from pyhanko_certvalidator import ValidationContext  # noqa: PLC0415
 
         settings = {
@@ -282,7 +282,7 @@ class _Trust:
         }
         return self.kept.as_validation_context(settings) if self.kept else ValidationContext(**settings)
 
-    def against(self, signer: Any, moment: datetime | None) -> str:
+    def say_against(self, signer: Any, moment: datetime | None) -> str:
         """Return what speaks against trust in a signer's certificate at the time of signing; None is now."""
         from pyhanko_certvalidator import CertificateValidator, errors  # noqa: PLC0415
 
@@ -292,7 +292,7 @@ class _Trust:
         if signer.sha256 in {each.sha256 for each in self.trusted}:
             return ""
         validator: Any = CertificateValidator(
-            signer, intermediate_certs=list(self.others), validation_context=self._context(when)
+            signer, intermediate_certs=list(self.others), validation_context=self._make_context(when)
         )
         try:
             asyncio.run(validator.async_validate_usage(set()))
@@ -302,12 +302,12 @@ class _Trust:
             return "of unknown trust"
         return ""
 
-    def of_stamp(self, stamp: Any, imprint: Callable[[str], bytes]) -> tuple[bool, bool, datetime]:
+    def check_stamp(self, stamp: Any, imprint: Callable[[str], bytes]) -> tuple[bool, bool, datetime]:
         """Return whether a time stamp is intact, whether it is trusted, and its time."""
         from pyhanko.sign.validation.generic_cms import validate_tst_signed_data  # noqa: PLC0415
 
         time: datetime = stamp["encap_content_info"]["content"].parsed["gen_time"].native
-        found = asyncio.run(validate_tst_signed_data(stamp, self._context(time), imprint))
+        found = asyncio.run(validate_tst_signed_data(stamp, self._make_context(time), imprint))
         is_intact = bool(found["intact"] and found["valid"])
         return is_intact, is_intact and found.get("trust_problem_indic") is None, time
 

@@ -69,13 +69,13 @@ class Modelled:
         """Other tests that the model was held against."""
         return self.study.sessions
 
-    def section(self, writer: Writer) -> Section:
+    def lay_out_section(self, writer: Writer) -> Section:
         """Return the annex."""
         blocks = _lay_out_blocks(self, writer)
         narrow = (each.without(*_TOO_WIDE) if isinstance(each, Table) else each for each in blocks)
         return Section(_KEY, writer.say(_TITLE), tuple(narrow))
 
-    def linked(self, writer: Writer) -> Linked:
+    def list_linked(self, writer: Writer) -> Linked:
         """Return the annex's graphs as values, for documents in which readings can be pointed at."""
         return link_graphs(_KEY, self.study, self.history[-1], self.diagnosis, writer.language)
 

@@ -11,7 +11,7 @@ import numpy as np
 from zlmreport.document.blocks import Align, Column, ColumnKind, Paragraph, RowGroup, Section, Symbol, Table
 from zlmreport.document.subjects.fit import say_no_table_takes_away, write_deviation
 from zlmreport.document.writer import NOTHING, Writer
-from zlmreport.evaluation.evaluation import Group, Quantity
+from zlmreport.evaluation.evaluation import Quantity, QuantityGroup
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
@@ -34,7 +34,7 @@ _FALL = Words(
 _WITHOUT = Words("without model")
 _FLOOR = Words("noise floor")
 _LEFT = Words("Predicted errors after compensation, from the readings of this document")
-_ORDER = (Group.COMPOSITE, Group.SYSTEMATIC, Group.RANDOM)
+_ORDER = (QuantityGroup.COMPOSITE, QuantityGroup.SYSTEMATIC, QuantityGroup.RANDOM)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ def make_forecasts(
 
 def _select_leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
     """Return the first quantity of each group."""
-    first: dict[Group, Quantity] = {}
+    first: dict[QuantityGroup, Quantity] = {}
     for quantity in quantities:
         first.setdefault(quantity.group, quantity)
     return tuple(first[group] for group in _ORDER if group in first)

@@ -93,16 +93,16 @@ def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[S
     said = _Plan(job, planned, language)
     model = " + ".join(planned.model.identifiers) or said.say(_NO_EFFECT)
     sections = (
-        Section("targets", said.say(_TARGETS), tuple(said.targets())),
-        Section("visits", said.say(_VISITS), tuple(said.visits())),
-        Section("asked", said.say(_ASKED), tuple(said.requirements())),
+        Section("targets", said.say(_TARGETS), tuple(said.lay_out_targets())),
+        Section("visits", said.say(_VISITS), tuple(said.lay_out_visits())),
+        Section("asked", said.say(_ASKED), tuple(said.lay_out_requirements())),
         Section(
             "seen",
-            said.say(_SEEN.given(model=model, assumed=said.assumed("model.effects"))),
-            tuple(said.seen()),
+            said.say(_SEEN.given(model=model, assumed=said.say_assumed("model.effects"))),
+            tuple(said.lay_out_seen()),
         ),
-        Section("hidden", said.say(_HIDDEN), tuple(said.hidden())),
-        Section("logs", said.say(_LOGS), tuple(said.logs())),
+        Section("hidden", said.say(_HIDDEN), tuple(said.lay_out_hidden())),
+        Section("logs", said.say(_LOGS), tuple(said.lay_out_logs())),
     )
     return tuple(each for each in sections if each.blocks)
 
@@ -122,14 +122,14 @@ class _Plan:
     def say(self, words: Words) -> str:
         return words.in_language(self.language)
 
-    def assumed(self, key: str) -> Words | str:
+    def say_assumed(self, key: str) -> Words | str:
         """Return the words behind a value that the job does not state."""
         return _ASSUMED if key in self.planned.proposal.assumed else ""
 
-    def number(self, value: float) -> str:
+    def write_number(self, value: float) -> str:
         return write_general_number(value, self.language.decimal_sign)
 
-    def targets(self) -> Iterator[Block]:
+    def lay_out_targets(self) -> Iterator[Block]:
         proposal, unit = self.planned.proposal, self.axis.position_unit.symbol
         how = _FRACTIONS if proposal.has_fractions else _NO_FRACTIONS
         yield Paragraph(self.say(how.given(unit=unit, seed=proposal.seed)))
@@ -140,23 +140,23 @@ class _Plan:
         for period in self.planned.half_seen:
             yield Paragraph(self.say(_HALF_SEEN.given(period=period)), Mark.OPEN)
 
-    def visits(self) -> Iterator[Block]:
+    def lay_out_visits(self) -> Iterator[Block]:
         planned, plan = self.planned, self.planned.proposal.plan
         unit = self.axis.position_unit
         runs = _ONCE if plan.runs == 1 else _TIMES.given(runs=plan.runs)
         stretches = list(_join_stretches(planned.visits))
         shown = "  ".join(stretches[:_MOST_STRETCHES])
-        method = _METHOD.given(method=plan.method.value, assumed=self.assumed("measurement.method"))
+        method = _METHOD.given(method=plan.method.value, assumed=self.say_assumed("measurement.method"))
         yield Paragraph(self.say(method))
         yield Paragraph(self.say(_SEQUENCES[plan.method].given(runs=runs)))
         yield Paragraph(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
         motion = _MOTION.given(
             overrun=position_in_words(self.axis, plan.overrun),
-            feed=self.number(unit.from_si(plan.feed) * _MINUTE),
+            feed=self.write_number(unit.from_si(plan.feed) * _MINUTE),
             unit=unit.symbol,
-            is_feed=self.assumed("measurement.feed"),
-            dwell=self.number(plan.dwell),
-            is_dwell=self.assumed("measurement.dwell"),
+            is_feed=self.say_assumed("measurement.feed"),
+            dwell=self.write_number(plan.dwell),
+            is_dwell=self.say_assumed("measurement.dwell"),
         )
         yield Paragraph(self.say(motion))
         way = position_in_words(self.axis, round(planned.travelled, 3))
@@ -167,7 +167,7 @@ class _Plan:
             ends = (position_in_words(self.axis, end) for end in (*planned.beyond_travel, *self.axis.travel))
             yield Paragraph(self.say(_BEYOND.given(**dict(zip(names, ends, strict=True)))), Mark.OPEN)
 
-    def requirements(self) -> Iterator[Block]:
+    def lay_out_requirements(self) -> Iterator[Block]:
         for standard, findings in self.planned.findings.items():
             unmet = [each for each in findings if each.met is False]
             if not unmet:
@@ -176,12 +176,12 @@ class _Plan:
                 words = _NOT_MET.given(standard=standard, requirement=each.requirement, found=each.found)
                 yield Paragraph(self.say(words), Mark.NOT_MET)
 
-    def seen(self) -> Iterator[Block]:
+    def lay_out_seen(self) -> Iterator[Block]:
         rows = tuple(
             (
                 each.effect.identifier,
-                self.percent(each.visibility.share),
-                self.say(self.smallest(each)),
+                self.write_percent(each.visibility.share),
+                self.say(self.say_smallest(each)),
                 self.say(_LOG_NEEDED) if each.logs else "",
             )
             for each in self.planned.seen_effects
@@ -202,37 +202,37 @@ class _Plan:
         )
         yield Paragraph(self.say(words))
 
-    def hidden(self) -> Iterator[Block]:
+    def lay_out_hidden(self) -> Iterator[Block]:
         """Yield what the plan hides, by what to do about it, and what cannot be tried, by what it needs."""
         blurred: dict[str, list[str]] = {}
         untestable: dict[str, list[str]] = {}
         for each in self.planned.seen_effects:
             name = each.effect.identifier
             if each.sight is Sight.NOT_TESTABLE:
-                untestable.setdefault(self.say(self.untestable(each)), []).append(name)
+                untestable.setdefault(self.say(self.say_untestable(each)), []).append(name)
             elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
                 remedy = self.planned.remedies.get(name)
-                item = f"{name}: {self.say(self.blurred(each, remedy))}"
+                item = f"{name}: {self.say(self.say_blurred(each, remedy))}"
                 blurred.setdefault(self.say(_say_what_to_do(remedy)), []).append(item)
         yield from (Notice(text, tuple(items)) for text, items in blurred.items())
         yield from (Paragraph(f"{', '.join(names)}: {text}") for text, names in untestable.items())
 
-    def blurred(self, seen: SeenEffect, remedy: Remedy | None) -> Words:
+    def say_blurred(self, seen: SeenEffect, remedy: Remedy | None) -> Words:
         """Return what is visible of an effect, and what would be."""
-        words = _SHARE.given(share=self.percent(seen.visibility.share))
+        words = _SHARE.given(share=self.write_percent(seen.visibility.share))
         if remedy and remedy.share is not None:
-            words = _THEN.given(shares=words, share=self.percent(remedy.share))
+            words = _THEN.given(shares=words, share=self.write_percent(remedy.share))
         if seen.sight is Sight.TOO_SMALL:
-            words = _HARDLY.given(shares=words, size=self.smallest(seen))
+            words = _HARDLY.given(shares=words, size=self.say_smallest(seen))
         return words
 
-    def untestable(self, seen: SeenEffect) -> Words:
+    def say_untestable(self, seen: SeenEffect) -> Words:
         unexpected = [column for column in seen.logs if column not in self.planned.design.conditions]
         if unexpected:
             return _NEEDS_LOG.given(columns=", ".join(unexpected))
         return seen.visibility.reason or _UNTRIED
 
-    def logs(self) -> Iterator[Block]:
+    def lay_out_logs(self) -> Iterator[Block]:
         timed = [
             each.effect.identifier
             for each in self.planned.seen_effects
@@ -246,7 +246,7 @@ class _Plan:
         for effects, columns in by_effects.items():
             yield Paragraph(self.say(_TO_TELL.given(columns=", ".join(columns), effects=effects)))
 
-    def smallest(self, found: SeenEffect) -> Words:
+    def say_smallest(self, found: SeenEffect) -> Words:
         """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
         seen = found.visibility
         if seen.smallest is None:
@@ -256,7 +256,7 @@ class _Plan:
         size = write_significant(value * unit.per_si, 2)
         return _PARAMETER.given(name=parameter.name, size=size, unit=f" {unit.symbol}".rstrip())
 
-    def percent(self, share: float) -> str:
+    def write_percent(self, share: float) -> str:
         return write_percentage(share, self.language.decimal_sign)
 
 

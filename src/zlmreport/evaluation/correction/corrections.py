@@ -77,7 +77,7 @@ class Air:
 
 
 @dataclass(frozen=True, slots=True)
-class Expansion:
+class MaterialExpansion:
     """The expansion of the material."""
 
     coefficient: float  #: α, 1/K.
@@ -94,7 +94,7 @@ class Corrections:
     #: From the interferometer to the reflector at the datum, m; negative where the measured path shrinks
     #: while the position rises. It needs the index of the air.
     dead_path: float | None = None
-    expansion: Expansion | None = None
+    expansion: MaterialExpansion | None = None
 
 
 def correct(measurements: MeasurementSet, corrections: Corrections) -> MeasurementSet:
@@ -137,7 +137,9 @@ def _correct_dead_path(displacement: FloatArray, air: Air, dead_path: float) -> 
     return displacement - error, Correction(_DEAD_PATH, _DEAD_PATH_METHOD, inputs, _find_largest(error))
 
 
-def _correct_to_20_degrees(displacement: FloatArray, expansion: Expansion) -> tuple[FloatArray, Correction]:
+def _correct_to_20_degrees(
+    displacement: FloatArray, expansion: MaterialExpansion
+) -> tuple[FloatArray, Correction]:
     difference = compute_above_reference(expansion.temperature)
     change = -displacement * expansion.coefficient * difference
     inputs = _MATERIAL_INPUTS.given(
@@ -302,7 +304,7 @@ def _make_air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: l
 
 def _make_expansion(
     keys: MaterialKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]
-) -> Expansion | None:
+) -> MaterialExpansion | None:
     environment = job.keys.environment
     coefficient = keys.expansion_coefficient or (environment and environment.expansion_coefficient)
     if not isinstance(coefficient, float):
@@ -314,7 +316,7 @@ def _make_expansion(
     conditions = _find_conditions((keys.temperature,), "corrections.material", job, measurements, problems)
     if conditions is None or not isinstance(coefficient, float):
         return None
-    return Expansion(coefficient * MICROMETRE_PER_METRE_KELVIN, conditions[0])
+    return MaterialExpansion(coefficient * MICROMETRE_PER_METRE_KELVIN, conditions[0])
 
 
 def _find_conditions(

@@ -74,7 +74,7 @@ def is_silent_on_air(job: Job, measurements: MeasurementSet) -> bool:
 
 def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
     """Yield the error of lengths whose instrument did not look at the air, where its state is known."""
-    state = _state(job, measurements)
+    state = _find_state(job, measurements)
     if not is_blind_to_air(job) or any(each is None for each in state):
         return
     temperature, pressure, humidity = (each for each in state if each is not None)
@@ -97,7 +97,7 @@ def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownErro
     )
 
 
-def _state(job: Job, measurements: MeasurementSet) -> list[FloatArray | None]:
+def _find_state(job: Job, measurements: MeasurementSet) -> list[FloatArray | None]:
     """Return temperature, pressure and humidity of the air at each reading; None for what nobody knows."""
     return [find_condition_at_readings(name, job, measurements) for name in STATE_OF_AIR]
 
@@ -115,7 +115,7 @@ def list_air_contributions(job: Job, measurements: MeasurementSet, length: float
     is_blind = is_blind_to_air(job)
     if not (by_program or is_blind or find_compensated_by_instrument(job, measurements).air):
         return
-    state = _state(job, measurements)
+    state = _find_state(job, measurements)
     conditions = [
         usual if known is None else float(np.mean(known))
         for known, usual in zip(state, _STANDARD_AIR, strict=True)

@@ -94,7 +94,7 @@ def compute_axis_intervals(
         one, other = arithmetic(first).parameters, arithmetic(second).parameters
         found.append(
             {
-                symbol: _interval(each.value, one[symbol], other[symbol], rounded=rounded)
+                symbol: _make_interval(each.value, one[symbol], other[symbol], rounded=rounded)
                 for each in evaluation.parameters
                 for symbol in (each.quantity.symbol,)
             }
@@ -130,7 +130,7 @@ def _simulate_pairs(
     return first, second
 
 
-def _interval(
+def _make_interval(
     value: float, one: FloatArray, other: FloatArray, *, rounded: bool = False
 ) -> tuple[float, float]:
     """Return the value with the quantiles of the differences within pairs on either side.
@@ -171,7 +171,7 @@ def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter 
     run_variance = (of_run**2).sum(axis=-1) / np.maximum(run_freedom, 1)
     product = math.sqrt(float(np.prod((of_run**2).sum(axis=-1))))
     correlation = float((of_run[0] * of_run[1]).sum()) / product if product else 0.0
-    pooled, pooled_freedom = _pooled(variance, freedom, target_positions)
+    pooled, pooled_freedom = _pool(variance, freedom, target_positions)
     own = np.where(there, inner * np.sqrt(left)[..., np.newaxis], np.nan)
     return _Scatter(
         mean,
@@ -184,9 +184,7 @@ def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter 
     )
 
 
-def _pooled(
-    variance: FloatArray, freedom: FloatArray, positions: FloatArray
-) -> tuple[FloatArray, FloatArray]:
+def _pool(variance: FloatArray, freedom: FloatArray, positions: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the posterior variances and degrees of freedom of cells, each informed by all others."""
     known = (freedom > 0) & (variance > 0)
     if np.count_nonzero(known) < _FEWEST:
@@ -327,7 +325,7 @@ def _sample_pairs(
         test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
         test += means[..., np.newaxis]
         test[:, ~there] = np.nan
-        tests.append(axes.rounded(test) if axes else test)
+        tests.append(axes.round(test) if axes else test)
     return tests[0], tests[1]
 
 

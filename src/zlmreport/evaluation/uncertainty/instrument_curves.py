@@ -18,7 +18,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 
-class Form(Enum):
+class CurveForm(Enum):
     """How an instrument errs of which only the size is known: the half waves that it may have on a line."""
 
     AT_EACH_POSITION = ()  #: None: each position has an error of its own.
@@ -26,7 +26,7 @@ class Form(Enum):
     WAVES = (2, 4)
 
 
-def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[Form, ...]:
+def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[CurveForm, ...]:
     """Return the forms that are asked where the error of an instrument is stated.
 
     A bend only of a body that lines were held against: it is a slope, and what an error along the length does
@@ -39,8 +39,8 @@ def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[Form, ...]
         if any(map(is_of_the_instrument, of_line.contributions)) and not line.axis.measurand.is_continuous
     ]
     if any(line.axis.measurand.has_reference_body for line in lines):
-        return tuple(Form)
-    return (Form.AT_EACH_POSITION, Form.WAVES) if lines else (Form.AT_EACH_POSITION,)
+        return tuple(CurveForm)
+    return (CurveForm.AT_EACH_POSITION, CurveForm.WAVES) if lines else (CurveForm.AT_EACH_POSITION,)
 
 
 def is_of_the_instrument(contribution: Contribution) -> bool:
@@ -48,7 +48,9 @@ def is_of_the_instrument(contribution: Contribution) -> bool:
     return contribution.acts is Acts.AT_EACH_POSITION and contribution.contributor == "instrument"
 
 
-def sample_waves(form: Form, shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+def sample_waves(
+    form: CurveForm, shares: FloatArray, count: int, generator: np.random.Generator
+) -> FloatArray:
     """Return waves of any phase along a line, of root mean square 1 at each position: (count, m).
 
     `shares`: Of the length, at each position. Each number of half waves that a form has is as likely.

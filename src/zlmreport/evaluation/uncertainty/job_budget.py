@@ -81,7 +81,7 @@ def make_budget_of(
     )
     if isinstance(instrument, Words):
         return NoBudget(instrument, missing, negligible, expansion)
-    problems = sorted(set_up.lacks(job))
+    problems = sorted(set_up.list_lacking(job))
     if problems:
         raise InputError(problems)
     usual = not of_the_instrument and keys.instrument_acts is None

@@ -37,7 +37,7 @@ from zlmreport.evaluation.uncertainty.drift import (
 )
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
 from zlmreport.evaluation.uncertainty.instrument_curves import (
-    Form,
+    CurveForm,
     is_of_the_instrument,
     list_forms,
     sample_waves,
@@ -84,7 +84,7 @@ class _Ways:
     """How errors go of which a job states the size only."""
 
     drift: Drift | None  #: Of what drifts; None where nothing does.
-    form: Form = Form.AT_EACH_POSITION  #: Of the instrument's error at each position.
+    form: CurveForm = CurveForm.AT_EACH_POSITION  #: Of the instrument's error at each position.
 
 
 def propagate(

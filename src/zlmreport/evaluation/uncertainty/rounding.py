@@ -50,7 +50,7 @@ class Axes:
     means: FloatArray  #: (count, approach, position).
     between: FloatArray  #: (count, approach, position): Where the means lie between two steps.
 
-    def rounded(self, readings: FloatArray) -> FloatArray:
+    def round(self, readings: FloatArray) -> FloatArray:
         """Return what is shown of readings, (count, approach, position, run)."""
         between = self.between[..., np.newaxis]
         return np.asarray(self.step * np.round((readings + between) / self.step) - between)
@@ -89,7 +89,7 @@ def sample_rounding(
     )
     before = axes.means[..., np.newaxis] + own
     before[:, ~np.isfinite(readings)] = np.nan
-    return Rounded(before, axes.rounded(before))
+    return Rounded(before, axes.round(before))
 
 
 def sample_axes(

@@ -133,7 +133,7 @@ class SetUp:
             return 0.0
         return None if difference is None or alpha is None else alpha * difference * self.length
 
-    def lacks(self, job: Job) -> Iterator[Problem]:
+    def list_lacking(self, job: Job) -> Iterator[Problem]:
         """Yield the keys of the budget whose formula needs what is not known."""
         keys, named = job.keys.uncertainty, name_contributors_of_length(job)
         temperature = "environment.axis_temperature or environment.material_temperature"

@@ -53,8 +53,8 @@ class JumpWatch:
         `before`: The one before.
         `is_at_rest`: Whether the axis has stood still until that one.
         """
-        goes_on = abs(reading.value - before.value) <= self._reach(before, reading)
-        if self._before is None or not self._confirms(before, reading):
+        goes_on = abs(reading.value - before.value) <= self._estimate_reach(before, reading)
+        if self._before is None or not self._is_confirmed_by(before, reading):
             is_sound, self._is_sound = self._is_sound, goes_on
             self._before = before if is_sound and not goes_on else None
             self._after, self._was_at_rest = [reading], is_at_rest
@@ -63,17 +63,17 @@ class JumpWatch:
         if len(self._after) < _CONFIRMED:
             return None
         began, self._before, self._is_sound = self._before, None, True
-        return self._judged(began, self._after)
+        return self._judge(began, self._after)
 
-    def _reach(self, before: LiveReading, reading: LiveReading) -> float:
+    def _estimate_reach(self, before: LiveReading, reading: LiveReading) -> float:
         """Return how far the axis may go between two readings, m or rad."""
         elapsed = _bound_elapsed(before, reading)
         return max(FASTEST * self._settings.feed * elapsed + self._settings.stability, self._settings.motion)
 
-    def _unit(self, before: LiveReading, first: LiveReading) -> float | None:
+    def _find_unit(self, before: LiveReading, first: LiveReading) -> float | None:
         """Return the factor of a unit by which the first reading after a jump is the one before it."""
         stability = self._settings.stability
-        reach = stability if self._was_at_rest else self._reach(before, first)
+        reach = stability if self._was_at_rest else self._estimate_reach(before, first)
         if abs(first.value - before.value) < max(_CLEARLY * stability, _FAR * reach):
             return None
         for factor in UNITS:
@@ -82,18 +82,18 @@ class JumpWatch:
                 return factor
         return None
 
-    def _confirms(self, before: LiveReading, reading: LiveReading) -> bool:
+    def _is_confirmed_by(self, before: LiveReading, reading: LiveReading) -> bool:
         """Tell whether a reading goes on from what was shown after the jump; by its unit, if it is one."""
         first = self._after[0]
         assert self._before is not None  # noqa: S101 - the caller has seen it
-        step, factor = abs(reading.value - before.value), self._unit(self._before, first)
+        step, factor = abs(reading.value - before.value), self._find_unit(self._before, first)
         if self._was_at_rest and abs(reading.value - first.value) > self._settings.stability:
             return False  # it has begun to move
-        return step <= self._reach(before, reading) / min(1.0, factor or 1.0)
+        return step <= self._estimate_reach(before, reading) / min(1.0, factor or 1.0)
 
-    def _judged(self, before: LiveReading, after: list[LiveReading]) -> Jump | None:
+    def _judge(self, before: LiveReading, after: list[LiveReading]) -> Jump | None:
         first = after[0]
-        factor = self._unit(before, first)
+        factor = self._find_unit(before, first)
         if factor is not None:
             return Jump(factor)
         step, elapsed = abs(first.value - before.value), _bound_elapsed(before, first)

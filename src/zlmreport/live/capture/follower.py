@@ -130,22 +130,22 @@ class Follower:
 
     def feed(self, reading: LiveReading) -> list[Event]:
         """Return what happens with a reading, in order; mostly nothing."""
-        return self._lived_through(() if self.is_halted else self._seen(reading))
+        return self._live_through(() if self.is_halted else self._see(reading))
 
-    def told(self, visit: ListedVisit | None, late: float | None = None) -> list[Event]:
+    def take_answer(self, visit: ListedVisit | None, late: float | None = None) -> list[Event]:
         """Return what happens when the operator says which visit an unclear stop is; None for none.
 
         `late`: How long ago the stop was, s; without it, it was seen by this follower.
         """
-        return self._lived_through(self._answered(visit, late))
+        return self._live_through(self._obey_answer(visit, late))
 
-    def ordered(self, order: Order) -> list[Event]:
+    def take_order(self, order: Order) -> list[Event]:
         """Return what happens when the operator orders something while the axis is followed."""
-        return self._lived_through(() if self.is_halted else self._obeyed(order))
+        return self._live_through(() if self.is_halted else self._obey(order))
 
-    def _obeyed(self, order: Order) -> Iterator[Event]:
+    def _obey(self, order: Order) -> Iterator[Event]:
         if not isinstance(order, Commented):
-            yield from self._not_taken()
+            yield from self._let_doubted_go()
         yield order
         if isinstance(order, Retake):
             self._begin_here()
@@ -158,19 +158,19 @@ class Follower:
         self._place.left_out = self.progress.skipped
         self._ahead.begin()
 
-    def _lived_through(self, happening: Iterable[Event]) -> list[Event]:
+    def _live_through(self, happening: Iterable[Event]) -> list[Event]:
         events: list[Event] = []
         for event in happening:
             events.append(event)
-            self.progress = self.progress.after(event)
+            self.progress = self.progress.take_event(event)
             if isinstance(event, HALTING) or (isinstance(event, Unclear) and not self._is_watched):
                 self.is_halted = True
                 break
         return events
 
-    def _seen(self, reading: LiveReading) -> Iterator[Event]:
+    def _see(self, reading: LiveReading) -> Iterator[Event]:
         if reading.loses_zero and not self._may_still_hold(reading):
-            yield from self._without_zero(self._broken or reading)
+            yield from self._lose_zero(self._broken or reading)
             return
         self._lost += reading.skipped
         if not reading.is_usable:
@@ -179,39 +179,39 @@ class Follower:
                 self._broken = reading
             return
         if self._latest is not None:
-            yield from self._since(self._latest, reading)
+            yield from self._look_at_display(self._latest, reading)
             if self.is_halted:
                 return
         self._window.add(reading, self._lost)
         before, self._latest, self._lost = self._latest, reading, 0
         zero = self.progress.zero
         if zero is None:
-            yield from self._at_the_datum(reading)
+            yield from self._take_datum(reading)
             return
         self._track.add(reading.value + zero)
         if before is not None and self._track.position is not None:
             self._route.follow(before, reading, zero, self._track.position, self._settings)
-        yield from self._on_the_way(reading.time)
-        yield from self._unchanged(before, reading)
-        yield from self._at_the_end(reading, zero)
+        yield from self._follow_way(reading.time)
+        yield from self._notice_freeze(before, reading)
+        yield from self._finish_at_end(reading, zero)
         if self._window.is_still and (self._stood_at is None or self._stands_anew(zero)):
-            yield from self._at_a_standstill(zero)
+            yield from self._name_standstill(zero)
         elif self._stay is not None and self._stood_at is not None and self._window.is_still:
             self._stay.keep(self._window, reading.time, self._settings.averaged)
-        yield from self._when_doubted(reading, zero)
+        yield from self._ask_when_doubted(reading, zero)
 
-    def _since(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
+    def _look_at_display(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
         """Look at what the display did since the last reading: an interruption, a gap, a jump."""
         if self._broken is not None:
-            yield from self._mended(self._broken, latest, reading)
+            yield from self._mend(self._broken, latest, reading)
             if self.is_halted:
                 return
-        yield from self._after_a_gap(latest, reading)
-        failed = self._display_failed(latest, reading)
+        yield from self._look_at_gap(latest, reading)
+        failed = self._find_failure_of_display(latest, reading)
         if failed is not None:
             yield failed
 
-    def _unchanged(self, before: LiveReading | None, reading: LiveReading) -> Iterator[Event]:
+    def _notice_freeze(self, before: LiveReading | None, reading: LiveReading) -> Iterator[Event]:
         """Notice a display that shows the same to its last digit for longer than an axis rests."""
         seconds = self._unchanging.add(before, reading, is_followed=self.progress.taken > 0)
         if seconds is not None:
@@ -229,16 +229,16 @@ class Follower:
         seconds = reading.time - self._latest.time
         return seconds < self._settings.still and self._window.duration >= seconds
 
-    def _mended(self, broken: LiveReading, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
+    def _mend(self, broken: LiveReading, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
         """Say after an interruption whether the display shows what it showed before."""
         self._broken = None
         seconds = reading.time - latest.time
         if seconds < self._settings.still and self._window.holds(reading.value):
             yield BeamHeld(broken.message, seconds)
         else:
-            yield from self._without_zero(broken)
+            yield from self._lose_zero(broken)
 
-    def _without_zero(self, reading: LiveReading) -> Iterator[Event]:
+    def _lose_zero(self, reading: LiveReading) -> Iterator[Event]:
         """Lose the zero; before a datum is taken there is none to lose."""
         self._broken = self._stay = None
         self._window.clear()
@@ -247,10 +247,10 @@ class Follower:
         if self.progress.zero is not None:
             yield ZeroLost(reading.message, self.progress.rest_of_part)
 
-    def _after_a_gap(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
+    def _look_at_gap(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
         """Look at how long nothing came: what may have gone unseen is not relied on."""
         largest = self._settings.largest_gap
-        gap = self._pace.gap(latest.time, reading.time, self._lost)
+        gap = self._pace.measure_gap(latest.time, reading.time, self._lost)
         if self._pace.shortest > largest:
             yield TooSlow(self._pace.shortest, largest)
         if gap <= largest:
@@ -276,7 +276,7 @@ class Follower:
             and abs(reading.value - latest.value) <= self._settings.stability
         )
 
-    def _at_the_datum(self, reading: LiveReading) -> Iterator[Event]:
+    def _take_datum(self, reading: LiveReading) -> Iterator[Event]:
         """Take the reading at the datum, from an axis that has stood there ever since it was watched."""
         datum = self.progress.datum
         if datum is None:
@@ -287,16 +287,16 @@ class Follower:
         elif self._window.is_still:
             self._track.forget()
             self._stood_at = datum
-            yield DatumTaken(datum, self._window.mean())
+            yield DatumTaken(datum, self._window.compute_mean())
 
-    def _on_the_way(self, time: float) -> Iterator[Event]:
+    def _follow_way(self, time: float) -> Iterator[Event]:
         """Follow the axis away from where it stood, into the tolerance of what is next, and through it."""
         position = self._track.position
         if position is None:
             return
         if self._stood_at is not None and abs(position - self._stood_at) > self._settings.motion:
             self._stood_at = None
-            yield from self._stood_last()
+            yield from self._take_last_standstill()
             yield Moving(self.progress.next)
         if self._stay is not None and self._has_left(self._stay, position):
             self._stay = None
@@ -313,38 +313,38 @@ class Follower:
         target = self.progress.visits[stay.index].position
         return abs(position - target) > self._settings.tolerance + self._settings.motion
 
-    def _stood_last(self) -> Iterator[Event]:
+    def _take_last_standstill(self) -> Iterator[Event]:
         """Let the last standstill before the axis goes on take the place of the first, where they differ."""
         stay, zero = self._stay, self.progress.zero
         if stay is None or stay.last is None or zero is None:
             return
         position = stay.last.value + zero
         if abs(position - stay.position) > _FINEST * self._settings.stability:
-            yield from self._stood_later(stay, stay.last, zero)
+            yield from self._take_later_standstill(stay, stay.last, zero)
 
-    def _stood_later(self, stay: Stay, mean: Mean, zero: float) -> Iterator[Event]:
+    def _take_later_standstill(self, stay: Stay, mean: Mean, zero: float) -> Iterator[Event]:
         """Take a later standstill of a visit in, which the axis has not left since the one before."""
         visit = self.progress.visits[stay.index]
         stop = TargetStandstill(visit.target, visit.approach, visit.approach, mean.value + zero, mean)
-        yield from self._taken(stay.index, stop, None)
+        yield from self._take(stay.index, stop, None)
         stay.stand(self._window, mean, zero)
 
-    def _at_a_standstill(self, zero: float) -> Iterator[Event]:
+    def _name_standstill(self, zero: float) -> Iterator[Event]:
         lowest, highest = (bound + zero for bound in self._window.bounds)
         target = find_target_around(lowest, highest, self._targets, self._settings.tolerance)
         approach = self._track.direction
         if target is None and approach is None:  # it waits for its program
             return
-        mean = self._standing = self._window.mean()
+        mean = self._standing = self._window.compute_mean()
         self._stood_at = mean.value + zero
         if self._stay is not None and target == self.progress.visits[self._stay.index].target:
-            yield from self._stood_later(self._stay, mean, zero)
+            yield from self._take_later_standstill(self._stay, mean, zero)
         elif target is None:
             yield name_elsewhere(mean, zero, self.progress, self._settings, self._offsets)
         else:
-            yield from self._at_target(target, approach, mean, zero)
+            yield from self._place_at_target(target, approach, mean, zero)
 
-    def _display_failed(self, latest: LiveReading, reading: LiveReading) -> Event | None:
+    def _find_failure_of_display(self, latest: LiveReading, reading: LiveReading) -> Event | None:
         """Return what a jump of the display is; None without one."""
         is_at_rest = self._window.duration >= self._settings.still / _AT_REST
         jump = self._jumps.add(latest, reading, is_at_rest=is_at_rest)
@@ -354,7 +354,9 @@ class Follower:
             return ZeroLost(_LEAPED, self.progress.rest_of_part)
         return ScaleChanged(jump.factor, None)
 
-    def _at_target(self, target: int, approach: Approach | None, mean: Mean, zero: float) -> Iterator[Event]:
+    def _place_at_target(
+        self, target: int, approach: Approach | None, mean: Mean, zero: float
+    ) -> Iterator[Event]:
         """Say what a standstill at a target is, and take the reading if it is clear which visit that is."""
         progress = self.progress
         heading = self._route.heading or approach
@@ -371,20 +373,20 @@ class Follower:
             if self.progress.must_check or (following.target, following.approach) != (target, approach):
                 return
         self._place.add(stop, self._route)
-        yield from self._decided()
+        yield from self._say_what_is_decided()
         if self._place.undecided and self.progress.question is None:
-            yield self._question()
+            yield self._make_question()
 
-    def _decided(self) -> Iterator[Event]:
+    def _say_what_is_decided(self) -> Iterator[Event]:
         """Say of each stop what it is, once that is clear."""
-        for stop, index, share in self._place.decided():
+        for stop, index, share in self._place.settle_stops():
             if self.progress.question is not None:
                 yield Placed(None if index is None else self.progress.visits[index])
             elif index is not None and 1 - share > WORTH_SAYING:
                 yield Presumed(self.progress.visits[index], share)
-            yield from self._filed(stop, index)
+            yield from self._file(stop, index)
 
-    def _filed(self, stop: TargetStandstill, index: int | None, late: float | None = None) -> Iterator[Event]:
+    def _file(self, stop: TargetStandstill, index: int | None, late: float | None = None) -> Iterator[Event]:
         if index is None:
             yield name_out_of_turn(stop, self.progress)
         elif self.progress.visits[index].number in self.progress.skipped:
@@ -392,19 +394,19 @@ class Follower:
         elif stop.approach is not self.progress.visits[index].approach:
             yield WrongDirection(self.progress.visits[index], stop.approach)
         elif late is None and not self._may_be_taken(stop, index):
-            yield from self._not_taken()
+            yield from self._let_doubted_go()
             self._doubted = (stop, index)
         else:
             if self._doubted is not None and self._doubted[1] == index:
-                yield from self._not_taken()
-            yield from self._taken(index, stop, late)
+                yield from self._let_doubted_go()
+            yield from self._take(index, stop, late)
 
     def _may_be_taken(self, stop: TargetStandstill, index: int) -> bool:
         """Tell whether no question is to be asked of a reading: it is near enough, or another stands."""
         of = (stop, index, self.progress, self._settings)
         return is_plausible(*of) or is_worse(*of)
 
-    def _not_taken(self) -> Iterator[Event]:
+    def _let_doubted_go(self) -> Iterator[Event]:
         """Let a doubted reading go: another stop takes its place."""
         if self._doubted is None:
             return
@@ -413,7 +415,7 @@ class Follower:
             yield Placed(None)
         yield Repeated(self.progress.visits[index], stop.position, stop.mean)
 
-    def _when_doubted(self, reading: LiveReading, zero: float) -> Iterator[Event]:
+    def _ask_when_doubted(self, reading: LiveReading, zero: float) -> Iterator[Event]:
         """Ask about a doubted reading once no better one follows: the axis leaves, or stays where it is."""
         if self._doubted is None or self.progress.question is not None:
             return
@@ -430,7 +432,7 @@ class Follower:
                 stop.target, visit.approach, candidates, stop.position, stop.mean, visit.position + expected
             )
 
-    def _answered(self, visit: ListedVisit | None, late: float | None) -> Iterator[Event]:
+    def _obey_answer(self, visit: ListedVisit | None, late: float | None) -> Iterator[Event]:
         index = None if visit is None else visit.number - 1
         yield Placed(visit)
         if self._doubted is not None:
@@ -439,22 +441,22 @@ class Follower:
                 yield Repeated(self.progress.visits[doubted], stop.position, stop.mean)
                 return
         else:
-            stop = self._place.told(index)
+            stop = self._place.take_word(index)
         if late is None:
             late = self._latest.time - stop.mean.time if self._latest else 0.0
-        yield from self._filed(stop, index, late)
-        yield from self._decided()
+        yield from self._file(stop, index, late)
+        yield from self._say_what_is_decided()
         if self._place.undecided:
-            yield self._question()
+            yield self._make_question()
 
-    def _question(self) -> Unclear:
+    def _make_question(self) -> Unclear:
         stop = self._place.undecided[0]
-        odds = sorted(self._place.odds().items(), key=lambda each: -each[1])
+        odds = sorted(self._place.list_odds().items(), key=lambda each: -each[1])
         visits = self.progress.visits
         candidates = tuple((None if index is None else visits[index], share) for index, share in odds)
         return Unclear(stop.target, stop.heading or visits[0].approach, candidates, stop.position, stop.mean)
 
-    def _taken(self, index: int, stop: TargetStandstill, late: float | None) -> Iterator[Event]:
+    def _take(self, index: int, stop: TargetStandstill, late: float | None) -> Iterator[Event]:
         progress = self.progress
         since = self._ahead.inside_since
         self._ahead.begin()
@@ -473,7 +475,7 @@ class Follower:
         if progress.again is not None and self.progress.again is None:
             self._begin_here()
 
-    def _at_the_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
+    def _finish_at_end(self, reading: LiveReading, zero: float) -> Iterator[Event]:
         """Finish when the axis has left the last visit, and has come back to the datum if it goes there.
 
         A program that ends where it stands, and an axis that goes elsewhere, are not waited for.
@@ -489,10 +491,10 @@ class Follower:
             yield Finished()
         elif not has_left or progress.datum is None:
             if reading.time - (last.mean.time if self._stay is None else self._stay.taken) >= settings.stay:
-                yield from self._stood_last()
+                yield from self._take_last_standstill()
                 yield Finished()
         elif self._window.is_still:
-            difference = self._window.mean().value + zero - progress.datum
+            difference = self._window.compute_mean().value + zero - progress.datum
             if abs(difference) <= settings.tolerance:
                 yield Closed(difference, abs(difference) <= settings.motion)
             yield Finished()

@@ -100,7 +100,7 @@ class History:
         """How far the capture has come."""
         progress = Progress.begin(self.header.visits, self.header.datum)
         for entry in self.entries:
-            progress = progress.after(entry.event)
+            progress = progress.take_event(entry.event)
         return progress
 
 
@@ -219,7 +219,7 @@ def _sum(body: bytes, before: str) -> str:
 class Journal(Closable):
     """A journal that is open for records; only one capture can have it.
 
-    Make one by `begun` or `continued`, and leave it as a context manager.
+    Make one by `begin` or `resume`, and leave it as a context manager.
     """
 
     def __init__(self, file: JournalFile, header: Header, last_sum: str) -> None:
@@ -235,7 +235,7 @@ class Journal(Closable):
         self._sum = last_sum
 
     @classmethod
-    def begun(cls, path: Path, header: Header) -> Self:
+    def begin(cls, path: Path, header: Header) -> Self:
         """Begin a journal.
 
         Raises `AccessError` if there is one of this name that holds a capture, or it cannot be written.
@@ -248,7 +248,7 @@ class Journal(Closable):
             return journal
 
     @classmethod
-    def continued(cls, path: Path) -> Self:
+    def resume(cls, path: Path) -> Self:
         """Go on with a journal; what was torn off at its end is cut away.
 
         Raises `AccessError` if there is none, it is damaged or being written, or it cannot be written.
@@ -282,7 +282,7 @@ class Journal(Closable):
         self.elapsed = max(self.elapsed, elapsed)
         self._write({"elapsed": round(self.elapsed, 4), **to_record(event)})
         self._remember(event, self.elapsed)
-        self.progress = self.progress.after(event)
+        self.progress = self.progress.take_event(event)
 
     def _remember(self, event: Event, elapsed: float) -> None:
         self.elapsed = elapsed
@@ -361,6 +361,6 @@ def capture(
     for reading in readings:
         yield from kept(follower.feed(reading), reading.time)
         for order in show(reading):
-            yield from kept(follower.ordered(order), reading.time)
+            yield from kept(follower.take_order(order), reading.time)
         if follower.is_halted:
             return

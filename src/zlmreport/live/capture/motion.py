@@ -45,10 +45,10 @@ class Route:
         self._lowest = min(self._lowest, position)
         self._highest = max(self._highest, position)
         if self.heading is not Approach.POSITIVE and position > self._lowest + self._threshold:
-            self._turn(Approach.POSITIVE, self._lowest)
+            self._note_turn(Approach.POSITIVE, self._lowest)
             self._highest = position
         elif self.heading is not Approach.NEGATIVE and position < self._highest - self._threshold:
-            self._turn(Approach.NEGATIVE, self._highest)
+            self._note_turn(Approach.NEGATIVE, self._highest)
             self._lowest = position
         if self.heading is Approach.POSITIVE:
             self._lowest = self._highest
@@ -73,7 +73,7 @@ class Route:
                 self.lose()
         self.add(position)
 
-    def _turn(self, heading: Approach, at: float) -> None:
+    def _note_turn(self, heading: Approach, at: float) -> None:
         if self.heading is not None:
             self.turns.append(at)
         self.heading = heading
@@ -98,7 +98,7 @@ class Programme:
         self._corner_before: list[float] = []
         here, heading, beyond = self.start, first.approach, None
         for visit in self.visits:
-            for corner in self._corners(here, visit):
+            for corner in self._list_corners(here, visit):
                 self._corner_before[len(self._turns_before) :] = [here]
                 if (corner - here) * heading < 0:
                     self._turns.append(TurningPoint(here, beyond))
@@ -112,24 +112,24 @@ class Programme:
         for index, visit in enumerate(self.visits):
             self._at[visit.target, visit.approach].append(index)
 
-    def _corners(self, here: float, visit: ListedVisit) -> Iterator[float]:
+    def _list_corners(self, here: float, visit: ListedVisit) -> Iterator[float]:
         """Yield where the way to a visit leads: over the place where it turns round, if it does."""
         beyond = (visit.travelled - abs(visit.position - here)) / 2
         if beyond > 1e-9 * max(visit.travelled, abs(visit.position)):
             yield visit.position - visit.approach * beyond
         yield visit.position
 
-    def at(self, target: int, approach: Approach | None) -> Sequence[int]:
+    def list_visits_at(self, target: int, approach: Approach | None) -> Sequence[int]:
         """Return the indices of the visits of a target from a side, or from both."""
         if approach is not None:
             return self._at[target, approach]
         return sorted(self._at[target, Approach.POSITIVE] + self._at[target, Approach.NEGATIVE])
 
-    def turns(self, here: int, there: int) -> Sequence[TurningPoint]:
+    def list_turns(self, here: int, there: int) -> Sequence[TurningPoint]:
         """Return the turning points from one visit to a later one; from the start for −1."""
         return self._turns[self._turns_before[here] if here >= 0 else 0 : self._turns_before[there]]
 
-    def seconds(self, here: int, there: int) -> float:
+    def compute_time(self, here: int, there: int) -> float:
         """Return the time from one visit to a later one, s."""
         return self._times[there] - (self._times[here] if here >= 0 else 0.0)
 
@@ -137,9 +137,9 @@ class Programme:
         """Tell whether a part of the test begins with a visit."""
         return index == 0 or self.visits[index - 1].part != self.visits[index].part
 
-    def since_beginning(self, index: int) -> tuple[int, Sequence[TurningPoint]]:
+    def look_back_to_beginning(self, index: int) -> tuple[int, Sequence[TurningPoint]]:
         """Return how many visits of its part come before one, and the turns from the part's beginning."""
         first = index
         while not self.begins_part(first):
             first -= 1
-        return index - first, (TurningPoint(self._corner_before[first], None), *self.turns(first, index))
+        return index - first, (TurningPoint(self._corner_before[first], None), *self.list_turns(first, index))

@@ -87,7 +87,7 @@ class Assignment:
     plan: Plan  #: Of the test.
     visits: tuple[ListedVisit, ...]
 
-    def remaining_time(self, taken: int) -> float:
+    def estimate_remaining_time(self, taken: int) -> float:
         """Return how long the visits still take that are not taken, s."""
         rest = self.visits[taken:]
         return sum(visit.travelled for visit in rest) / self.plan.feed + self.plan.dwell * len(rest)

@@ -180,32 +180,32 @@ class AxisWriter:
         """Write a phrase."""
         return phrase.in_language(self.language)
 
-    def number(self, value: float, decimals: int) -> str:
+    def write_number(self, value: float, decimals: int) -> str:
         """Write a number with so many decimals."""
         return write_fixed_number(value, decimals, self.language.decimal_sign)
 
-    def general(self, value: float) -> str:
+    def write_general(self, value: float) -> str:
         """Write a factor, or a time between readings, with few digits."""
         return write_general_number(value, self.language.decimal_sign)
 
-    def position(self, value: float, decimals: int = 3) -> str:
+    def write_position(self, value: float, decimals: int = 3) -> str:
         """Write a position in mm or °."""
         unit = self.axis.position_unit
-        return with_unit(self.number(unit.from_si(value), decimals), unit.symbol)
+        return with_unit(self.write_number(unit.from_si(value), decimals), unit.symbol)
 
-    def deviation(self, value: float) -> str:
+    def write_deviation(self, value: float) -> str:
         """Write a deviation in µm or ″, with its sign."""
-        number = self.fine(value)
+        number = self.write_small_length(value)
         return number if number.startswith(MINUS) else f"+{number}"
 
-    def fine(self, value: float) -> str:
+    def write_small_length(self, value: float) -> str:
         """Write a small length in µm or ″."""
         unit = self.axis.deviation_unit
-        return with_unit(self.number(unit.from_si(value), 2), unit.symbol)
+        return with_unit(self.write_number(unit.from_si(value), 2), unit.symbol)
 
-    def visit(self, visit: ListedVisit) -> str:
+    def name_visit(self, visit: ListedVisit) -> str:
         """Name a visit: ``run 2 ↑  150.000 mm``."""
-        position = f"{self.position(visit.position):>12}"
+        position = f"{self.write_position(visit.position):>12}"
         return self.say(_VISIT.given(run=visit.run, arrow=visit.approach.arrow, position=position))
 
 
@@ -213,19 +213,23 @@ def tell_event(event: Event, visits: int, writer: AxisWriter) -> CaptureLine | N
     """Return what an operator reads of an event; None for those that only a display shows."""
     match event:
         case DatumTaken(position=position):
-            return _tell_line(_DATUM, _TAKEN_FOR.given(position=writer.position(position)), writer)
+            return _tell_line(_DATUM, _TAKEN_FOR.given(position=writer.write_position(position)), writer)
         case DatumHolds(visit=visit, difference=difference):
-            said = _HOLDS.given(difference=writer.deviation(difference), number=visit.number)
+            said = _HOLDS.given(difference=writer.write_deviation(difference), number=visit.number)
             return _tell_line(_DATUM, said, writer)
         case Closed(difference=difference, holds=holds):
-            said = (_CLOSED if holds else _SLIPPED).given(difference=writer.deviation(difference))
+            said = (_CLOSED if holds else _SLIPPED).given(difference=writer.write_deviation(difference))
             return _tell_line(_CLOSURE, said, writer)
         case NotChecked(target=target, approach=approach):
             return _tell_line(_DATUM, _NOT_READ_BEFORE.given(target=target, arrow=approach.arrow), writer)
         case Recorded(visit=visit, mean=mean):
             number = f"{visit.number:>{len(str(visits))}}/{visits}"
-            deviation = f"{writer.deviation(event.deviation):>12}"
-            said = _READ.given(visit=writer.visit(visit), deviation=deviation, range=writer.fine(mean.range))
+            deviation = f"{writer.write_deviation(event.deviation):>12}"
+            said = _READ.given(
+                visit=writer.name_visit(visit),
+                deviation=deviation,
+                range=writer.write_small_length(mean.range),
+            )
             return CaptureLine(number, writer.say(said))
         case _:
             return _tell_out_of_order(event, writer)
@@ -240,25 +244,25 @@ def _tell_out_of_order(event: Event, writer: AxisWriter) -> CaptureLine | None:
     match event:
         case Passed(visit=visit, seconds=seconds, drift=drift):
             said = (_NOTHING_TAKEN if drift is None else _DRIFTING).given(
-                visit=writer.visit(visit),
-                seconds=writer.number(seconds, 1),
-                drift=writer.deviation(drift or 0.0),
+                visit=writer.name_visit(visit),
+                seconds=writer.write_number(seconds, 1),
+                drift=writer.write_deviation(drift or 0.0),
             )
             line = _tell_line(_PASSED, said, writer)
         case Missed(visit=visit):
-            line = _tell_line(_MISSED, _STANDS_LATER.given(visit=writer.visit(visit)), writer)
+            line = _tell_line(_MISSED, _STANDS_LATER.given(visit=writer.name_visit(visit)), writer)
         case Repeated(visit=visit):
-            line = _tell_line(_AGAIN, _GONE_ON.given(visit=writer.visit(visit)), writer)
+            line = _tell_line(_AGAIN, _GONE_ON.given(visit=writer.name_visit(visit)), writer)
         case WrongDirection(visit=visit, approach=None):
-            said = _CAME_UNSEEN.given(visit=writer.visit(visit), right=SIDES[visit.approach])
+            said = _CAME_UNSEEN.given(visit=writer.name_visit(visit), right=SIDES[visit.approach])
             line = _tell_line(_WRONG, said, writer)
         case WrongDirection(visit=visit, approach=Approach() as approach):
-            named, right = writer.visit(visit), SIDES[visit.approach]
+            named, right = writer.name_visit(visit), SIDES[visit.approach]
             line = _tell_line(
                 _WRONG, _CAME_WRONG.given(visit=named, side=SIDES[approach], right=right), writer
             )
         case NotNext(target=target, approach=approach, visit=visit):
-            said = _IS_NOT_NEXT.given(target=target, arrow=approach.arrow, visit=writer.visit(visit))
+            said = _IS_NOT_NEXT.given(target=target, arrow=approach.arrow, visit=writer.name_visit(visit))
             line = _tell_line(_OTHER, said, writer)
         case _:
             line = _tell_out_of_sight(event, writer)
@@ -269,16 +273,16 @@ def _tell_out_of_sight(event: Event, writer: AxisWriter) -> CaptureLine | None:
     line: CaptureLine | None = None
     match event:
         case TrackLost(silence=silence):
-            line = _tell_line(_SILENT, _NO_READING.given(seconds=writer.number(silence, 1)), writer)
+            line = _tell_line(_SILENT, _NO_READING.given(seconds=writer.write_number(silence, 1)), writer)
         case BeamHeld(message=message, seconds=seconds):
-            said = _BACK_AGAIN.given(seconds=writer.number(seconds, 2), message=message)
+            said = _BACK_AGAIN.given(seconds=writer.write_number(seconds, 2), message=message)
             line = _tell_line(_BEAM, said, writer)
         case Frozen(seconds=seconds):
-            line = _tell_line(_FROZEN, _STANDS_STILL.given(seconds=writer.number(seconds, 0)), writer)
+            line = _tell_line(_FROZEN, _STANDS_STILL.given(seconds=writer.write_number(seconds, 0)), writer)
         case Elsewhere(position=position, factor=None):
-            line = CaptureLine("", writer.say(_NO_TARGET.given(position=writer.position(position))))
+            line = CaptureLine("", writer.say(_NO_TARGET.given(position=writer.write_position(position))))
         case Elsewhere(position=position, factor=float(factor)):
-            said = _MISREAD.given(position=writer.position(position), why=say_misread(factor, writer))
+            said = _MISREAD.given(position=writer.write_position(position), why=say_misread(factor, writer))
             line = _tell_line(_DISPLAY, said, writer)
         case _:
             line = _tell_asked_and_told(event, writer)
@@ -290,24 +294,31 @@ def _tell_asked_and_told(event: Event, writer: AxisWriter) -> CaptureLine | None
     match event:
         case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
             why = _say_departure(event.position - expected, writer)
-            line = _tell_line(_DOUBT, _IN_DOUBT.given(visit=writer.visit(visit), why=why), writer)
+            line = _tell_line(_DOUBT, _IN_DOUBT.given(visit=writer.name_visit(visit), why=why), writer)
         case Unclear(target=target, approach=approach):
             said = _MAY_BE.given(
                 target=target, arrow=approach.arrow, candidates=write_candidates(event, writer)
             )
             line = _tell_line(_WHERE, said, writer)
         case Presumed(visit=visit, share=share):
-            said = _TAKEN_AS_LIKELY.given(visit=writer.visit(visit), share=writer.number(100 * share, 1))
+            said = _TAKEN_AS_LIKELY.given(
+                visit=writer.name_visit(visit), share=writer.write_number(100 * share, 1)
+            )
             line = _tell_line(_LIKELY, said, writer)
         case Placed(visit=visit):
-            line = CaptureLine(writer.say(_PLACED), writer.visit(visit) if visit else writer.say(_NO_VISIT))
+            line = CaptureLine(
+                writer.say(_PLACED), writer.name_visit(visit) if visit else writer.say(_NO_VISIT)
+            )
         case Retake(first=first, last=last):
             said = (_TAKE_ONE if last == first else _TAKE_SEVERAL).given(
-                first=first.number, last=last.number, visit=writer.visit(first), side=SIDES[first.approach]
+                first=first.number,
+                last=last.number,
+                visit=writer.name_visit(first),
+                side=SIDES[first.approach],
             )
             line = _tell_line(_RETAKE, said, writer)
         case Skipped(visit=visit):
-            line = _tell_line(_SKIPPED, _LEFT_OUT.given(visit=writer.visit(visit)), writer)
+            line = _tell_line(_SKIPPED, _LEFT_OUT.given(visit=writer.name_visit(visit)), writer)
         case Commented(text=text):
             line = CaptureLine(writer.say(_COMMENT), text)
     return line
@@ -319,9 +330,9 @@ def say_halted(event: Event | None, writer: AxisWriter) -> str:
         case ZeroLost() | ScaleChanged():
             return writer.say(_say_failure(event, writer))
         case MovedBeforeDatum(position=position):
-            return writer.say(_DATUM_UNKNOWN.given(position=writer.position(position)))
+            return writer.say(_DATUM_UNKNOWN.given(position=writer.write_position(position)))
         case DatumMoved(visit=visit, difference=difference, void=void):
-            moved = _HAS_MOVED.given(difference=writer.deviation(difference), number=visit.number)
+            moved = _HAS_MOVED.given(difference=writer.write_deviation(difference), number=visit.number)
             return writer.say(moved.given(void=_say_void(void, writer)))
         case Unclear():
             return writer.say(_say_question(event, writer))
@@ -334,7 +345,7 @@ def say_halted(event: Event | None, writer: AxisWriter) -> str:
 
 def _write_short(seconds: float, writer: AxisWriter) -> str:
     """Write a time with two digits that count."""
-    return writer.general(float(f"{seconds:.2g}"))
+    return writer.write_general(float(f"{seconds:.2g}"))
 
 
 def _say_failure(event: ZeroLost | ScaleChanged, writer: AxisWriter) -> Words:
@@ -350,11 +361,11 @@ def _say_question(event: Unclear, writer: AxisWriter) -> Words:
     visit = event.candidates[0][0]
     if event.expected is not None and visit is not None:
         departs = _say_departure(event.position - event.expected, writer)
-        return _READ_DEPARTS.given(number=visit.number, visit=writer.visit(visit), departs=departs)
+        return _READ_DEPARTS.given(number=visit.number, visit=writer.name_visit(visit), departs=departs)
     return _LEAVES_OPEN.given(
         target=event.target,
         arrow=event.approach.arrow,
-        position=writer.position(event.position),
+        position=writer.write_position(event.position),
         candidates=write_candidates(event, writer),
     )
 
@@ -369,9 +380,9 @@ def say_misread(factor: float, writer: AxisWriter) -> Words:
         case _ if isclose(factor, 1 / _INCH):
             return _SHOWS_MILLIMETRES
         case _ if factor in {_THOUSAND, 1 / _THOUSAND}:
-            return _OTHER_UNIT.given(factor=writer.general(factor))
+            return _OTHER_UNIT.given(factor=writer.write_general(factor))
         case _:
-            return _OTHER_PATH.given(factor=writer.general(factor))
+            return _OTHER_PATH.given(factor=writer.write_general(factor))
 
 
 def say_switched(factor: float, writer: AxisWriter) -> Words:
@@ -380,17 +391,17 @@ def say_switched(factor: float, writer: AxisWriter) -> Words:
         return _TO_INCHES
     if isclose(factor, 1 / _INCH):
         return _TO_MILLIMETRES
-    return _TO_ANOTHER.given(factor=writer.general(factor))
+    return _TO_ANOTHER.given(factor=writer.write_general(factor))
 
 
 def _say_departure(difference: float, writer: AxisWriter) -> Words:
-    return _DEPARTS.given(difference=writer.deviation(difference))
+    return _DEPARTS.given(difference=writer.write_deviation(difference))
 
 
 def write_candidates(event: Unclear, writer: AxisWriter) -> str:
     """Write what an unclear stop may be: ``visit 12 (run 2) 60 %, visit 2 (run 1) 39 %, no visit 1 %``."""
     return ", ".join(
-        writer.say(write_candidate(visit, writer.number(100 * share, 0)))
+        writer.say(write_candidate(visit, writer.write_number(100 * share, 0)))
         for visit, share in event.candidates
         if share >= WORTH_NAMING
     )
@@ -408,7 +419,7 @@ def _say_void(void: Sequence[ListedVisit], writer: AxisWriter) -> Words:
     return (_SEVERAL_VOID if len(void) > 1 else _ONE_VOID).given(
         first=first.number,
         last=last.number,
-        position=writer.position(first.position),
+        position=writer.write_position(first.position),
         arrow=first.approach.arrow,
         run=first.run,
     )
@@ -420,17 +431,17 @@ def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None 
     first, again = (_GO_ON, _GO_ON_AGAIN) if progress.taken else (_START, _START_AGAIN)
     step = (again if progress.attempt > 1 else first).given(
         visit=visit.number,
-        position=writer.position(visit.position),
+        position=writer.write_position(visit.position),
         side=SIDES[visit.approach],
         run=visit.run,
         attempt=progress.attempt,
     )
     steps = [writer.say(step)]
     if progress.zero is None and progress.datum is not None:
-        steps.insert(0, writer.say(_STAND_STILL.given(position=writer.position(progress.datum))))
+        steps.insert(0, writer.say(_STAND_STILL.given(position=writer.write_position(progress.datum))))
     elif progress.must_check:
         last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
-        position, side = writer.position(last.position), SIDES[last.approach]
+        position, side = writer.write_position(last.position), SIDES[last.approach]
         steps.insert(0, writer.say(_COME_BACK.given(position=position, side=side)))
     elif isinstance(event, ZeroLost | DatumMoved):
         steps.insert(0, writer.say(_SET_ZERO))

@@ -122,13 +122,13 @@ class PlaceInProgram:
         before, self._before = self._before, (stop, len(route.turns), route.breaks)
         self.undecided.append(stop)
         if before is not None and before[1:] == self._before[1:] and self._is_same(before[0], stop):
-            self._guesses = [self._gone_on(each, before[0], stop) for each in self._guesses]
+            self._guesses = [self._go_on(each, before[0], stop) for each in self._guesses]
             return
         found: dict[tuple[int, bool, tuple[int | None, ...]], list[_Guess]] = defaultdict(list)
         for guess in self._guesses:
-            for after in self._explained(guess, stop, route):
+            for after in self._explain(guess, stop, route):
                 found[after.place, after.is_told, after.files].append(after)
-        merged = [_merged(alike) for alike in found.values()]
+        merged = [_merge(alike) for alike in found.values()]
         best = max(each.weight for each in merged)
         self._guesses = [
             replace(each, weight=each.weight - best) for each in merged if each.weight > best + _HOPELESS
@@ -138,7 +138,7 @@ class PlaceInProgram:
         """Tell whether the axis only went on a little, on its way to the same target."""
         return before.target == stop.target and abs(before.position - stop.position) <= self._close
 
-    def _gone_on(self, guess: _Guess, before: TargetStandstill, stop: TargetStandstill) -> _Guess:
+    def _go_on(self, guess: _Guess, before: TargetStandstill, stop: TargetStandstill) -> _Guess:
         """Return an explanation after the axis went on a little; now it may be seen how it came."""
         if before.heading is not None or stop.heading is None or guess.place < 0:
             return replace(guess, files=(*guess.files, guess.files[-1]))
@@ -147,13 +147,13 @@ class PlaceInProgram:
             return replace(guess, files=(*guess.files, guess.place))
         return replace(guess, weight=guess.weight + _STRAY, files=(*guess.files, None))
 
-    def decided(self) -> Iterator[tuple[TargetStandstill, int | None, float]]:
+    def settle_stops(self) -> Iterator[tuple[TargetStandstill, int | None, float]]:
         """Yield the stops that are clear by now, with the index of their visit and how probable that is.
 
         The index is None for no visit.
         """
         while self.undecided:
-            odds = self.odds()
+            odds = self.list_odds()
             best = max(odds, key=odds.__getitem__)
             if not _is_clear(odds, best):
                 return
@@ -163,7 +163,7 @@ class PlaceInProgram:
                 self._keep_pace(best, stop)
             yield stop, best, odds[best]
 
-    def odds(self) -> dict[int | None, float]:
+    def list_odds(self) -> dict[int | None, float]:
         """Return how probable it is which visit the first undecided stop is; None for none."""
         odds: dict[int | None, float] = defaultdict(float)
         at = -len(self.undecided)
@@ -172,7 +172,7 @@ class PlaceInProgram:
         total = sum(odds.values())
         return {index: each / total for index, each in odds.items()}
 
-    def told(self, index: int | None) -> TargetStandstill:
+    def take_word(self, index: int | None) -> TargetStandstill:
         """Take the operator's word which visit the first undecided stop is; return that stop."""
         at = -len(self.undecided)
         if not any(guess.files[at] == index for guess in self._guesses) and index is not None:
@@ -191,11 +191,11 @@ class PlaceInProgram:
             if each.files[at] == index or not is_sure
         ]
 
-    def _explained(self, guess: _Guess, stop: TargetStandstill, route: Route) -> Iterator[_Guess]:
+    def _explain(self, guess: _Guess, stop: TargetStandstill, route: Route) -> Iterator[_Guess]:
         """Yield the explanations that one becomes by a stop."""
-        candidates = self._programme.at(stop.target, stop.heading)
+        candidates = self._programme.list_visits_at(stop.target, stop.heading)
         for index in candidates:
-            weight = guess.weight + self._weight(guess, index, stop, route, len(candidates))
+            weight = guess.weight + self._weigh(guess, index, stop, route, len(candidates))
             if weight > -inf:
                 yield _Guess(
                     index,
@@ -207,12 +207,12 @@ class PlaceInProgram:
                     files=(*guess.files, None if stop.heading is None else index),
                 )
         is_on_its_way = guess.is_told and any(
-            self._left_the_start(route.turns[guess.turns :], index, route) for index in candidates
+            self._has_left_start(route.turns[guess.turns :], index, route) for index in candidates
         )
-        stray = guess.weight + (_STRAY if is_on_its_way else self._stray(guess, stop))
+        stray = guess.weight + (_STRAY if is_on_its_way else self._weigh_stray(guess, stop))
         yield replace(guess, weight=stray, files=(*guess.files, None))
 
-    def _stray(self, guess: _Guess, stop: TargetStandstill) -> float:
+    def _weigh_stray(self, guess: _Guess, stop: TargetStandstill) -> float:
         """Return how probable it is that a stop is none of the program's."""
         visits, following = self._programme.visits, guess.place + 1
         if guess.is_told and following < len(visits):
@@ -223,7 +223,7 @@ class PlaceInProgram:
         is_wrong = sides and stop.heading is not None and stop.heading not in sides
         return _WRONG_SIDE if is_wrong else _STRAY
 
-    def _weight(
+    def _weigh(
         self, guess: _Guess, index: int, stop: TargetStandstill, route: Route, candidates: int
     ) -> float:
         """Return how probable it is that the program, where a guess has it, comes to stop at a visit."""
@@ -232,46 +232,46 @@ class PlaceInProgram:
         is_seen = route.breaks == guess.breaks
         jump = (_BEGUN_ANEW if programme.begins_part(index) else _ANYWHERE) - log(candidates)
         if guess.is_told:
-            return max(jump, self._from_rest(here, index, turns, route))
+            return max(jump, self._weigh_from_rest(here, index, turns, route))
         if not is_seen:
             jump += _ANY_TIME
         else:
-            jump = max(jump, self._begun_anew(index, turns) - log(candidates))
+            jump = max(jump, self._weigh_new_beginning(index, turns) - log(candidates))
         if index == here:
             return max(jump, _REPEATED + (0.0 if is_seen else _ANY_TIME))
         if index < here:
             return jump
-        unseen = self._unseen(here, index)
+        unseen = self._count_unseen(here, index)
         if not is_seen:
             is_timed = guess.time is not None and self._settings.feed > 0
             skipped = _UNSEEN + (_EACH_UNSEEN if is_timed else _SKIPPED) * unseen if unseen else 0.0
-            return max(jump, skipped + self._in_time(guess, index, stop))
-        went_back = unseen < _NEAR and len(turns) > len(programme.turns(here, index))
+            return max(jump, skipped + self._weigh_by_time(guess, index, stop))
+        went_back = unseen < _NEAR and len(turns) > len(programme.list_turns(here, index))
         detour = _DETOUR + _SKIPPED * unseen if went_back else -inf
-        return max(jump, detour, self._by_route(guess, index, turns))
+        return max(jump, detour, self._weigh_by_route(guess, index, turns))
 
-    def _unseen(self, here: int, index: int) -> int:
+    def _count_unseen(self, here: int, index: int) -> int:
         """Return how many visits lie between two; −1 for one that comes not later."""
         between = range(here + 2, index + 1)  # by their numbers
         return len(between) - len(self.left_out.intersection(between)) if index > here else -1
 
-    def _begun_anew(self, index: int, turns: Sequence[float]) -> float:
+    def _weigh_new_beginning(self, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that a part began anew, by its own way; its first rests may be unseen."""
-        unseen, way = self._programme.since_beginning(index)
+        unseen, way = self._programme.look_back_to_beginning(index)
         known = _BEGUN_ANEW + _TURN * min(len(turns), _TURNS_TO_BEGIN)
         if not unseen:
             return known
-        came_so = unseen < _NEAR and self._likeness(turns[-len(way) :], way) == _TURN * len(way)
+        came_so = unseen < _NEAR and self._weigh_turns(turns[-len(way) :], way) == _TURN * len(way)
         return known + _SKIPPED * unseen if came_so else -inf
 
-    def _from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
+    def _weigh_from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
         """Return how probable a first visit is, after which the operator was told to begin."""
-        visits, unseen = self._programme.visits, self._unseen(here, index)
+        visits, unseen = self._programme.visits, self._count_unseen(here, index)
         if unseen < 0:
             return -inf
         skipped = _SKIPPED * unseen
-        if here < 0 and self._left_the_start(turns, index, route):
-            expected = len(self._programme.turns(-1, index))
+        if here < 0 and self._has_left_start(turns, index, route):
+            expected = len(self._programme.list_turns(-1, index))
             return skipped + _TURN * expected + (_WAY_TO_START if len(turns) > expected else 0.0)
         if unseen and self._may_have_begun_unseen(here, index, route):
             return _UNSEEN + _EACH_IN_SILENCE * unseen
@@ -286,31 +286,31 @@ class PlaceInProgram:
 
     def _may_have_begun_unseen(self, here: int, index: int, route: Route) -> bool:
         """Tell whether the program may have come so far while nobody saw it: most of that way, at least."""
-        needed = self._programme.seconds(here, index) - self._programme.seconds(here, here + 1)
+        needed = self._programme.compute_time(here, index) - self._programme.compute_time(here, here + 1)
         return route.breaks > 0 and route.silence >= needed / 2
 
-    def _left_the_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
+    def _has_left_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
         """Tell whether the axis came from the start of the program, as the program does."""
-        expected = self._programme.turns(-1, index)
+        expected = self._programme.list_turns(-1, index)
         before = turns[: max(0, len(turns) - len(expected))]
         came_from = before[-1] if before else route.first if not route.breaks else None
         if came_from is None or abs(came_from - self._programme.start) > self._close:
             return False
-        return self._likeness(turns[len(before) :], expected) == _TURN * len(expected)
+        return self._weigh_turns(turns[len(before) :], expected) == _TURN * len(expected)
 
-    def _by_route(self, guess: _Guess, index: int, turns: Sequence[float]) -> float:
+    def _weigh_by_route(self, guess: _Guess, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that the program went on to a visit, by where the axis turned round."""
         here = guess.place
-        unseen = self._unseen(here, index)
+        unseen = self._count_unseen(here, index)
         skipped = _SKIPPED * unseen
-        expected = self._programme.turns(here, index)
+        expected = self._programme.list_turns(here, index)
         if not guess.is_heading_known and expected[:1] == [
             TurningPoint(self._programme.visits[here].position, None)
         ]:
             expected = expected[1:]  # whether it turned round where it stood nobody could see
-        return skipped + self._likeness(turns, expected)
+        return skipped + self._weigh_turns(turns, expected)
 
-    def _likeness(self, turns: Sequence[float], expected: Sequence[TurningPoint]) -> float:
+    def _weigh_turns(self, turns: Sequence[float], expected: Sequence[TurningPoint]) -> float:
         """Return how well turning points are those of a program, whose overrun may be another one."""
         if len(turns) != len(expected):
             return -inf
@@ -325,9 +325,9 @@ class PlaceInProgram:
     def _is_beyond(self, seen: float, planned: float, target: float) -> bool:
         return abs(seen - target) > self._settings.tolerance and (seen > target) == (planned > target)
 
-    def _in_time(self, guess: _Guess, index: int, stop: TargetStandstill) -> float:
+    def _weigh_by_time(self, guess: _Guess, index: int, stop: TargetStandstill) -> float:
         """Return how probable the time is that the program took to a visit while nobody saw it."""
-        expected = self._programme.seconds(guess.place, index)
+        expected = self._programme.compute_time(guess.place, index)
         if guess.time is None or not self._settings.feed:
             return _ANY_TIME
         seconds = max(stop.mean.time - guess.time, 1e-3)
@@ -337,11 +337,11 @@ class PlaceInProgram:
             spread = hypot(spread, self._settings.stay / expected)
         steady = exp(-((off / spread) ** 2) / 2) / (spread * sqrt(2 * pi))
         held = exp(_HELD - off) if off > 0 else 0.0
-        return max(log(steady + held + self._hurried(guess.place, index, seconds) + 1e-300), _TOO_FAST)
+        return max(log(steady + held + self._weigh_hurry(guess.place, index, seconds) + 1e-300), _TOO_FAST)
 
-    def _hurried(self, here: int, there: int, seconds: float) -> float:
+    def _weigh_hurry(self, here: int, there: int, seconds: float) -> float:
         """Return how probable it is that the program left out rests on its way to a visit."""
-        stay, planned = self._settings.stay, self._programme.seconds(here, there)
+        stay, planned = self._settings.stay, self._programme.compute_time(here, there)
         if seconds < (planned - (there - here) * stay) / FASTEST:
             return 0.0
         return exp(_HURRIED + _EACH_REST * max(1.0, (planned - seconds) / stay))
@@ -353,7 +353,7 @@ class PlaceInProgram:
             return
         seconds = stop.mean.time - before[1]
         if seconds > 0:
-            self._paces.append(log(seconds / self._programme.seconds(before[0], index)))
+            self._paces.append(log(seconds / self._programme.compute_time(before[0], index)))
 
     @property
     def _pace(self) -> float:
@@ -375,7 +375,7 @@ def _is_clear(odds: Mapping[int | None, float], best: int | None) -> bool:
     return 1 - odds[best] <= _DOUBT and others <= _DOUBT_OF_OTHERS
 
 
-def _merged(alike: Sequence[_Guess]) -> _Guess:
+def _merge(alike: Sequence[_Guess]) -> _Guess:
     """Return the best of explanations that end alike, with the weight of all."""
     best = max(alike, key=lambda each: each.weight)
     return replace(best, weight=best.weight + log(sum(exp(each.weight - best.weight) for each in alike)))

@@ -77,7 +77,7 @@ class Progress:
         rest = self.visits[self._reached :]
         return tuple(visit for visit in rest if visit.part == rest[0].part)
 
-    def after(self, event: Event) -> Progress:
+    def take_event(self, event: Event) -> Progress:
         """Return the progress after something has happened."""
         changes: dict[str, Any] = {}
         match event:
@@ -88,22 +88,22 @@ class Progress:
             case Recorded(visit=visit):
                 read = {**self.read, (visit.target, visit.approach): event}
                 filed = self.filed | {visit.number}
-                changes = {**self._beyond(visit), "read": MappingProxyType(read), "filed": filed}
+                changes = {**self._go_beyond(visit), "read": MappingProxyType(read), "filed": filed}
             case Missed(visit=visit):
-                changes = self._beyond(visit)
+                changes = self._go_beyond(visit)
             case ZeroLost() | DatumMoved():
-                changes = self._begun_again()
+                changes = self._begin_again()
             case ScaleChanged(visit=ListedVisit() as visit):
-                changes = self._taken_again(visit, visit)
+                changes = self._take_again(visit, visit)
             case Resumed():
-                changes = self._unwatched()
+                changes = self._change_unwatched()
             case Finished() | Ended():
                 changes = {"is_over": True}
             case _:
-                changes = self._told(event)
+                changes = self._change_by_operator(event)
         return replace(self, **changes)
 
-    def _told(self, event: Event) -> dict[str, Any]:
+    def _change_by_operator(self, event: Event) -> dict[str, Any]:
         """Return what changes by what the operator is asked, answers and orders."""
         match event:
             case Unclear():
@@ -111,13 +111,13 @@ class Progress:
             case Placed():
                 return {"question": None}
             case Skipped(visit=visit):
-                return {**self._beyond(visit), "skipped": self.skipped | {visit.number}}
+                return {**self._go_beyond(visit), "skipped": self.skipped | {visit.number}}
             case Retake(first=first, last=last):
-                return self._taken_again(first, last)
+                return self._take_again(first, last)
             case _:
                 return {}
 
-    def _unwatched(self) -> dict[str, Any]:
+    def _change_unwatched(self) -> dict[str, Any]:
         """Return what changes by a time in which nobody watched the instrument.
 
         What was read under the datum can be read again, and shows whether it still holds. Where nothing was,
@@ -127,7 +127,7 @@ class Progress:
             return {"must_check": True, "question": None}
         return {"zero": self._zero_before_datum, "question": None, "before_datum": self.filed}
 
-    def _begun_again(self) -> dict[str, Any]:
+    def _begin_again(self) -> dict[str, Any]:
         """Return what changes when the datum is gone: its part of the test begins anew, if it had begun.
 
         What was to be taken again is given up: under another datum it would not compare with the rest of its
@@ -141,7 +141,7 @@ class Progress:
         return {
             "taken": taken,
             "again": None,
-            "attempts": self._attempts_after(part) if taken < self._reached else self.attempts,
+            "attempts": self._count_attempt(part) if taken < self._reached else self.attempts,
             "zero": self._zero_before_datum,
             "read": MappingProxyType({}),
             "must_check": False,
@@ -151,7 +151,7 @@ class Progress:
             "is_over": not part,
         }
 
-    def _taken_again(self, first: ListedVisit, last: ListedVisit) -> dict[str, Any]:
+    def _take_again(self, first: ListedVisit, last: ListedVisit) -> dict[str, Any]:
         """Return what changes when visits are taken again; under another datum it is another attempt."""
         ordered, reached = frozenset(range(first.number, last.number + 1)), self._reached
         changes: dict[str, Any] = {
@@ -162,16 +162,16 @@ class Progress:
         }
         if ordered & self.before_datum:
             changes |= {
-                "attempts": self._attempts_after(first.part),
+                "attempts": self._count_attempt(first.part),
                 "filed": self.filed - ordered,
                 "before_datum": self.before_datum - ordered,
             }
         return changes
 
-    def _attempts_after(self, part: int) -> Mapping[int, int]:
+    def _count_attempt(self, part: int) -> Mapping[int, int]:
         return MappingProxyType({**self.attempts, part: self.attempts.get(part, 1) + 1})
 
-    def _beyond(self, visit: ListedVisit) -> dict[str, Any]:
+    def _go_beyond(self, visit: ListedVisit) -> dict[str, Any]:
         """Return what changes when a visit is taken, or will not be."""
         if self.again is None or visit.number < self.again[0]:
             return {"taken": visit.number}
@@ -182,7 +182,7 @@ class Progress:
         """What was taken before visits were taken again."""
         return self.taken if self.again is None else self.again[1]
 
-    def retake(self, text: str, place: Place) -> Retake:
+    def make_retake(self, text: str, place: Place) -> Retake:
         """Return what takes visits again.
 
         `text`: The number of a visit, or ``run`` and that of a run.

@@ -25,14 +25,14 @@ MOMENTARY = (Moving, Settling)
 _OTHER_NAMES = {"datum-taken": "datum", "recorded": "reading", "commented": "comment"}
 
 
-def _name(kind: type) -> str:
+def _name_kind(kind: type) -> str:
     """Return the name of an event's records: ``moved-before-datum`` of `MovedBeforeDatum`."""
     name = re.sub("(?<=[a-z])(?=[A-Z])", "-", kind.__name__).lower()
     return _OTHER_NAMES.get(name, name)
 
 
 _NAMES: Mapping[type, str] = MappingProxyType(
-    {kind: _name(kind) for kind in get_args(Event) if kind not in MOMENTARY}
+    {kind: _name_kind(kind) for kind in get_args(Event) if kind not in MOMENTARY}
 )
 _KINDS: Mapping[str, type] = MappingProxyType({name: kind for kind, name in _NAMES.items()})
 #: Fields that a record leaves out where they say nothing, with what they are then.
@@ -114,7 +114,7 @@ def _read_mean(record: Mapping[str, Any]) -> Mean:
 _Reader: TypeAlias = Callable[[Mapping[str, Any], Sequence[ListedVisit]], Any]
 
 
-def _number(name: str) -> _Reader:
+def _read_number(name: str) -> _Reader:
     return lambda record, _visits: require_finite(record[name])
 
 
@@ -140,7 +140,7 @@ _READERS: Mapping[str, _Reader] = MappingProxyType(
         "reason": lambda record, _visits: str(record["reason"]),
         "text": lambda record, _visits: str(record["text"]),
         **{
-            name: _number(name)
+            name: _read_number(name)
             for name in (
                 *("position", "difference", "seconds", "silence", "spacing", "largest", "late", "expected"),
                 *("factor", "drift", "share"),

@@ -29,7 +29,7 @@ class Pace:
         self._elapsed = 0.0
         self._count = 0
 
-    def gap(self, before: float, now: float, lost: int) -> float:
+    def measure_gap(self, before: float, now: float, lost: int) -> float:
         """Return how long no reading came, s.
 
         `before`, `now`: When the last reading was taken, and this one, s.
@@ -141,9 +141,9 @@ class Window:
                     each.popleft()
 
     def _is_longer_than_needed(self) -> bool:
-        return len(self._entries) > 1 and self._between(self._entries[1]) >= self._still
+        return len(self._entries) > 1 and self._bound_time_since(self._entries[1]) >= self._still
 
-    def _between(self, first: _Entry) -> float:
+    def _bound_time_since(self, first: _Entry) -> float:
         """Return how long ago a reading was taken at least, at the latest one, s."""
         latest = self._entries[-1]
         return latest.time - latest.within - first.time
@@ -161,7 +161,7 @@ class Window:
     @property
     def duration(self) -> float:
         """From the first to the last reading at least, s; 0 for none."""
-        return max(0.0, self._between(self._entries[0])) if self._entries else 0.0
+        return max(0.0, self._bound_time_since(self._entries[0])) if self._entries else 0.0
 
     @property
     def is_still(self) -> bool:
@@ -175,7 +175,7 @@ class Window:
         lowest, highest = self.bounds
         return max(highest, value) - min(lowest, value) <= self._stability
 
-    def mean(self) -> Mean:
+    def compute_mean(self) -> Mean:
         """Return the mean of the readings at the end of the standstill; there is one at least.
 
         What came before has shown that the axis stands still. The last of its arrival may lie in it, for that

@@ -39,4 +39,4 @@ class Stay:
     def keep(self, window: Window, time: float, every: float) -> None:
         """Keep the mean of a standstill that goes on; of the last one the axis may have begun to leave."""
         if time - self.looked >= every:
-            self.looked, self.last, self.ahead = time, self.ahead, window.mean()
+            self.looked, self.last, self.ahead = time, self.ahead, window.compute_mean()

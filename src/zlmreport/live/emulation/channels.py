@@ -25,7 +25,7 @@ _KEPT, _AWAITED = 1 << 16, 1.0
 _CERTAIN = 3
 
 
-class Channel(Protocol):
+class HostLine(Protocol):
     """A line to whoever reads the emulated instrument."""
 
     address: str  #: As a job names it: a path, or ``socket://host:number``.
@@ -124,12 +124,12 @@ class PseudoTerminal(Closable):
         It gets less, or from the beginning it is less than was sent, and not only for the moment in which it
         is still on its way.
         """
-        unread = self._waiting()
+        unread = self._count_waiting()
         self._behind = self._behind + 1 if unread < self._sent < _CHUNK else 0
         self.is_read |= unread < self._unread or self._behind >= _CERTAIN
         self._unread = unread
 
-    def _waiting(self) -> int:
+    def _count_waiting(self) -> int:
         """Return how many bytes wait for a host."""
         import fcntl  # noqa: PLC0415 - where there are pseudo-terminals
         import termios  # noqa: PLC0415
@@ -215,7 +215,7 @@ _BEAT = 0.01
 
 def serve(
     emulator: Emulator,
-    channel: Channel,
+    channel: HostLine,
     troubles: Troubles,
     *,
     is_over: Callable[[], bool] = lambda: False,

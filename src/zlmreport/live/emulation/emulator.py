@@ -43,9 +43,9 @@ class MovingAxis:
 
     def position(self, time: float) -> float:
         """Return where the axis is, m, with noise and drift."""
-        return self._on_course(time) + self.drift * time + self._shaken(time)
+        return self._find_place_on_course(time) + self.drift * time + self._shake(time)
 
-    def _on_course(self, time: float) -> float:
+    def _find_place_on_course(self, time: float) -> float:
         stops = [*self.course, self.course[0]]
         ways = [abs(there - here) for here, there in pairwise(stops)]
         leaves = [0.0, *accumulate(self.dwell + way / self.feed for way in ways)]
@@ -55,7 +55,7 @@ class MovingAxis:
         here, there = stops[leg], stops[leg + 1]
         return here + math.copysign(min(travelled, ways[leg]), there - here)
 
-    def _shaken(self, time: float) -> float:
+    def _shake(self, time: float) -> float:
         if not self.noise:
             return 0.0
         return Random(f"{self.seed} {round(time / _NOISE_GRAIN)}").gauss(0.0, self.noise)  # noqa: S311 - no secret

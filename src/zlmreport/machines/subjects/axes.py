@@ -25,19 +25,21 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     named: list[str] = []
     unmeasured = {each.name: each for each in machine.unmeasured}
     for name in ERRORS:
-        unit, curve = find_unit_of(name), machine.curve(name)
+        unit, curve = find_unit_of(name), machine.find_curve(name)
         if curve is None:
             missing = unmeasured[name]
-            bound = say.quantity(missing.bound, unit)
+            bound = say.write_quantity(missing.bound, unit)
             named.append(f"{name} ≤ {bound}")
             origin = say(_BOUND_ASSUMED if missing.is_assumed else _BOUND)
-            largest = f"≤ {say.general(unit.from_si(missing.bound))}"
+            largest = f"≤ {say.write_general(unit.from_si(missing.bound))}"
             bounded.append((Symbol(name), largest, unit.symbol, "", "", origin))
             continue
         size = float(curve.values[0]) if curve.is_single else curve.span
-        stretch = "" if curve.is_single else say.span(float(curve.nodes[0]), float(curve.nodes[-1]))
-        places = ", ".join(f"{axis} {say.millimetres(place)}" for axis, place in curve.line.others.items())
-        value = say.pair(size, curve.largest_uncertainty, unit)
+        stretch = "" if curve.is_single else say.write_span(float(curve.nodes[0]), float(curve.nodes[-1]))
+        places = ", ".join(
+            f"{axis} {say.write_millimetres(place)}" for axis, place in curve.line.others.items()
+        )
+        value = say.write_pair(size, curve.largest_uncertainty, unit)
         known.append((Symbol(name), value, unit.symbol, stretch, places, curve.source))
     columns = (
         Column(say(_ERROR)), make_right_column(say(_SIZE)), Column(say(_UNIT)), Column(say(_RANGE), "mm"),
@@ -69,20 +71,20 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
     found = map_volume(machine, space)
     place = found.largest
     at = ", ".join(
-        f"{axis} {say.millimetres(float(grid[index]))}"
+        f"{axis} {say.write_millimetres(float(grid[index]))}"
         for axis, grid, index in zip(AXES, found.grids, place, strict=True)
     )
-    size = say.pair(float(found.length[place]), float(found.expanded_uncertainty[place]), MICROMETRE)
-    more = say.number(MICROMETRE.from_si(2.0 * float(found.bound[place])), 1)
+    size = say.write_pair(float(found.length[place]), float(found.expanded_uncertainty[place]), MICROMETRE)
+    more = say.write_number(MICROMETRE.from_si(2.0 * float(found.bound[place])), 1)
     box = ", ".join(
-        f"{axis} {say.span(float(low), float(high))}"
+        f"{axis} {say.write_span(float(low), float(high))}"
         for axis, low, high in zip(AXES, space.low, space.high, strict=True)
     )
     rows = (
         (
             Symbol(each.name),
-            say.micrometres(each.span),
-            say.micrometres(float(each.expanded_uncertainty.max())),
+            say.write_micrometres(each.span),
+            say.write_micrometres(float(each.expanded_uncertainty.max())),
         )
         for each in predict_diagonals(machine, space)
     )

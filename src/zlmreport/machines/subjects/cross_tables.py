@@ -34,9 +34,9 @@ def _lay_out_tables(made: CrossMade, say: Sayer) -> Section:
         (
             each.input,
             each.output,
-            say.span(float(each.positions[0]), float(each.positions[-1])),
+            say.write_span(float(each.positions[0]), float(each.positions[-1])),
             str(len(each.positions)),
-            say.micrometres(float(np.ptp(each.values))),
+            say.write_micrometres(float(np.ptp(each.values))),
         )
         for each in made.decoded
     ]
@@ -76,7 +76,8 @@ def say_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Paragr
     if found.largest:
         sizes.append((say(_LARGEST), *found.largest))
     left = "; ".join(
-        f"{name} {say.micrometres(before)} → {say.micrometres(after)} µm" for name, before, after in sizes
+        f"{name} {say.write_micrometres(before)} → {say.write_micrometres(after)} µm"
+        for name, before, after in sizes
     )
     return Paragraph(say(_BRIEFLY.given(errors=", ".join(plan.taken), left=left)))
 
@@ -92,9 +93,9 @@ def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
     said = _TRIAL.given(
         output=table.output,
         input=table.input,
-        low=say.millimetres(float(table.positions[0])),
-        at=say.millimetres(middle),
-        peak=say.micrometres(peak),
+        low=say.write_millimetres(float(table.positions[0])),
+        at=say.write_millimetres(middle),
+        peak=say.write_micrometres(peak),
     )
     return Section("trial", say(_TRIAL_TITLE), (Paragraph(say(said)),))
 
@@ -116,7 +117,8 @@ def lay_out_confirmation(found: CrossConfirmation, say: Sayer) -> Section:
         part, u = round_pair(found.applied, u_shown, say.language.decimal_sign)
         said = said.given(part=part, u=u)
     rows = [
-        (each.name, *map(say.micrometres, (each.before, each.forecast, each.after))) for each in found.circles
+        (each.name, *map(say.write_micrometres, (each.before, each.forecast, each.after)))
+        for each in found.circles
     ]
     columns = (
         Column(say(_CIRCLE)), make_right_column(say(_BEFORE), "µm"), make_right_column(say(_EXPECTED), "µm"),
@@ -131,13 +133,13 @@ def lay_out_confirmation(found: CrossConfirmation, say: Sayer) -> Section:
 
 def _forecast_rows(found: CrossForecast, say: Sayer) -> Iterator[tuple[Cell, ...]]:
     for each in found.circles:
-        yield f"{each.name}, RMS", say.micrometres(each.before), say.micrometres(each.after)
+        yield f"{each.name}, RMS", say.write_micrometres(each.before), say.write_micrometres(each.after)
         for notation, before, after in each.numbers:
-            yield Symbol(notation), say.micrometres(before), say.micrometres(after)
+            yield Symbol(notation), say.write_micrometres(before), say.write_micrometres(after)
     for name, before, after in found.diagonals:
-        yield say(_DIAGONAL.given(name=name)), say.micrometres(before), say.micrometres(after)
+        yield say(_DIAGONAL.given(name=name)), say.write_micrometres(before), say.write_micrometres(after)
     if found.largest:
-        yield say(_LARGEST), *map(say.micrometres, found.largest)
+        yield say(_LARGEST), *map(say.write_micrometres, found.largest)
 
 
 TABLES = Words("Tables across axes")

@@ -92,7 +92,7 @@ def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[A
     for effect in catalogue:
         form = make_plain_form(effect, study.design)
         if effect.is_asked_for and effect.identifier not in study.names and form.terms:
-            estimates = add_form(study, effect, form).estimates_of(effect.identifier)
+            estimates = add_form(study, effect, form).list_estimates_of(effect.identifier)
             terms = tuple(each for each in estimates if each.term is not None and _is_within_u(each))
             if not terms:
                 continue
@@ -109,7 +109,9 @@ def list_findings(study: CircleStudy) -> list[Words]:
     return [
         sentence
         for each in study.effects
-        for sentence in each.effect.findings(list_said_estimates(study.estimates_of(each.effect.identifier)))
+        for sentence in each.effect.findings(
+            list_said_estimates(study.list_estimates_of(each.effect.identifier))
+        )
     ]
 
 
@@ -151,7 +153,12 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
         if each.indistinguishable_from:
             note = say(_EQUALS.given(effects=", ".join(each.indistinguishable_from)))
         rows.append(
-            (each.effect.identifier, say.number(each.evidence, 1), say.micrometres(each.rms_after), note)
+            (
+                each.effect.identifier,
+                say.write_number(each.evidence, 1),
+                say.write_micrometres(each.rms_after),
+                note,
+            )
         )
     columns = (
         Column(say(_EFFECT)),
@@ -182,7 +189,9 @@ def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
     for each in estimates:
         u = each.expanded_uncertainty
         value = (
-            say.general(each.unit.from_si(each.value)) if u is None else say.pair(each.value, u, each.unit)
+            say.write_general(each.unit.from_si(each.value))
+            if u is None
+            else say.write_pair(each.value, u, each.unit)
         )
         rows.append((each.effect, each.name, value, each.unit.symbol))
     columns = (
@@ -194,10 +203,10 @@ def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
     return make_plain_table(say(_PARAMETERS), columns, rows)
 
 
-def step_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     """Return how the error fell as the effects came in, one by one; None where none did."""
     rows = [
-        (each.effect, *map(say.micrometres, (each.before, each.after, each.noise)))
+        (each.effect, *map(say.write_micrometres, (each.before, each.after, each.noise)))
         for each in diagnosis.steps
     ]
     columns = (

@@ -21,7 +21,7 @@ def plan_section(found: NextRun, say: Sayer) -> Section:
     runs: list[tuple[Cell, ...]] = [
         (
             say(each.what),
-            say.number(each.minutes, 0),
+            say.write_number(each.minutes, 0),
             write_percentage(each.decides, say.language.decimal_sign) if between else "",
         )
         for each in found.proposals
@@ -30,7 +30,12 @@ def plan_section(found: NextRun, say: Sayer) -> Section:
     columns = (Column(say(_RUN)), make_right_column(say(_MINUTES)), make_right_column(say(_DECIDES), "%"))
     blocks.append(make_plain_table(say(_NEXT), columns, runs))
     sizes: list[tuple[Cell, ...]] = [
-        (each.effect, each.name, say.general(float(f"{each.unit.from_si(each.size):.2g}")), each.unit.symbol)
+        (
+            each.effect,
+            each.name,
+            say.write_general(float(f"{each.unit.from_si(each.size):.2g}")),
+            each.unit.symbol,
+        )
         for each in found.visible
     ]
     headings = (

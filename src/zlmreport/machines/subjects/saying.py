@@ -24,33 +24,33 @@ class Sayer:
         """Return a phrase."""
         return words.in_language(self.language)
 
-    def number(self, value: float, decimals: int = _DECIMALS) -> str:
+    def write_number(self, value: float, decimals: int = _DECIMALS) -> str:
         """Return a number with fixed decimals."""
         return write_fixed_number(value, decimals, self.language.decimal_sign)
 
-    def general(self, value: float) -> str:
+    def write_general(self, value: float) -> str:
         """Return a number with no needless digits."""
         return write_general_number(value, self.language.decimal_sign)
 
-    def micrometres(self, value: float) -> str:
+    def write_micrometres(self, value: float) -> str:
         """Return a length in m as µm, without the unit."""
-        return self.number(MICROMETRE.from_si(value))
+        return self.write_number(MICROMETRE.from_si(value))
 
-    def millimetres(self, value: float) -> str:
+    def write_millimetres(self, value: float) -> str:
         """Return a position in m as mm, without the unit."""
-        return self.general(round(MILLIMETRE.from_si(value), 3))
+        return self.write_general(round(MILLIMETRE.from_si(value), 3))
 
-    def span(self, low: float, high: float) -> str:
+    def write_span(self, low: float, high: float) -> str:
         """Return from where to where, m, as mm without the unit."""
-        return f"{self.millimetres(low)}–{self.millimetres(high)}"
+        return f"{self.write_millimetres(low)}–{self.write_millimetres(high)}"
 
-    def pair(self, value: float, u: float, unit: Unit) -> str:
+    def write_pair(self, value: float, u: float, unit: Unit) -> str:
         """Return a value and its uncertainty, SI, in a unit that is not written."""
         return " ± ".join(round_pair(unit.from_si(value), unit.from_si(u), self.language.decimal_sign))
 
-    def quantity(self, value: float, unit: Unit) -> str:
+    def write_quantity(self, value: float, unit: Unit) -> str:
         """Return a value, SI, with its unit."""
-        return f"{self.general(float(f'{unit.from_si(value):.3g}'))}{write_behind(unit.symbol)}"
+        return f"{self.write_general(float(f'{unit.from_si(value):.3g}'))}{write_behind(unit.symbol)}"
 
 
 def make_right_column(heading: str, unit: str = "") -> Column:

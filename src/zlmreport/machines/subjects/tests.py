@@ -39,9 +39,9 @@ def lay_out_sizes(
     rows: list[tuple[Cell, ...]] = []
     for each in tests:
         sizes = (each.rms.measured, each.rms.predicted, each.rms.left)
-        row: tuple[Cell, ...] = (each.name, *map(say.micrometres, sizes))
+        row: tuple[Cell, ...] = (each.name, *map(say.write_micrometres, sizes))
         if noise is not None:
-            row = (*row, say.micrometres(noise))
+            row = (*row, say.write_micrometres(noise))
         if with_numbers:
             row = (*row, *_write_both_senses(each.numbers, say))
         rows.append(row)
@@ -56,17 +56,17 @@ def _write_both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[
     for each in numbers:
         for parameter in each.measured:
             if parameter.quantity.symbol == "G_b":
-                return say.micrometres(parameter.value), say.micrometres(each.left["G_b"])
+                return say.write_micrometres(parameter.value), say.write_micrometres(each.left["G_b"])
     return "", ""
 
 
-def test_section(found: ComparedTest, say: Sayer) -> Section:
+def lay_out_test(found: ComparedTest, say: Sayer) -> Section:
     """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
     title = f"{found.name}: {say(write_title_of(found.test))}"
-    return Section(f"test-{found.name}", title, tuple(_test_blocks(found, say)))
+    return Section(f"test-{found.name}", title, tuple(_lay_out_test_blocks(found, say)))
 
 
-def _test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
+def _lay_out_test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
     yield lay_out_numbers(found, say)
     for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
         listed = _list_shares(shares, say)
@@ -84,7 +84,7 @@ def _test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
 def lay_out_numbers(found: ComparedTest, say: Sayer) -> Table:
     """Return a test's root mean square and the numbers of its standards: measured, predicted, left."""
     sizes = (found.rms.measured, found.rms.predicted, found.rms.left)
-    rows: list[tuple[Cell, ...]] = [("RMS", *map(say.micrometres, sizes))]
+    rows: list[tuple[Cell, ...]] = [("RMS", *map(say.write_micrometres, sizes))]
     for each in found.numbers:
         for parameter in each.measured:
             symbol = parameter.quantity.symbol
@@ -92,8 +92,8 @@ def lay_out_numbers(found: ComparedTest, say: Sayer) -> Table:
             rows.append(
                 (
                     Symbol(parameter.quantity.notation),
-                    say.micrometres(parameter.value),
-                    *(say.micrometres(value) if np.isfinite(value) else "" for value in values),
+                    say.write_micrometres(parameter.value),
+                    *(say.write_micrometres(value) if np.isfinite(value) else "" for value in values),
                 )
             )
     columns = [Column(""), *(make_right_column(say(each), "µm") for each in (_MEASURED, _PREDICTED, _LEFT))]
@@ -114,7 +114,7 @@ def write_title_of(test: CircularTest | StraightTest) -> Words:
 
 def _list_shares(shares: Mapping[str, float], say: Sayer) -> str:
     largest = sorted(shares.items(), key=lambda item: -item[1])[:_MOST_SHARES]
-    return ", ".join(f"{name} {say.micrometres(size)}" for name, size in largest)
+    return ", ".join(f"{name} {say.write_micrometres(size)}" for name, size in largest)
 
 
 def make_failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | None:

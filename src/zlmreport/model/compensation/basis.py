@@ -70,13 +70,13 @@ class TableBasis:
     #: The periodic effects of the model, each with the length of its shortest wave, m or rad.
     waves: Mapping[str, float] = field(default_factory=dict)
 
-    def left_out(self, rows: FloatArray) -> dict[str, float]:
+    def list_left_out(self, rows: FloatArray) -> dict[str, float]:
         """Return the waves that a table with these rows cannot carry, by name with their lengths."""
         return find_too_fine(self.waves, rows)
 
-    def wanted(self, rows: FloatArray) -> Function:
+    def make_wanted(self, rows: FloatArray) -> Function:
         """Return what a table with these rows is to take away."""
-        return self.without(frozenset(self.left_out(rows)))
+        return self.without(frozenset(self.list_left_out(rows)))
 
     @property
     def expanded_uncertainty(self) -> float:
@@ -97,7 +97,7 @@ class FittedModel:
         """Turns what was read into e = actual − nominal."""
         return -1.0 if self.measurements.is_indication else 1.0
 
-    def carried(self, left_out: frozenset[str] = frozenset()) -> Function:
+    def make_carried(self, left_out: frozenset[str] = frozenset()) -> Function:
         """Return what effects of position and direction do, but for those that are left out."""
         solution = self.fit.solution
         parts = [
@@ -141,7 +141,7 @@ def compensate_readings(fitted: FittedModel) -> MeasurementSet:
     What time decides stays in them, and so does a wave that such rows cannot follow.
     """
     measurements, targets = fitted.measurements, fitted.measurements.target_positions
-    table = fitted.carried(frozenset(find_too_fine(find_waves_of(fitted.fit), targets)))(targets)
+    table = fitted.make_carried(frozenset(find_too_fine(find_waves_of(fitted.fit), targets)))(targets)
     return apply_table(measurements, table)
 
 
@@ -160,7 +160,7 @@ def make_basis_of_means(
     means = np.stack([curve.forward, curve.reverse])
     known = alone = _interpolate(curve.positions, means)
     if fitted is not None:
-        model = fitted.carried()
+        model = fitted.make_carried()
         known = _sum(model, _interpolate(curve.positions, means - model(curve.positions)))
     targets = len(curve.positions)
     part = DeviationPart(np.eye(targets), 1.0)
@@ -176,23 +176,23 @@ def make_basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
     scatter = _estimate_scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
     beyond, imitated = (
         part_directions(values, is_bidirectional=curve.is_bidirectional)
-        for values in (fitted.sign * _both(_compute_means(left)), _compute_imitated(fitted))
+        for values in (fitted.sign * _fill_in_both(_compute_means(left)), _compute_imitated(fitted))
     )
     own = scatter.single**2 / curve.runs
     parts = tuple(
         _make_part(rest, columns, own)
         for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
     )
-    explained = _both(_compute_means(measurements.deviations())) - _both(_compute_means(left))
+    explained = _fill_in_both(_compute_means(measurements.deviations())) - _fill_in_both(_compute_means(left))
     rest = join_directions(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
     kept = _interpolate(curve.positions, rest)
     return TableBasis(
         curve,
-        _sum(fitted.carried(), kept),
+        _sum(fitted.make_carried(), kept),
         fitted.sign * explained + rest,
         parts,
         scatter,
-        lambda left_out: _sum(fitted.carried(left_out), kept),
+        lambda left_out: _sum(fitted.make_carried(left_out), kept),
         find_waves_of(fitted.fit),
     )
 
@@ -212,7 +212,7 @@ def _compute_means(deviations: FloatArray) -> FloatArray:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
-def _both(means: FloatArray) -> FloatArray:
+def _fill_in_both(means: FloatArray) -> FloatArray:
     """Return means with those of the other direction where one was not measured."""
     return np.where(np.isfinite(means), means, means[::-1])
 
@@ -272,5 +272,5 @@ def _compute_imitated(fitted: FittedModel) -> FloatArray:
     for column in fitted.fit.base(fitted.observed.design).T:
         every = np.full(len(measurements.deviation), np.nan)
         every[fitted.observed.reading] = column
-        columns.append(np.nan_to_num(_both(_compute_means(measurements.arranged(every)))))
+        columns.append(np.nan_to_num(_fill_in_both(_compute_means(measurements.arranged(every)))))
     return np.array(columns).reshape(-1, 2, len(measurements.target_positions))

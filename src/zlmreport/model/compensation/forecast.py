@@ -103,8 +103,8 @@ def forecast(
         read_only_floats(means - change),
         float(worst_at[worst]),
         float(fine[worst]),
-        float(np.abs(known - basis.wanted(meant.positions)(fine)).max())
-        if basis.left_out(meant.positions)
+        float(np.abs(known - basis.make_wanted(meant.positions)(fine)).max())
+        if basis.list_left_out(meant.positions)
         else 0.0,
         float(np.abs(off - constant).max()),
         constant,

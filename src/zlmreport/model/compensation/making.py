@@ -74,7 +74,7 @@ def make_grid_of(
     allowed = basis.expanded_uncertainty
 
     def judged(rows: FloatArray, reason: GridReason) -> Grid:
-        wanted = basis.wanted(rows)
+        wanted = basis.make_wanted(rows)
         lines = np.stack([np.interp(places, rows, each) for each in wanted(rows)])
         inside = places <= rows[-1] + _NOTHING
         missed = float(np.abs(wanted(places) - lines)[:, inside].max())
@@ -93,7 +93,7 @@ def make_grid_of(
         judged(read_only_floats(np.linspace(first, last, number)), GridReason.UNCERTAINTY)
         for number in numbers.tolist()
     ]
-    best = min(grids, key=lambda grid: (len(basis.left_out(grid.rows)), max(grid.added, allowed)))
+    best = min(grids, key=lambda grid: (len(basis.list_left_out(grid.rows)), max(grid.added, allowed)))
     if best.added > max(allowed, _NOTHING):
         reason = GridReason.CONTROL if most < 2 * count - 1 else GridReason.SUPPORT
         return Grid(best.rows, reason, best.added, allowed)
@@ -156,8 +156,8 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
     """
     most = getattr(controller, "most_rows", None)
     grid = make_grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
-    rows, left_out = grid.rows, basis.left_out(grid.rows)
-    meant = make_table_of(basis.wanted(rows)(rows), rows, axis, number, place)
+    rows, left_out = grid.rows, basis.list_left_out(grid.rows)
+    meant = make_table_of(basis.make_wanted(rows)(rows), rows, axis, number, place)
     files = controller.files(meant, own)
     decoded = controller.read(files, meant, own)
     old = axis.compensation_table

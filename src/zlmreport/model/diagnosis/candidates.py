@@ -40,7 +40,7 @@ def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effe
     present = {term.effect.identifier: len(term.effect.linear) for term in model.terms}
     forms: list[Effect] = []
     not_testable = []
-    for effect in map(model.next_of, effects):
+    for effect in map(model.take_next_of, effects):
         least = present.get(effect.identifier, 0)
         further = effect.further_forms() if least else ()
         listed = [form for form in (*effect.forms(), *further) if len(form.linear) > least]
@@ -54,7 +54,7 @@ def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effe
 def _say_collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
     """Return that the model would not be determined with the effect in it; None if it is."""
     extended = model.with_effect(effect)
-    columns = [term.columns(design, term.grid(design)[0])[0] for term in extended.terms]
+    columns = [term.compute_columns(design, term.make_grid(design)[0])[0] for term in extended.terms]
     try:
         refuse_collisions(extended, columns)
     except ModelError:

@@ -10,7 +10,7 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.choices import EffectChoice, find_next_number, number_effect
-from zlmreport.job.edit import CANDIDATES, NamedEffect, list_items_written, read_named_effect
+from zlmreport.job.edit import CANDIDATES, WrittenEffect, list_items_written, read_named_effect
 from zlmreport.job.formula import find_names_in, parse_formula
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed
@@ -233,7 +233,7 @@ def find_instrument_error(job: Job, length: float) -> InstrumentError:
 
 def read_addition(
     text: str, job: Job, registry: Installed, effects: Sequence[Effect], place: Place
-) -> tuple[NamedEffect, tuple[str, ...]]:
+) -> tuple[WrittenEffect, tuple[str, ...]]:
     """Return an effect that a person names, and the effects of the model that it takes the place of.
 
     `text`: ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its
@@ -258,11 +258,11 @@ def read_addition(
     return named, tuple(each.identifier for each in job.effects if each.identifier in replaced)
 
 
-def _find_listed(name: str, job: Job) -> NamedEffect | None:
+def _find_listed(name: str, job: Job) -> WrittenEffect | None:
     """Return a formula of a job's candidates by its name."""
     nodes = list_items_written(job, CANDIDATES)
     pairs = zip(nodes, job.candidates, strict=True)
-    return next((NamedEffect(node, choice) for node, choice in pairs if choice.identifier == name), None)
+    return next((WrittenEffect(node, choice) for node, choice in pairs if choice.identifier == name), None)
 
 
 def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:

@@ -115,4 +115,4 @@ def _judge_family(family: Family, lengths: Sequence[_Lengths], needed: float) ->
 
 
 def _make_known_columns(term: Term, design: Design) -> FloatArray:
-    return term.columns(design, term.grid(design)[0])[0]
+    return term.compute_columns(design, term.make_grid(design)[0])[0]

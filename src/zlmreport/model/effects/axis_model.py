@@ -61,7 +61,7 @@ class Term:
         """Which of its columns have a coefficient that is estimated for itself, shape (k,)."""
         return np.array([self._is_free(each) for each in self.effect.linear], dtype=np.bool_)
 
-    def grid(self, design: Design) -> FloatArray:
+    def make_grid(self, design: Design) -> FloatArray:
         """Return the values of θ that its search begins with, given values put in their places."""
         grid = np.array(self.effect.grid(design), dtype=np.float64)
         for column, parameter in enumerate(self.effect.searched):
@@ -75,7 +75,7 @@ class Term:
                 grid[:, column] = np.clip(grid[:, column], low, high)
         return np.unique(grid, axis=0)
 
-    def held_at(self, parameter: Parameter) -> str:
+    def find_bound(self, parameter: Parameter) -> str:
         """Return the bound at which a parameter is held, ``min`` or ``max``; empty where it is at none."""
         if parameter.name not in self.fixed or parameter.name not in self.bounds:
             return ""
@@ -90,7 +90,7 @@ class Term:
         free = [self._is_free(each) for each in self.effect.searched]
         return np.asarray(np.array(free, dtype=np.bool_) & ~is_known)
 
-    def columns(self, design: Design, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def compute_columns(self, design: Design, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns whose coefficients are estimated, and the deviation that is given."""
         columns = self.effect.columns(design, theta)
         solved = self.is_solved
@@ -115,7 +115,7 @@ class AxisModel:
         kept = tuple(term for term in self.terms if term.effect.identifier not in replaced)
         return AxisModel((*kept, Term(effect)))
 
-    def next_of(self, effect: Effect) -> Effect:
+    def take_next_of(self, effect: Effect) -> Effect:
         """Return an effect, or the next of it where it stands in the model already and may be several."""
         if not effect.several:
             return effect
@@ -128,27 +128,29 @@ class AxisModel:
         """Return the model without an effect."""
         return AxisModel(tuple(term for term in self.terms if term.effect.identifier != identifier))
 
-    def linked(self, thetas: Sequence[FloatArray]) -> tuple[FloatArray, ...]:
+    def link(self, thetas: Sequence[FloatArray]) -> tuple[FloatArray, ...]:
         """Return θ of all terms with those that equal another in their places."""
         found = [np.array(theta) for theta in thetas]
-        for index, column, other, place in self._links(lambda effect: effect.searched):
+        for index, column, other, place in self._list_links(lambda effect: effect.searched):
             found[index][column] = thetas[other][place]
         return tuple(found)
 
-    def columns(self, design: Design, thetas: Sequence[FloatArray]) -> list[tuple[FloatArray, FloatArray]]:
+    def compute_columns(
+        self, design: Design, thetas: Sequence[FloatArray]
+    ) -> list[tuple[FloatArray, FloatArray]]:
         """Return of each term the columns that are solved, and the deviation that is given.
 
         A column whose coefficient equals another is added to that.
         """
-        own = [term.columns(design, theta) for term, theta in zip(self.terms, thetas, strict=True)]
+        own = [term.compute_columns(design, theta) for term, theta in zip(self.terms, thetas, strict=True)]
         return self.add_linked(design, thetas, own)
 
     def add_linked(
         self, design: Design, thetas: Sequence[FloatArray], own: Sequence[tuple[FloatArray, FloatArray]]
     ) -> list[tuple[FloatArray, FloatArray]]:
-        """Return what `columns` does, from the columns of each term by itself."""
+        """Return what `compute_columns` does, from the columns of each term by itself."""
         found = list(own)
-        for index, column, other, place in self._links(lambda effect: effect.linear):
+        for index, column, other, place in self._list_links(lambda effect: effect.linear):
             linked = self.terms[index].effect.columns(design, thetas[index])[:, column]
             target, (solved, given) = self.terms[other], found[other]
             if target.is_solved[place]:
@@ -159,7 +161,7 @@ class AxisModel:
             found[other] = solved, given
         return found
 
-    def coefficients(self, solved: FloatArray) -> tuple[FloatArray, ...]:
+    def collect_coefficients(self, solved: FloatArray) -> tuple[FloatArray, ...]:
         """Return γ of every term from those that were solved, side by side; given and linked ones besides."""
         found: list[FloatArray] = []
         first = 0
@@ -169,16 +171,16 @@ class AxisModel:
             gamma[term.is_solved] = solved[first : first + count]
             first += count
             found.append(gamma)
-        for index, column, other, place in self._links(lambda effect: effect.linear):
+        for index, column, other, place in self._list_links(lambda effect: effect.linear):
             found[index][column] = found[other][place]
         return tuple(found)
 
-    def followers(self, term: int, column: int) -> tuple[int, ...]:
+    def find_followers(self, term: int, column: int) -> tuple[int, ...]:
         """Return the terms of which a searched parameter equals that of a term in a column."""
-        searched = self._links(lambda effect: effect.searched)
+        searched = self._list_links(lambda effect: effect.searched)
         return tuple(index for index, _, other, place in searched if (other, place) == (term, column))
 
-    def _links(
+    def _list_links(
         self, parameters: Callable[[Effect], tuple[Parameter, ...]]
     ) -> Iterator[tuple[int, int, int, int]]:
         """Yield each linked parameter by its term and its place, and that which it equals by both."""
@@ -196,8 +198,8 @@ class AxisModel:
         Raises `ModelError` with every mistake: an effect twice or beside one that contains it, a value given
         for a parameter that there is not, an effect that the test cannot show, too few readings.
         """
-        sentences = [*self._clashes(), *self._unknown_parameters(), *self._wrong_links()]
-        sentences += self._untestable(design)
+        sentences = [*self._list_clashes(), *self._list_unknown_parameters(), *self._list_wrong_links()]
+        sentences += self._list_untestable(design)
         if not sentences:
             estimated = sum(
                 int(np.count_nonzero(term.is_solved) + np.count_nonzero(term.is_searched(design)))
@@ -211,7 +213,7 @@ class AxisModel:
         if sentences:
             raise ModelError(sentences)
 
-    def _clashes(self) -> Iterator[str]:
+    def _list_clashes(self) -> Iterator[str]:
         names = self.identifiers
         for name in dict.fromkeys(names):
             if names.count(name) > 1:
@@ -222,7 +224,7 @@ class AxisModel:
                     name = term.effect.identifier
                     yield f"{name} contains {contained}, and no readings part the two; remove {contained}"
 
-    def _unknown_parameters(self) -> Iterator[str]:
+    def _list_unknown_parameters(self) -> Iterator[str]:
         for term in self.terms:
             known = [parameter.name for parameter in term.parameters]
             for name in term.fixed:
@@ -230,7 +232,7 @@ class AxisModel:
                     advice = did_you_mean(name, known)
                     yield f"{term.effect.identifier} has no parameter {name!r}; {advice}"
 
-    def _wrong_links(self) -> Iterator[str]:
+    def _list_wrong_links(self) -> Iterator[str]:
         by_identifier = {term.effect.identifier: term for term in self.terms}
         for term in self.terms:
             for name, (other, parameter) in term.links.items():
@@ -248,7 +250,7 @@ class AxisModel:
                 elif parameter in by_identifier[other].links:
                     yield f"{said}, which equals another itself; link both to that"
 
-    def _untestable(self, design: Design) -> Iterator[str]:
+    def _list_untestable(self, design: Design) -> Iterator[str]:
         for term in self.terms:
             why = term.effect.untestable(design)
             if why is not None:

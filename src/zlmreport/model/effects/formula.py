@@ -93,7 +93,9 @@ class FormulaEffect(Effect):
         self.settings = settings or self.options()
         self._kind, self._number = kind, number
         #: In SI, and parted into what is solved and what is searched.
-        self.formula = Formula.of(keys, kind or (find_kinds_of(keys) or list(AxisKind))[0], *self._form())
+        self.formula = Formula.of(
+            keys, kind or (find_kinds_of(keys) or list(AxisKind))[0], *self._describe_form()
+        )
         title = keys.title or same(keys.name)
         self.identifier = keys.name if number == 1 else f"{keys.name}-{number}"
         self.title = title if number == 1 else _AGAIN.given(title=title, number=number)
@@ -107,17 +109,17 @@ class FormulaEffect(Effect):
         self.contains = keys.contains
         self.measurands = keys.acts_on
         self.several = keys.several
-        self._ways = self._searched()
+        self._ways = self._list_searched()
         parameters = {
             each.name: each
             for name in keys.parameters
-            for each in self._parameters(name, self.formula.parts.get(name))
+            for each in self._list_parameters(name, self.formula.parts.get(name))
         }
         self.linear = tuple(parameters[name] for name in self.formula.linear)
         self.searched = tuple(parameters[name] for name in self.formula.searched)
-        self.shape = self._shape()
+        self.shape = self._find_shape()
 
-    def _form(self) -> tuple[tuple[int, ...] | None, Mapping[str, str]]:
+    def _describe_form(self) -> tuple[tuple[int, ...] | None, Mapping[str, str]]:
         """Return the harmonics of this form, and the values of the keys that choose it."""
         harmonics = getattr(self.settings, "harmonics", None) if self.keys.harmonics else None
         return harmonics, {each.name: str(getattr(self.settings, each.name)) for each in self.keys.keys}
@@ -126,11 +128,11 @@ class FormulaEffect(Effect):
         """Return whether other values of a parameter are tried than that which the axis states."""
         return parameter.instead is not None and getattr(self.settings, parameter.instead.key) == OTHER
 
-    def _searched(self) -> dict[str, Search | FloatArray]:
+    def _list_searched(self) -> dict[str, Search | FloatArray]:
         """Return where the search for parameters begins of which not every value in a range makes sense."""
         found: dict[str, Search | FloatArray] = {}
         for name, each in self.keys.parameters.items():
-            values = self.formula.sensible(name)
+            values = self.formula.list_sensible(name)
             if each.instead and self._is_other(each):
                 found[name] = np.array(each.instead.values) / self.formula.units[name].per_si
             elif values is not None:
@@ -139,7 +141,7 @@ class FormulaEffect(Effect):
                 found[name] = each.search
         return found
 
-    def _parameters(self, name: str, parts: tuple[str, ...] | None) -> tuple[Parameter, ...]:
+    def _list_parameters(self, name: str, parts: tuple[str, ...] | None) -> tuple[Parameter, ...]:
         own, per_si = self.keys.parameters[name], self.formula.units[name].per_si
         low, high = (None if each is None else each / per_si for each in own.range or (None, None))
         usual = None if own.usual is None else (own.usual[0] / per_si, own.usual[1] / per_si)
@@ -148,7 +150,7 @@ class FormulaEffect(Effect):
             there = UNITS[AxisKind.ROTARY][UNITS_OF_PARAMETERS.get(own.spelled, own.spelled)].per_si
             on_rotary = (on_rotary[0] / there, on_rotary[1] / there)
         if parts:
-            sizes = make_harmonic_parameters(self._form()[0] or (1,), high or np.inf)
+            sizes = make_harmonic_parameters(self._describe_form()[0] or (1,), high or np.inf)
             return tuple(
                 replace(each, usual=usual, usual_on_rotary=on_rotary, question=own.question) for each in sizes
             )
@@ -177,7 +179,7 @@ class FormulaEffect(Effect):
             ),
         )
 
-    def _shape(self) -> Shape:
+    def _find_shape(self) -> Shape:
         names = self.formula.names
         if {"t", "v", "air_index"} & {*names} or self.formula.columns:
             return Shape.TIME
@@ -218,20 +220,20 @@ class FormulaEffect(Effect):
             (needs_rotary_axis(design) if "turn" in names or needs.axis == "rotary" else None)
             or (needs_linear_axis(design) if needs.axis == "linear" else None)
             or (needs_both_directions(design) if needs.both_directions else None)
-            or self._unstated(design.axis)
-            or self._without_period(design)
+            or self._say_unstated(design.axis)
+            or self._say_without_period(design)
             or needs_logged(design, *logs)
             or (needs_passing_time(design) if "t" in names else None)
             or needs_targets(design, needs.targets or 1)
             or needs_runs(design, needs.runs or 1)
-            or (needs_moments(design) if self._searches(Search.MOMENT) else None)
-            or (needs_pause(design) if self._searches(Search.PAUSE) else None)
+            or (needs_moments(design) if self._is_searched(Search.MOMENT) else None)
+            or (needs_pause(design) if self._is_searched(Search.PAUSE) else None)
         )
 
-    def _searches(self, way: Search) -> bool:
+    def _is_searched(self, way: Search) -> bool:
         return any(each is way for each in self._ways.values())
 
-    def _unstated(self, axis: Axis) -> Words | None:
+    def _say_unstated(self, axis: Axis) -> Words | None:
         """Return which key of the axis a formula has and the job does not state."""
         known = {*AXIS_KEYS, *TABLES} - self.keys.parameters.keys()
         keys = [TABLES.get(name, name) for name in self.formula.names if name in known]
@@ -241,7 +243,7 @@ class FormulaEffect(Effect):
                 keys.extend(name for name in find_names_in(parse_formula(own.stated)) if name in AXIS_KEYS)
         return next((why for key in keys if (why := needs_stated(getattr(axis, key), f"axis.{key}"))), None)
 
-    def _without_period(self, design: Design) -> Words | None:
+    def _say_without_period(self, design: Design) -> Words | None:
         """Return that the measured travel holds no whole period of those that are tried."""
         key = self.keys.needs.whole_period
         if key is None or any(map(self._is_other, self.keys.parameters.values())):
@@ -252,7 +254,7 @@ class FormulaEffect(Effect):
         """Return why physics and the log of a test forbid values of parameters, SI."""
         rise = find_logged_rise(design)
         for name, value in values.items():
-            low, high = self.formula.possible(name, rise)
+            low, high = self.formula.bound(name, rise)
             possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
             if possible is not None and not low <= value <= high:
                 return possible.because
@@ -260,13 +262,13 @@ class FormulaEffect(Effect):
 
     def tried_in(self, design: Design) -> Words | None:
         """Return which values of a parameter are tried where no key of the axis states it."""
-        known = self._of_axis(design.axis)
+        known = self._read_axis(design.axis)
         notes = (self.keys.parameters[each.name].unstated for each in self.searched if each.name not in known)
         return next((note for note in notes if note is not None), None)
 
     def grid(self, design: Design) -> FloatArray:
         """Return values that a search begins with; those that are given or stated are known."""
-        stated = self._of_axis(design.axis)
+        stated = self._read_axis(design.axis)
         ways, known = dict(self._ways), self.formula.given | stated
         for name, own in self.keys.parameters.items():
             if own.instead is None:
@@ -287,14 +289,14 @@ class FormulaEffect(Effect):
             for name, each in self.keys.parameters.items()
             if each.expected is not None
         }
-        return self._of_axis(axis) | expected
+        return self._read_axis(axis) | expected
 
-    def _of_axis(self, axis: Axis) -> dict[str, float]:
+    def _read_axis(self, axis: Axis) -> dict[str, float]:
         """Return the values of parameters that keys of the axis state, SI."""
         keys = {name: getattr(axis, name) for name in AXIS_KEYS} | {"turn": 2 * np.pi}
         found = {}
         for parameter in (*self.linear, *self.searched):
-            value = self.formula.stated(parameter.name, keys)
+            value = self.formula.find_stated(parameter.name, keys)
             if value is not None:
                 whole = self.keys.parameters[parameter.name].search is Search.WHOLE_NUMBER
                 found[parameter.name] = float(round(value)) if whole else value
@@ -302,28 +304,30 @@ class FormulaEffect(Effect):
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         """Return what each linear parameter is multiplied with."""
-        return self.formula.values(self._readings(design), self._named(theta))
+        return self.formula.compute_values(self._list_readings(design), self._name_searched(theta))
 
-    def shortest_wave(self, along: Design, theta: FloatArray) -> float:
+    def find_shortest_wave(self, along: Design, theta: FloatArray) -> float:
         """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""
         calls = find_calls_in(self.formula.tree, _WAVES)
-        phases = [self._over_position(call.arguments[0], along, theta)(along.position) for call in calls]
+        phases = [
+            self._restrict_to_position(call.arguments[0], along, theta)(along.position) for call in calls
+        ]
         return 2 * np.pi * _find_shortest(along, phases)
 
-    def shortest_fading(self, along: Design, theta: FloatArray) -> float:
+    def find_shortest_fading(self, along: Design, theta: FloatArray) -> float:
         """Return the shortest length over which a part of it comes or goes, m or rad; infinite without."""
         calls = find_calls_in(self.formula.tree, _FADING)
-        values = [self._over_position(call, along, theta)(along.position) for call in calls]
+        values = [self._restrict_to_position(call, along, theta)(along.position) for call in calls]
         return _find_shortest(along, [value / np.abs(value).max() for value in values if value.any()])
 
-    def joints(self, along: Design, theta: FloatArray) -> list[float]:
+    def find_joints(self, along: Design, theta: FloatArray) -> list[float]:
         """Return where it jumps or bends between rising positions, m or rad."""
         found: list[float] = []
         for call in find_calls_in(self.formula.tree, _JOINTS):
             zero = Call("-", call.arguments) if len(call.arguments) > 1 else call.arguments[0]
             if call.operation == "floor":  # it jumps at every whole number
                 zero = Call("sin", (Call("*", (Number(np.pi), zero)),))
-            value = self._over_position(zero, along, theta)
+            value = self._restrict_to_position(zero, along, theta)
             signs = np.nan_to_num(np.sign(value(along.position)))
             before = np.flatnonzero(np.diff(signs))
             low, high = along.position[before], along.position[before + 1]
@@ -336,19 +340,19 @@ class FormulaEffect(Effect):
             found += getattr(along.axis, key).positions
         return found
 
-    def _over_position(
+    def _restrict_to_position(
         self, part: Tree, along: Design, theta: FloatArray
     ) -> Callable[[FloatArray], FloatArray]:
         """Return a part of the formula as a function of the position, all else being as in a design."""
-        readings = {name: np.ravel(values)[0] for name, values in self._readings(along).items()}
-        known = readings | self._named(theta)
+        readings = {name: np.ravel(values)[0] for name, values in self._list_readings(along).items()}
+        known = readings | self._name_searched(theta)
         return lambda places: np.broadcast_to(compute(part, {**known, "P": places}), places.shape)
 
-    def _named(self, theta: FloatArray) -> dict[str, float]:
+    def _name_searched(self, theta: FloatArray) -> dict[str, float]:
         names = [parameter.name for parameter in self.searched]
         return dict(zip(names, theta.tolist(), strict=True))
 
-    def _readings(self, design: Design) -> dict[str, FloatArray | float]:
+    def _list_readings(self, design: Design) -> dict[str, FloatArray | float]:
         """Return what stands in the formula, but for its parameters; positions in any case."""
         own = {*self.formula.linear, *self.formula.searched}
         names = (name for name in self.formula.names if name not in own)

@@ -112,7 +112,7 @@ def _find_extremes(
 def _scale(term: Term, theta: FloatArray, along: Design) -> float:
     """Return the shortest length over which an effect repeats or fades, m or rad; infinite if over none."""
     if isinstance(term.effect, FormulaEffect):
-        fading = [term.effect.shortest_fading(along, theta)]
+        fading = [term.effect.find_shortest_fading(along, theta)]
     else:
         named = zip(term.effect.searched, theta.tolist(), strict=True)
         fading = [abs(value) for parameter, value in named if parameter.name == "relaxation_length"]
@@ -130,7 +130,7 @@ def find_waves_along(fitted: Fit) -> dict[str, float]:
 
 def _find_shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
     if isinstance(term.effect, FormulaEffect):
-        return term.effect.shortest_wave(along, theta)
+        return term.effect.find_shortest_wave(along, theta)
     periods = [np.inf]
     orders = [int(each.name.partition("_")[2] or 1) for each in term.effect.linear if "sine" in each.name]
     for parameter, value in zip(term.effect.searched, theta.tolist(), strict=True):
@@ -144,7 +144,7 @@ def _find_shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
 def _list_joints(term: Term, theta: FloatArray, along: Design) -> list[float]:
     """Return positions at which an effect jumps or bends: its joints, and the rows of a table."""
     if isinstance(term.effect, FormulaEffect):
-        return term.effect.joints(along, theta)
+        return term.effect.find_joints(along, theta)
     named = zip(term.effect.searched, theta.tolist(), strict=True)
     found = [value for parameter, value in named if parameter.name in {"joint", "kink"}]
     tables = {"compensation": along.axis.compensation_table, "abbe": along.axis.angular_errors}

@@ -275,7 +275,7 @@ def _estimate_linear(
 ) -> Iterator[Estimate]:
     for parameter, value, is_solved in zip(term.effect.linear, gamma.tolist(), term.is_solved, strict=True):
         u, degrees = next(solved) if is_solved else (0.0, inf)
-        held = term.held_at(parameter)
+        held = term.find_bound(parameter)
         is_given = not (is_solved or held)
         yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=is_given, at_bound=held)
 
@@ -296,7 +296,7 @@ def find_scanned_ends(
     the grid which four variances of a reading do not exclude, and half the distance to the next on each side.
     """
     theta = solution.thetas[index]
-    values = np.unique(problem.model.terms[index].grid(problem.design)[:, column])
+    values = np.unique(problem.model.terms[index].make_grid(problem.design)[:, column])
     limit = solution.squares + 4.0 * sigma**2
     possible = [int(np.argmin(np.abs(values - theta[column])))]
     for number, other in enumerate(values.tolist()):

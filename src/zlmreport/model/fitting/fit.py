@@ -235,14 +235,14 @@ def _estimate_noise(space: Contrasts, deviation: FloatArray, weights_: FloatArra
 def _open(model: AxisModel, design: Design, deviation: FloatArray, solution: Solution) -> FloatArray:
     """Return deviations less what given parameters make of them, shape (N,)."""
     left = deviation
-    for _, given in model.columns(design, solution.thetas):
+    for _, given in model.compute_columns(design, solution.thetas):
         left = left - given
     return left
 
 
 def _list_columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
     """Return term by term the columns whose coefficients are solved."""
-    return [solved for solved, _ in model.columns(design, solution.thetas)]
+    return [solved for solved, _ in model.compute_columns(design, solution.thetas)]
 
 
 def _compute_value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:

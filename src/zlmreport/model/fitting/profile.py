@@ -90,7 +90,7 @@ def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Estim
     term = fitted.model.terms[index]
     column = term.effect.searched.index(estimate.parameter)
     low, high = find_scanned_ends(problem, fitted.solution, index, column, fitted.uncertainties.sigma)
-    values = term.grid(fitted.design)[:, column]
+    values = term.make_grid(fitted.design)[:, column]
     return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 

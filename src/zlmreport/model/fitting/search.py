@@ -90,27 +90,27 @@ class FitProblem:
 
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
-        thetas = self.model.linked(thetas)
+        thetas = self.model.link(thetas)
         own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
         pairs = self.model.add_linked(self.design, thetas, own)
         empty = np.empty((len(self.deviation), 0))
         columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
         left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
         solved = solve(columns, left)
-        return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
+        return Solution(thetas, self.model.collect_coefficients(solved), columns, left - columns @ solved)
 
     def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns of a term whose coefficients are solved, and what the given ones make."""
         key, known = theta.tobytes(), self._last.get(index)
         if known is None or known[0] != key:
-            known = key, self.model.terms[index].columns(self.design, theta)
+            known = key, self.model.terms[index].compute_columns(self.design, theta)
             self._last[index] = known
         return known[1]
 
     def places(self, thetas: Thetas) -> tuple[ContinuousParameter, ...]:
         """Return the searched parameters that vary continuously."""
         return tuple(
-            _place(index, column, term.grid(self.design)[:, column], float(thetas[index][column]))
+            _place(index, column, term.make_grid(self.design)[:, column], float(thetas[index][column]))
             for index, term in enumerate(self.model.terms)
             for column, is_searched in enumerate(term.is_searched(self.design))
             if is_searched and term.effect.searched[column].is_refined
@@ -129,7 +129,7 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
 
 def search(problem: FitProblem) -> Solution:
     """Return the best fit over the whole grid of every term, refined."""
-    grids = [term.grid(problem.design) for term in problem.model.terms]
+    grids = [term.make_grid(problem.design) for term in problem.model.terms]
     searched = [index for index, grid in enumerate(grids) if len(grid) > 1]
     best = _sweep(problem, grids, searched)
     if len(searched) > 1:  # where the search ends hangs on whose value is searched beside a wrong one
@@ -169,10 +169,10 @@ def compute_tangents(
     """Return ∂(Cγ)/∂θ on a design, shape (N, places)."""
     found = np.empty((len(design.position), len(places)))
     for number, place in enumerate(places):
-        moving = (place.term, *model.followers(place.term, place.column))
+        moving = (place.term, *model.find_followers(place.term, place.column))
         step = _DERIVATIVE * place.spacing
         value = float(solution.thetas[place.term][place.column])
-        shifted = [model.linked(place.at(solution.thetas, value + shift * step)) for shift in (-2, -1, 1, 2)]
+        shifted = [model.link(place.at(solution.thetas, value + shift * step)) for shift in (-2, -1, 1, 2)]
         values = [
             sum(
                 model.terms[index].effect.columns(design, thetas[index]) @ solution.coefficients[index]

@@ -146,7 +146,7 @@ def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any
             {
                 "at": millimetre.from_si(line.across),
                 "readings": len(line.observed.deviation),
-                "set_aside": len(line.aside()),
+                "set_aside": len(line.list_aside()),
             }
             for line in plane.lines
         ],
@@ -175,7 +175,7 @@ def _collect_direction(surface: Surface, axis: Axis, points: Sequence[tuple[floa
 
 def _collect_coefficients(surface: Surface, axis: Axis) -> dict[str, Any]:
     """Return the coefficients of equation (13) for positions in mm and deviations in µm."""
-    found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
+    found = surface.compute_coefficients().in_units(axis.position_unit, axis.deviation_unit)
     return {
         "coefficients": [
             {"name": name, "value": value, "unit": _write_unit(axis, sum(powers))}

@@ -40,13 +40,13 @@ class SurfaceLine:
     across: float  #: R, the position of the second axis, m.
     observed: Observations  #: The readings, none set aside.
 
-    def aside(self) -> IntArray:
+    def list_aside(self) -> IntArray:
         """Return the readings that stand off, by their places among those observed."""
         return find_outliers(self.observed.design, self.observed.deviation).readings
 
-    def kept(self) -> Observations:
+    def drop_aside(self) -> Observations:
         """Return the readings without those that stand off."""
-        return self.observed.without(self.aside())
+        return self.observed.without(self.list_aside())
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ def make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArray
 
 
 def _select_one_way(line: SurfaceLine, approach: Approach) -> Observations:
-    kept = line.kept()
+    kept = line.drop_aside()
     chosen = np.flatnonzero(kept.design.direction == float(approach))
     return Observations(
         select_readings(kept.design, chosen),
@@ -248,7 +248,7 @@ class Surface:
             raise ModelError(sentences)
         return self.fit.predict(make_points(self.readings, along, across))
 
-    def coefficients(self) -> Coefficients:
+    def compute_coefficients(self) -> Coefficients:
         """Return the polynomial in powers of P and R themselves."""
         turn = _to_powers(self.powers.orders, self.along, self.across)
         gamma = self.fit.solution.coefficients[0]

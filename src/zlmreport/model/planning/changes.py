@@ -106,7 +106,7 @@ def list_further_changes(
     if plan.method is Method.LINEAR:
         yield _change_by_method(Method.PENDULUM, None)
     if plan.method in RUN_BY_RUN:
-        yield from (_pause(column, minutes) for column, minutes in _WARMING)
+        yield from (_make_pause(column, minutes) for column, minutes in _WARMING)
     if goes_on:
         yield _change_by_session(_SECOND_SESSION, 0.0, 0.0)
         yield _change_by_session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
@@ -137,7 +137,7 @@ def _change_by_session(advice: Words, minutes: float, change: float) -> PlanChan
     return PlanChange("session", None, words, lambda each: replace(each, after=after))
 
 
-def _pause(column: str, minutes: float) -> PlanChange:
+def _make_pause(column: str, minutes: float) -> PlanChange:
     pause = Pause(minutes * _SECONDS_PER_MINUTE, _KELVIN, column)
     advice = _PAUSE[column].given(minutes=f"{minutes:g}", change=f"{_KELVIN:g}")
     return PlanChange("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))

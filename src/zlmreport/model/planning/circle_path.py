@@ -146,7 +146,7 @@ class CirclePath:
         """
         for turn in self.turns:
             for angle in turn.angles:
-                reached = math.hypot(*self._point(angle, self.radius, decimals))
+                reached = math.hypot(*self._place_point(angle, self.radius, decimals))
                 if abs(reached - self.radius) > _EXACT:
                     raise InputError.at(
                         self.place,
@@ -155,31 +155,31 @@ class CirclePath:
                         "begin and end at multiples of 90° (plan.circle), or state more in the program's key "
                         "decimals, if the control takes them",
                     )
-        return tuple(self._blocks(decimals))
+        return tuple(self._list_blocks(decimals))
 
-    def _blocks(self, decimals: int) -> Iterator[PathBlock]:
+    def _list_blocks(self, decimals: int) -> Iterator[PathBlock]:
         outside = self.radius + self.run_up
         at: Point | None = None
         for number, turn in enumerate(self.turns, start=1):
             name = f"turn {number}, {SENSES[turn.sense]}, run {turn.run}"
-            before = self._point(turn.begins, outside, decimals)
+            before = self._place_point(turn.begins, outside, decimals)
             if at is None:
                 yield PathBlock(None, before, begins="test", remark=name, stops=True)
             first, *ends = turn.angles
-            at = self._point(first, self.radius, decimals)
+            at = self._place_point(first, self.radius, decimals)
             if self.run_up or number > 1:
                 begins: BlockBegins = "turn" if number > 1 else ""
                 yield PathBlock(before, at, begins=begins, remark=name if begins else "", stops=True)
             remarks = ("run-in", "evaluated", "run-out") if turn.arc else ("evaluated",)
             for angle, remark in zip(ends, remarks, strict=True):
-                end = self._point(angle, self.radius, decimals)
+                end = self._place_point(angle, self.radius, decimals)
                 yield PathBlock(at, end, turn.sense, remark=remark)
                 at = end
-            away = self._point(turn.ends, outside, decimals)
+            away = self._place_point(turn.ends, outside, decimals)
             yield PathBlock(at, away, stops=True)
             at = away
 
-    def _point(self, angle: float, radius: float, decimals: int) -> Point:
+    def _place_point(self, angle: float, radius: float, decimals: int) -> Point:
         """Return a point as it is programmed, mm; right angles are exact."""
         quarter, rest = divmod(angle % _FULL_TURN, 90.0)
         along, across = math.cos(math.radians(rest)), math.sin(math.radians(rest))

@@ -158,7 +158,7 @@ def _make_rival(after: Fit, effect: Effect, probability: float, size: float) -> 
     """Return an effect as fitted; of no more than a size where the readings do not tell its parameters."""
     parameters = (*effect.linear, *effect.searched)
     is_counted = after.design.time_is_counted and any(each.dimension is Dimension.TIME for each in parameters)
-    found = Rival.fitted(after, probability)
+    found = Rival.of_fit(after, probability)
     if found.stands_out and not is_counted:
         return found
     return Rival.of_size(effect, probability, size, found.scatters)
@@ -228,7 +228,7 @@ def _make_columns(model: AxisModel, design: Design) -> FloatArray:
 
 
 def _make_columns_of_term(term: Term, design: Design) -> FloatArray:
-    return term.columns(design, term.grid(design)[0])[0]
+    return term.compute_columns(design, term.make_grid(design)[0])[0]
 
 
 def collect_experiment(experiment: Experiment, job: Job, language: Language) -> dict[str, Any]:

@@ -185,11 +185,11 @@ def _list_options(
 
 def _judge_at_a_glance(question: Question, expected: ExpectedTest, draws: _Draws, option: _Option) -> _Option:
     """Return how often a plan would decide if only the rivals were possible, and the noise known."""
-    design = question.design(option.plan, expected)
+    design = question.make_design(option.plan, expected)
     visible = [each.effect for each in question.rivals if each.effect.untestable(design) is None]
     if len(visible) < len(question.rivals):
         return option
-    contest = Contest.of(design, question.columns(design), visible, with_nameless=False)
+    contest = Contest.of(design, question.compute_columns(design), visible, with_nameless=False)
     decides, margin = _compute_share_decided(question, contest, [contest.nearest(question.ratios)], draws)
     return replace(option, decides=decides, margin=margin)
 
@@ -198,13 +198,13 @@ def _judge_thoroughly(
     question: Question, expected: ExpectedTest, effects: Sequence[Effect], draws: _Draws, option: _Option
 ) -> _Option:
     """Return how often a plan decides among all effects and shapes, whatever the noise."""
-    design = question.design(option.plan, expected)
+    design = question.make_design(option.plan, expected)
     if any(each.effect.untestable(design) for each in question.rivals):
         return option
     others = list_effects_to_try(question.model, design, effects).forms
     own = [each.effect for each in question.rivals]
     forms = [*own, *(each for each in others if each.identifier not in question.names)]
-    contest = Contest.of(design, question.columns(design), forms)
+    contest = Contest.of(design, question.compute_columns(design), forms)
     return replace(
         option, decides=_compute_share_decided(question, contest, list(contest.middling()), draws)[0]
     )
@@ -228,7 +228,7 @@ def _compute_share_decided(
         # The same noise for every truth and plan of so many readings: what differs is what they see.
         random = np.random.default_rng([*draws.seed, len(design.position)])
         own = max(_FEWEST_SETS, round(share * draws.sets))
-        readings = question.readings(design, contest.space.parts, rival, own, random)
+        readings = question.simulate_readings(design, contest.space.parts, rival, own, random)
         evidence, nameless = average_evidence(
             [contest.trials(each, [], readings, question.known) for each in noises]
         )
@@ -260,9 +260,9 @@ def _make_experiment(question: Question, expected: ExpectedTest, best: _Option, 
     share = number_words(100 * best.decides, 0)
     if best.decides < _NOT_WORTH_IT:
         none = _NONE.given(count=str(count), aim=aim, decides=share)
-        statement = _add_way_out(question, question.next_design(best.plan, expected), none)
+        statement = _add_way_out(question, question.make_next_design(best.plan, expected), none)
         return Experiment(question.names, None, (), 0.0, best.decides, _add_sizes(question, statement))
-    logs = question.logs(question.design(best.plan, expected))
+    logs = question.list_logs(question.make_design(best.plan, expected))
     advice = join_changes(best.changes).advice if best.changes else _AS_IT_IS
     if logs:
         advice = _LOG.given(advice=advice, logs=", ".join(logs))

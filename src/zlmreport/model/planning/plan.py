@@ -231,7 +231,7 @@ class Pause:
     change: float  #: Of the temperature, K.
     of: str  #: Which one, by the name of its column: others follow it in part.
 
-    def change_of(self, column: str) -> float:
+    def compute_change(self, column: str) -> float:
         """Return by how much another temperature changes meanwhile, K."""
         return self.change if column == self.of else self.change * _FOLLOW[self.of].get(column, 0.0)
 
@@ -251,7 +251,7 @@ def expect_conditions(
     after = np.arange(len(time)) >= half_way
 
     def temperature(column: str, course: FloatArray) -> FloatArray:
-        jump = pause.change_of(column) if pause else 0.0
+        jump = pause.compute_change(column) if pause else 0.0
         return read_only_floats(REFERENCE_TEMPERATURE + rise * course + jump * after)
 
     return {

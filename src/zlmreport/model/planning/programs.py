@@ -33,7 +33,7 @@ _SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class PlannedReading:
     """A reading that is taken while the axis stands at a target.
 
     Attributes
@@ -73,7 +73,7 @@ class ProgramStop:
     """
 
     position: float
-    reading: Reading | None = None
+    reading: PlannedReading | None = None
     begins: Begins = ""
 
 
@@ -137,7 +137,7 @@ class Motion:
                     "takes them, or fewer in plan.targets.positions",
                 )
         rounded = (replace(stop, position=round(stop.position, decimals) + 0.0) for stop in self.stops)
-        return replace(self, stops=tuple(self._from_their_sides(_select_moving(rounded), decimals)))
+        return replace(self, stops=tuple(self._check_sides(_select_moving(rounded), decimals)))
 
     def of_run(self, run: int) -> Motion:
         """Return the motion of one run, for a restart: from the start of the test, and back to it.
@@ -160,7 +160,7 @@ class Motion:
         stops = (start, before, *inside, ProgramStop(start.position))
         return replace(self, stops=tuple(_select_moving(stops)))
 
-    def _from_their_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
+    def _check_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
         """Yield stops; refuse a reading that no motion in its direction leads to."""
         before = None
         for stop in stops:
@@ -204,7 +204,7 @@ def plan_motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     positions = convert_to_users_unit(axis, np.array([stop.position for stop in stops]))
     targets = convert_to_users_unit(axis, plan.targets)
     readings = (
-        Reading(count, visit.target + 1, visit.approach, visit.run)
+        PlannedReading(count, visit.target + 1, visit.approach, visit.run)
         for count, visit in enumerate(list_visits(stops), start=1)
     )
     return Motion(
@@ -317,7 +317,7 @@ def write_heading(motion: Motion) -> Iterator[str]:
         yield "check that the control does not turn a rotary axis by the shorter way"
 
 
-def write_remark(reading: Reading) -> str:
+def write_remark(reading: PlannedReading) -> str:
     """Return what is remarked on a reading."""
     return f"target {reading.target} {_SIGNS[reading.approach]} run {reading.run}"
 

@@ -78,7 +78,7 @@ class Rival:
         return self.kept > _STANDS_OUT
 
     @classmethod
-    def fitted(cls, after: Fit, probability: float) -> Rival:
+    def of_fit(cls, after: Fit, probability: float) -> Rival:
         """Return the last effect of a fitted model.
 
         What stands out little is overestimated where it was chosen for its size: its coefficients are
@@ -115,7 +115,7 @@ class Rival:
         nothing = np.empty(0)
         return cls(effect, probability, nothing, nothing, np.empty((0, 0)), nothing, scatters, size)
 
-    def deviation(self, design: Design, grid: FloatArray, random: np.random.Generator) -> FloatArray:
+    def sample_deviation(self, design: Design, grid: FloatArray, random: np.random.Generator) -> FloatArray:
         """Return what it would do in a test, drawn at random, shape (N,), m or rad."""
         if not self.gamma.size:
             columns = self.effect.columns(design, grid[random.integers(len(grid))])
@@ -173,9 +173,9 @@ class Question:
         design = None if self.first is None else self.first.design
         return design is not None and not design.time_is_counted and not design.session.any()
 
-    def design(self, plan: Plan, expected: ExpectedTest) -> Design:
+    def make_design(self, plan: Plan, expected: ExpectedTest) -> Design:
         """Return a plan as effects see it; the readings of a first session stand below its own."""
-        own = self.next_design(plan, expected)
+        own = self.make_next_design(plan, expected)
         if self.first is None or plan.after is None:
             return own
         count = len(own.position)
@@ -184,7 +184,7 @@ class Question:
         )
         return replace(hold_together(planned, [("", self.first)]).design, span=own.span)
 
-    def next_design(self, plan: Plan, expected: ExpectedTest) -> Design:
+    def make_next_design(self, plan: Plan, expected: ExpectedTest) -> Design:
         """Return a plan by itself, with the logs of the test and those that the rivals ask for.
 
         What was logged begins as it did then.
@@ -193,25 +193,25 @@ class Question:
         if self.first is None:
             return design
         first = self.first.design
-        conditions = {name: design.conditions[name] for name in self.logs(design)}
+        conditions = {name: design.conditions[name] for name in self.list_logs(design)}
         for name, log in first.conditions.items():
             course = design.conditions.get(name, log[:1])
-            change = plan.after.change_of(name) if plan.after else 0.0
+            change = plan.after.compute_change(name) if plan.after else 0.0
             begun = course - course[0] + log[0] + change
             conditions[name] = read_only_floats(np.broadcast_to(begun, len(design.position)))
         return replace(design, conditions=conditions, span=first.span)
 
-    def columns(self, design: Design) -> FloatArray:
+    def compute_columns(self, design: Design) -> FloatArray:
         """Return what model and set-up can imitate: each session has a zero of its own."""
         zeros = SessionZeros(int(design.session.max()) + 1)
         return np.concatenate([zeros.columns(design, np.empty(0)), self.base(design)], axis=1)
 
-    def logs(self, design: Design) -> tuple[str, ...]:
+    def list_logs(self, design: Design) -> tuple[str, ...]:
         """Return the columns that the effects in question ask for."""
         asked = (name for rival in self.rivals for name in list_logs_of(rival.effect, design))
         return tuple(name for name in dict.fromkeys(asked) if name in design.conditions)
 
-    def readings(
+    def simulate_readings(
         self, design: Design, parts: Sequence[NoisePart], rival: Rival, sets: int, random: np.random.Generator
     ) -> FloatArray:
         """Return tests that have one of the rivals as the truth, simulated, shape (N, sets), m or rad.
@@ -229,7 +229,7 @@ class Question:
             noise += part.factor @ (roots * random.standard_normal((part.factor.shape[1], sets)))
         noise *= sigma
         grid = rival.effect.grid(design)
-        true = np.column_stack([rival.deviation(design, grid, random) for _ in range(sets)])
+        true = np.column_stack([rival.sample_deviation(design, grid, random) for _ in range(sets)])
         if self.first is None or not design.session.any():
             return true + noise
         readings = np.empty_like(true)
@@ -238,10 +238,12 @@ class Question:
             if own.size:
                 shared = [np.sqrt(scatter.ratios.get(part.source, 0.0)) * part.factor for part in parts]
                 unit = sigma[own] * random.standard_normal((np.count_nonzero(design.session), len(own)))
-                readings[:, own] = self._gone_on(design, shared, true[:, own], noise[:, own], unit)
+                readings[:, own] = self._simulate_second_session(
+                    design, shared, true[:, own], noise[:, own], unit
+                )
         return readings
 
-    def _gone_on(
+    def _simulate_second_session(
         self,
         design: Design,
         shared: Sequence[FloatArray],

@@ -82,7 +82,7 @@ class Stream(IntEnum):
     LOG = 9
     # 10 are the targets: `zlmreport.model.planning.targets`
 
-    def generator(self, seed: int, *further: int) -> np.random.Generator:
+    def make_generator(self, seed: int, *further: int) -> np.random.Generator:
         """Return the generator of this part for a seed."""
         return np.random.default_rng([seed, self, *further])
 
@@ -91,9 +91,9 @@ def sample_noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatAr
     """Return the random part of each reading, shape (N,), m or rad; resolution and missing ones apart."""
     targets = int(design.target.max()) + 1
     runs = int(design.run.max()) + 1
-    per_target = Stream.POSITION.generator(seed).standard_normal(targets)
-    per_direction = Stream.POSITION_AND_DIRECTION.generator(seed).standard_normal(targets)
-    per_run = Stream.RUN.generator(seed).standard_normal(runs)
+    per_target = Stream.POSITION.make_generator(seed).standard_normal(targets)
+    per_direction = Stream.POSITION_AND_DIRECTION.make_generator(seed).standard_normal(targets)
+    per_run = Stream.RUN.make_generator(seed).standard_normal(runs)
     return np.asarray(
         _sample_readings(noise, design, targets, seed)
         + noise.position * per_target[design.target]
@@ -106,7 +106,7 @@ def sample_noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatAr
 
 def is_missing(noise: SimulatedNoise, readings: int, seed: int) -> BoolArray:
     """Return which readings are missing, shape (N,)."""
-    return np.asarray(Stream.MISSING.generator(seed).random(readings) < noise.missing_share)
+    return np.asarray(Stream.MISSING.make_generator(seed).random(readings) < noise.missing_share)
 
 
 def round_as_shown(values: FloatArray, resolution: float) -> FloatArray:
@@ -119,14 +119,14 @@ def round_as_shown(values: FloatArray, resolution: float) -> FloatArray:
 
 
 def _sample_readings(noise: SimulatedNoise, design: Design, targets: int, seed: int) -> FloatArray:
-    spread = 1 + noise.unequal * Stream.UNEQUAL.generator(seed).uniform(-1, 1, targets)
-    single = Stream.READING.generator(seed).standard_normal(len(design.position))
+    spread = 1 + noise.unequal * Stream.UNEQUAL.make_generator(seed).uniform(-1, 1, targets)
+    single = Stream.READING.make_generator(seed).standard_normal(len(design.position))
     return np.asarray(noise.reading * spread[design.target] * single)
 
 
 def _sample_drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
     """Return a stationary process of unit variance whose correlation fades as exp(−Δt/memory)."""
-    shocks = Stream.DRIFT.generator(seed).standard_normal(len(time))
+    shocks = Stream.DRIFT.make_generator(seed).standard_normal(len(time))
     kept = np.exp(-np.diff(time) / memory)
     drift = shocks.copy()
     for later, share in enumerate(kept, 1):
@@ -135,7 +135,7 @@ def _sample_drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
 
 
 def _sample_outliers(noise: SimulatedNoise, readings: int, seed: int) -> FloatArray:
-    random = Stream.OUTLIER.generator(seed)
+    random = Stream.OUTLIER.make_generator(seed)
     is_off = random.random(readings) < noise.outlier_share
     return np.asarray(np.where(is_off, random.choice([-1.0, 1.0], readings), 0.0) * noise.outlier_size)
 
@@ -159,5 +159,5 @@ def compute_logged_course(course: ConditionCourse, true: FloatArray, seed: int, 
     `true`, (N,): The condition, SI.
     `sensor`: Number of the sensor: each has noise of its own.
     """
-    noise = course.sensor_noise * Stream.LOG.generator(seed, sensor).standard_normal(len(true))
+    noise = course.sensor_noise * Stream.LOG.make_generator(seed, sensor).standard_normal(len(true))
     return round_as_shown(true + noise, course.resolution)

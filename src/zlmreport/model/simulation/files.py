@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.simulation import CourseKeys, NoiseKeys, SimulationFile
+from zlmreport.job.simulation import CourseKeys, SimulatedNoiseKeys, SimulationFile
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -108,7 +108,7 @@ def _read_course(name: str, keys: CourseKeys) -> ConditionCourse:
     )
 
 
-def _read_noise(keys: NoiseKeys, unit: Unit) -> SimulatedNoise:
+def _read_noise(keys: SimulatedNoiseKeys, unit: Unit) -> SimulatedNoise:
     return SimulatedNoise(
         **{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys}
     )
@@ -190,10 +190,10 @@ def write_readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -
 
 def _write_numbers(values: FloatArray, digits: int) -> list[str]:
     """Write numbers without trailing zeros; a missing one is an empty cell."""
-    return ["" if np.isnan(value) else _number(value, digits) for value in values.tolist()]
+    return ["" if np.isnan(value) else _write_number(value, digits) for value in values.tolist()]
 
 
-def _number(value: float, digits: int) -> str:
+def _write_number(value: float, digits: int) -> str:
     text = f"{value:.{digits}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 

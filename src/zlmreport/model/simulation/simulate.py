@@ -115,14 +115,14 @@ def observe(description: Description, design: Design, systematic: FloatArray) ->
 def _simulate_logs(description: Description, design: Design) -> dict[str, FloatArray]:
     return {
         name: read_only_floats(
-            compute_logged_course(course, design.conditions[name], description.seed, _number_of(name))
+            compute_logged_course(course, design.conditions[name], description.seed, _choose_number(name))
         )
         for name, course in description.conditions.items()
         if course.is_logged
     }
 
 
-def _number_of(condition: str) -> int:
+def _choose_number(condition: str) -> int:
     """Return a number that belongs to a condition whatever others are there."""
     known = list(CONDITIONS)
     return known.index(condition) if condition in known else int.from_bytes(condition.encode(), "big")
@@ -175,13 +175,13 @@ class StartedMachine:
 
     def position(self, time: float) -> float:
         """Return where the axis is, m or rad, at a time in s from the start of the emulation."""
-        return self._machine.position(self._since_start(time))
+        return self._machine.position(self._measure_time(time))
 
     def conditions(self, time: float) -> dict[str, float]:
         """Return the true conditions at a time in s from the start of the emulation, SI."""
-        return self._machine.conditions(self._since_start(time))
+        return self._machine.conditions(self._measure_time(time))
 
-    def _since_start(self, time: float) -> float:
+    def _measure_time(self, time: float) -> float:
         if not self._is_started:
             return 0.0
         if self._started_at is None:

@@ -61,13 +61,15 @@ class Guarded:
             self._tell(name, error)
             raise
         if name == "commands" and self._kind is EXTENSION:
-            return tuple(replace(each, run=self.watched(f"command {each.words}", each.run)) for each in found)
+            return tuple(
+                replace(each, run=self.look_after(f"command {each.words}", each.run)) for each in found
+            )
         # Whether it can be called is quickly asked, and mostly settles it.
         if not callable(found) or not inspect.isroutine(found):
             return found
         # The checks of answers load what a listing of names does not need.
         accept = import_module("zlmreport.plugin.boundary.answers").ACCEPTED.get((self._kind.name, name))
-        method = self.__dict__[name] = self.watched(name, found, accept)
+        method = self.__dict__[name] = self.look_after(name, found, accept)
         return method
 
     def __eq__(self, other: object) -> bool:
@@ -82,19 +84,19 @@ class Guarded:
         """Return what the object says of itself."""
         return repr(self._offered)
 
-    def doubted(self, kind: type[Guarded]) -> Any:
+    def guard_as(self, kind: type[Guarded]) -> Any:
         """Return the same object as another kind of guard has it."""
         return kind(self._kind, self._offered, self._who)
 
-    def again(self, offered: Any) -> Any:
+    def guard_another(self, offered: Any) -> Any:
         """Return another object of the same kind and plugin, guarded too; this one, if it is this one."""
         return self if offered is self._offered else Guarded(self._kind, offered, self._who)
 
-    def connected(self, connection: Any) -> Any:
+    def guard_connection(self, connection: Any) -> Any:
         """Return an open instrument, guarded too."""
         return _GuardedConnection(self._kind, connection, self._who)
 
-    def watched(
+    def look_after(
         self, name: str, method: Callable[..., Any], accept: Callable[..., Any] | None = None
     ) -> Callable[..., Any]:
         """Return a function of the plugin that is looked after.
@@ -103,14 +105,14 @@ class Guarded:
             `Unacceptable` for what no plugin must answer.
         """
         if accept is None:
-            return partial(self._asked, name, method)
+            return partial(self._ask, name, method)
 
         def answer(*arguments: Any, **keywords: Any) -> Any:
             return accept(self, method(*arguments, **keywords), *arguments, **keywords)
 
-        return partial(self._asked, name, answer)
+        return partial(self._ask, name, answer)
 
-    def _asked(self, name: str, question: Callable[..., Any], /, *arguments: Any, **keywords: Any) -> Any:
+    def _ask(self, name: str, question: Callable[..., Any], /, *arguments: Any, **keywords: Any) -> Any:
         """Return an answer; whatever is raised instead becomes one message."""
         before, wrong = PRESENCE.begin(f"{self._who}: {name}"), ""
         try:
@@ -137,17 +139,17 @@ class _GuardedConnection(Guarded):
 
     def __enter__(self) -> Self:
         """Return the connection."""
-        self._asked("open", self._offered.__enter__)
+        self._ask("open", self._offered.__enter__)
         return self
 
     def __exit__(self, *raised: object) -> None:
         """Close the port."""
-        self._asked("open", self._offered.__exit__, *raised)
+        self._ask("open", self._offered.__exit__, *raised)
 
     def readings(self) -> Iterator[Any]:
         """Yield what the instrument yields."""
-        readings = self._asked("readings", lambda: iter(self._offered.readings()))
-        while (reading := self._asked("readings", next, readings, _NOTHING)) is not _NOTHING:
+        readings = self._ask("readings", lambda: iter(self._offered.readings()))
+        while (reading := self._ask("readings", next, readings, _NOTHING)) is not _NOTHING:
             yield reading
 
 

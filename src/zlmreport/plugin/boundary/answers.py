@@ -131,7 +131,7 @@ def of_error(standard: Guarded, answer: Any, *_: Any) -> Any:
     """Hand on the standard as it evaluates an error, behind the boundary too."""
     if getattr(answer, "identifier", None) != standard.identifier:
         raise Unacceptable(f"returns {_name_answer(answer)}; itself for that error is expected")
-    return standard.again(answer)
+    return standard.guard_another(answer)
 
 
 def of_lines(_standard: Guarded, answer: Any, measurements: MeasurementSet, *_: Any) -> Mapping[str, Any]:
@@ -230,12 +230,12 @@ def grid(effect: Guarded, answer: Any, _design: Design) -> FloatArray:
 
 def form(effect: Guarded, answer: Any, _settings: Any) -> Effect:
     """Hand on the form of an effect, behind the boundary too."""
-    return effect.again(_require_kind(Effect, answer))  # type: ignore[no-any-return]
+    return effect.guard_another(_require_kind(Effect, answer))  # type: ignore[no-any-return]
 
 
 def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
     """Hand on the forms of an effect, behind the boundary too."""
-    found = tuple(effect.again(each) for each in _require_all_of(Effect, answer))
+    found = tuple(effect.guard_another(each) for each in _require_all_of(Effect, answer))
     if not found:
         raise Unacceptable("returns no form; there is one at least")
     return found
@@ -243,7 +243,7 @@ def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
 
 def forms_or_none(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
     """Hand on further forms of an effect, if there are any."""
-    return tuple(effect.again(each) for each in _require_all_of(Effect, answer))
+    return tuple(effect.guard_another(each) for each in _require_all_of(Effect, answer))
 
 
 def untestable(_effect: Guarded, answer: Any, *_: Any) -> Any:
@@ -327,8 +327,8 @@ def plan(extension: Guarded, answer: Any, *_: Any) -> Any:
     if answer is None:
         return None
     of = _require_kind(ExtensionPlan, answer)
-    files = extension.watched("files of the plan", of.files)
-    return replace(of, subject=extension.watched("subject of the plan", of.subject), files=files)
+    files = extension.look_after("files of the plan", of.files)
+    return replace(of, subject=extension.look_after("subject of the plan", of.subject), files=files)
 
 
 def live(extension: Guarded, answer: Any, *_: Any) -> Any:
@@ -336,7 +336,7 @@ def live(extension: Guarded, answer: Any, *_: Any) -> Any:
     if answer is None:
         return None
     of = _require_kind(LiveRun, answer)
-    return replace(of, run=extension.watched("live", of.run))
+    return replace(of, run=extension.look_after("live", of.run))
 
 
 def contradictions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
@@ -354,7 +354,7 @@ def opened(instrument: Guarded, answer: Any, _options: Any) -> Any:
     lacking = [name for name in ("__enter__", "__exit__", "readings", "zero") if not hasattr(answer, name)]
     if lacking:
         raise Unacceptable(f"returns {_name_answer(answer)} without {', '.join(lacking)}; see Connection")
-    return instrument.connected(answer)
+    return instrument.guard_connection(answer)
 
 
 def receiver(_notifier: Guarded, answer: Any, _options: Any) -> str:

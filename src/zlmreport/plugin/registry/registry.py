@@ -47,7 +47,7 @@ class _Doubtful(Guarded):
 
 def make_doubtful(effect: Any) -> Any:
     """Return an effect as one that cannot be tested."""
-    return effect.doubted(_Doubtful)
+    return effect.guard_as(_Doubtful)
 
 
 Wanted = TypeVar("Wanted")
@@ -85,14 +85,14 @@ class Registry:
         Raises `InputError` at the place that names it, if there is none, or more than one.
         """
         key, place = (kind.name, identifier), named_at or Place("zlmreport")
-        for candidate in self._one(key, place):
-            offered = self._loaded(candidate)
+        for candidate in self._find_one(key, place):
+            offered = self._load(candidate)
             if key in offered:
                 found: Wanted = offered[key]
                 return found
-        raise self._nothing(kind, identifier, self.identifiers(kind), place)
+        raise self._make_absence(kind, identifier, self.list_identifiers(kind), place)
 
-    def _nothing(
+    def _make_absence(
         self, kind: Kind[Any], identifier: str, known: Sequence[str], named_at: Place | None
     ) -> InputError:
         """Return the error that there is nothing of this name, with the nearest and what does not work."""
@@ -101,35 +101,35 @@ class Registry:
         lines.extend(f"plugin {name} is switched off by {DISABLE}" for name in self.disabled)
         return InputError([Problem(named_at or Place("zlmreport"), "\n  ".join(lines))])
 
-    def all(self, kind: Kind[Wanted]) -> tuple[Wanted, ...]:
+    def list_all(self, kind: Kind[Wanted]) -> tuple[Wanted, ...]:
         """Return everything of one kind, in the order of identifiers.
 
         What two plugins provide is left out: only who names it is stopped. An effect stands here all the
         same, as one that cannot be tested, so that no diagnosis lacks it in silence.
         """
         found: list[Wanted] = []
-        for identifier in self.identifiers(kind):
+        for identifier in self.list_identifiers(kind):
             key = kind.name, identifier
-            offering = self._offering(key)
-            offered = [each[key] for each in map(self._loaded, offering) if key in each]
+            offering = self._list_offering(key)
+            offered = [each[key] for each in map(self._load, offering) if key in each]
             if len(offering) == 1:
                 found.extend(offered)
             elif kind is kinds.EFFECT and offered:
                 found.append(cast("Wanted", make_doubtful(offered[0])))
         return tuple(found)
 
-    def identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
+    def list_identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
         """Return what jobs call what there is of one kind, in order; only plugins that say so are loaded."""
         return tuple(
             sorted({key[1] for each in self._candidates for key in each.keys if key[0] == kind.name})
         )
 
-    def origin(self, kind: Kind[Any], identifier: str) -> Plugin:
+    def find_origin(self, kind: Kind[Any], identifier: str) -> Plugin:
         """Return the plugin that offers this."""
-        (candidate,) = self._one((kind.name, identifier), Place("zlmreport"))
+        (candidate,) = self._find_one((kind.name, identifier), Place("zlmreport"))
         return candidate.plugin
 
-    def offers(self) -> tuple[Offer, ...]:
+    def list_offers(self) -> tuple[Offer, ...]:
         """Return everything, in the order of kinds and identifiers: all plugins are loaded."""
         return tuple(
             Offer(kind, identifier, offered, candidate.plugin)
@@ -155,75 +155,75 @@ class Registry:
         """Functions of loaded plugins that look like hooks and are none."""
         return tuple(problem for each in self._candidates for problem in each.misspelt)
 
-    def versions(self, job: Job) -> dict[str, str]:
+    def list_versions(self, job: Job) -> dict[str, str]:
         """Return the release of every plugin that a job's results come from, by its identifier."""
         used: list[tuple[Kind[Any], str]] = [(kinds.SOURCE, each.identifier) for each in job.sources]
         used.extend((kinds.STANDARD, each.identifier) for part in job.parts for each in part.standards)
         effects = (each for part in job.parts for each in part.effects)
         used.extend((kinds.EFFECT, each.installed) for each in effects if not each.is_formula)
-        return {identifier: self.origin(kind, identifier).release for kind, identifier in used}
+        return {identifier: self.find_origin(kind, identifier).release for kind, identifier in used}
 
-    def _loaded(self, candidate: PluginCandidate) -> Any:
+    def _load(self, candidate: PluginCandidate) -> Any:
         offered = candidate.offered
         if candidate.misspelt:
             raise InputError(candidate.misspelt)
         return offered
 
-    def _one(self, key: tuple[str, str], place: Place) -> Sequence[PluginCandidate]:
+    def _find_one(self, key: tuple[str, str], place: Place) -> Sequence[PluginCandidate]:
         """Return the plugin that offers this, if there is one; two would answer differently."""
-        offering = self._offering(key)
+        offering = self._list_offering(key)
         if len(offering) > 1:
             kind = next(kind for kind in KINDS if kind.name == key[0])
             raise InputError.at(place, _say_provided_twice(kind, key[1], offering))
         return offering
 
-    def _offering(self, key: tuple[str, str]) -> Sequence[PluginCandidate]:
+    def _list_offering(self, key: tuple[str, str]) -> Sequence[PluginCandidate]:
         return [each for each in self._candidates if key in each.keys]
 
     @property
     def standards(self) -> tuple[Standard, ...]:
         """All standards."""
-        return self.all(kinds.STANDARD)
+        return self.list_all(kinds.STANDARD)
 
     @property
     def sources(self) -> tuple[DataSource, ...]:
         """All data sources."""
-        return self.all(kinds.SOURCE)
+        return self.list_all(kinds.SOURCE)
 
     @property
     def renderers(self) -> tuple[Renderer, ...]:
         """All file formats."""
-        return self.all(kinds.RENDERER)
+        return self.list_all(kinds.RENDERER)
 
     @property
     def effects(self) -> tuple[Effect, ...]:
         """All effects."""
-        return self.all(kinds.EFFECT)
+        return self.list_all(kinds.EFFECT)
 
     @property
     def circle_effects(self) -> tuple[CircleEffect, ...]:
         """All effects of circles."""
-        return self.all(kinds.CIRCLE_EFFECT)
+        return self.list_all(kinds.CIRCLE_EFFECT)
 
     @property
     def part_programs(self) -> tuple[PartProgram, ...]:
         """All writers of part programs."""
-        return self.all(kinds.PART_PROGRAM)
+        return self.list_all(kinds.PART_PROGRAM)
 
     @property
     def controllers(self) -> tuple[Controller, ...]:
         """All controls for which compensation tables are written."""
-        return self.all(kinds.CONTROLLER)
+        return self.list_all(kinds.CONTROLLER)
 
     @property
     def extensions(self) -> tuple[Extension, ...]:
         """All groups of job keys that plugins add."""
-        return self.all(kinds.EXTENSION)
+        return self.list_all(kinds.EXTENSION)
 
     @property
     def extension_keys(self) -> tuple[str, ...]:
         """The keys of these groups; only plugins that say so are loaded."""
-        return self.identifiers(kinds.EXTENSION)
+        return self.list_identifiers(kinds.EXTENSION)
 
     @property
     def axis_keys(self) -> tuple[str, ...]:
@@ -233,11 +233,11 @@ class Registry:
     @property
     def instruments(self) -> tuple[Instrument, ...]:
         """All live instruments."""
-        return self.all(kinds.INSTRUMENT)
+        return self.list_all(kinds.INSTRUMENT)
 
     def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
         """Return a standard, as `find` does; by the name of an identical adoption, too."""
-        if identifier not in self.identifiers(kinds.STANDARD):
+        if identifier not in self.list_identifiers(kinds.STANDARD):
             from zlmreport.job.installed import list_adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
 
             for each in self.standards:
@@ -258,7 +258,7 @@ class Registry:
         from zlmreport.job.choices import part_number  # noqa: PLC0415 - a listing of names needs no jobs
 
         name, number = part_number(identifier)
-        if number > 1 and name in self.identifiers(kinds.EFFECT):
+        if number > 1 and name in self.list_identifiers(kinds.EFFECT):
             first = self.find(kinds.EFFECT, name, named_at)
             if first.several:
                 return first.repeated(number)
@@ -271,15 +271,15 @@ class Registry:
     def part_program(
         self, identifier: str, named_at: Place | None = None, takes: type | None = None
     ) -> PartProgram:
-        """Return a writer of part programs, as `find` does, among those that `programs_for` returns."""
-        if identifier in self.identifiers(kinds.PART_PROGRAM):
+        """Return a writer of part programs, as `find` does, among those that `list_programs_for` returns."""
+        if identifier in self.list_identifiers(kinds.PART_PROGRAM):
             program = self.find(kinds.PART_PROGRAM, identifier, named_at)
             if _is_for(program, takes):
                 return program
-        known = [each.identifier for each in self.programs_for(takes)]
-        raise self._nothing(kinds.PART_PROGRAM, identifier, known, named_at)
+        known = [each.identifier for each in self.list_programs_for(takes)]
+        raise self._make_absence(kinds.PART_PROGRAM, identifier, known, named_at)
 
-    def programs_for(self, takes: type | None = None) -> tuple[PartProgram, ...]:
+    def list_programs_for(self, takes: type | None = None) -> tuple[PartProgram, ...]:
         """Return the part programs that are written of this; without it, of the motion of a planned test."""
         return tuple(each for each in self.part_programs if _is_for(each, takes))
 
@@ -291,7 +291,7 @@ class Registry:
         """Return a group of job keys that a plugin adds, as `find` does."""
         return self.find(kinds.EXTENSION, identifier, named_at)
 
-    def extensions_of(self, job: Job) -> Iterator[tuple[Extension, ExtensionChoice]]:
+    def list_extensions_of(self, job: Job) -> Iterator[tuple[Extension, ExtensionChoice]]:
         """Yield the extensions whose groups of keys a job has."""
         for choice in job.extensions:
             yield self.extension(choice.identifier), choice
@@ -326,7 +326,7 @@ def collect(loaded: Iterable[tuple[Plugin, object]], disabled: Iterable[str] = (
     """Return the registry of modules, or of any objects that have hooks; raise `InputError` as it does."""
     candidates = [PluginCandidate(plugin, partial(_take_as_it_is, module)) for plugin, module in loaded]
     registry = Registry(candidates, disabled)
-    registry.offers()
+    registry.list_offers()
     if registry.misspelt:
         raise InputError(registry.misspelt)
     return registry
