@@ -386,7 +386,11 @@ class SetSearch:
             if other is None and is_thorough and self._is_coloured(now):
                 other = self._paired(now)
             if other is None:
-                break
+                # What its searched parameters cost was found beside another set.
+                before, now = now, self._settled(now)
+                if now.score >= before.score - _GAIN:
+                    break
+                other = now
             now = self._shrunk(other)
         self._ends.update(dict.fromkeys(passed, now))
         return now

@@ -7,8 +7,9 @@ whole grid first, then between its values, then by Gauss-Newton steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from typing import TypeAlias
 
 import numpy as np
@@ -91,13 +92,23 @@ class FitProblem:
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
         thetas = self.model.linked(thetas)
-        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
-        pairs = self.model.add_linked(self.design, thetas, own)
-        empty = np.empty((len(self.deviation), 0))
-        columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
-        left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
+        columns, left = self._equations(thetas, range(len(thetas)))
         solved = solve(columns, left)
         return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
+
+    def squares_of(self, thetas: Thetas, terms: Collection[int]) -> float:
+        """Return the residual sum of squares for one θ of some terms alone, by their places in the model."""
+        columns, left = self._equations(self.model.linked(thetas), terms)
+        return float(np.sum((left - columns @ solve(columns, left)) ** 2))
+
+    def _equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
+        """Return the whitened columns of some terms, and what is left beside given coefficients."""
+        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
+        pairs = self.model.add_linked(self.design, thetas, own)
+        chosen = [pairs[index] for index in terms]
+        empty = np.empty((len(self.deviation), 0))
+        columns = self.whiten(np.concatenate([empty, *(each for each, _ in chosen)], axis=1))
+        return columns, self.whiten(self.deviation - np.sum([given for _, given in chosen], axis=0))
 
     def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns of a term whose coefficients are solved, and what the given ones make."""
@@ -131,15 +142,44 @@ def search(problem: FitProblem) -> Solution:
     """Return the best fit over the whole grid of every term, refined."""
     grids = [term.grid(problem.design) for term in problem.model.terms]
     searched = [index for index, grid in enumerate(grids) if len(grid) > 1]
-    best = _sweep(problem, grids, searched)
+    starts = [[grid[0] for grid in grids]]
     if len(searched) > 1:  # where the search ends hangs on whose value is searched beside a wrong one
-        best = _choose_better(best, _sweep(problem, grids, searched[::-1]))
-    return refine(problem, best)
+        starts.append(_choose_one_by_one(problem, grids, searched))
+    ends = [_sweep(problem, grids, searched, tuple(start)) for start in starts]
+    return refine(problem, reduce(_choose_better, ends))
 
 
-def _sweep(problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int]) -> Solution:
-    """Return the best fit that is found grid after grid, in an order of the terms."""
-    best = problem.solution(tuple(grid[0] for grid in grids))
+def _choose_one_by_one(
+    problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int]
+) -> list[FloatArray]:
+    """Return a value of its grid for each term, found beside those terms alone that have theirs already.
+
+    Always that term is next which leaves least.
+    """
+    chosen = [grid[0] for grid in grids]
+    known = [index for index in range(len(grids)) if index not in searched]
+    while len(known) < len(grids):
+        tried = [
+            (
+                problem.squares_of((*chosen[:index], theta, *chosen[index + 1 :]), (*known, index)),
+                index,
+                place,
+            )
+            for index in searched
+            if index not in known
+            for place, theta in enumerate(grids[index])
+        ]
+        _, index, place = min(tried)
+        chosen[index] = grids[index][place]
+        known.append(index)
+    return chosen
+
+
+def _sweep(
+    problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int], start: Thetas
+) -> Solution:
+    """Return the best fit that is found grid after grid, from a start."""
+    best = problem.solution(start)
     for _ in range(_SWEEPS if len(searched) > 1 else len(searched)):
         before = best
         for index in searched:
