@@ -7,7 +7,7 @@ it where the odds between them are less than twenty to one.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set as AbstractSet
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name
+from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import (
     LEVEL,
@@ -243,12 +243,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
     found = search.found(start.members, lambda share: told(0.2 + 0.6 * share))
     found = search.renumbered(_believe_set(search, found))
-    before = {(each.identifier, each.effect.settings) for each in start.members}
-    named = tuple(
-        _name_effect(search, found, number)
-        for number in _put_in_order(contest, found)
-        if (found.members[number].identifier, found.members[number].effect.settings) not in before
-    )
+    named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
         noise=noise,
@@ -347,8 +342,22 @@ def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     return chosen
 
 
-def _name_effect(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
-    """Return an effect of a set with those that could stand in its place."""
+def _name_effects(search: SetSearch, found: EffectSet, before: Iterable[Effect]) -> Iterator[NamedEffect]:
+    """Yield the effects of a set that were not there before, the one to add first first."""
+    known, leading = [(each.identifier, each.settings) for each in before], set[str]()
+    for number in _put_in_order(search.contest, found):
+        effect = found.members[number].effect
+        if (effect.identifier, effect.settings) not in known:
+            named = _name_effect(search, found, number, leading)
+            leading.add(named.identifier)
+            yield named
+
+
+def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: AbstractSet[str]) -> NamedEffect:
+    """Return an effect of a set with those that could stand in its place.
+
+    `taken`: Names under which others of the set lead.
+    """
     rest = search.without(found, number)
     member = found.members[number]
     sets = [found, *search.rivals(found, rest, _BEHIND)]
@@ -364,17 +373,25 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int) -> NamedEffec
         for each, whole, weight in zip(members, sets, weights[1:], strict=True)
     ]
     design = search.contest.design
-    near = [each for each in rivals if each.evidence > rivals[0].evidence - MENTION]
+    # What takes the place of several at once does not lead in the place of one of them.
+    others = list_names(found.named) - {find_installed_name(member.effect)}
+    near = [
+        each
+        for each, whole in zip(rivals, sets, strict=True)
+        if each.evidence > rivals[0].evidence - MENTION
+        and others < list_names(whole.named)
+        and (each is rivals[0] or each.identifier not in taken)
+    ]
     leading = min(near, key=lambda each: (_count_assumptions(each.member.effect, design), -each.evidence))
-    others = [each for each in rivals if each is not leading]
-    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in others]
+    behind = [each for each in rivals if each is not leading]
+    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in behind]
     names = {each.identifier for each in found.members}
     return NamedEffect(
         leading,
-        tuple(each for each, equal in zip(others, is_equal, strict=True) if equal),
+        tuple(each for each, equal in zip(behind, is_equal, strict=True) if equal),
         tuple(
             each
-            for each, equal in zip(others, is_equal, strict=True)
+            for each, equal in zip(behind, is_equal, strict=True)
             if not equal and each.evidence > 0 and each.identifier not in names
         ),
     )
