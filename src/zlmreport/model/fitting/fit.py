@@ -25,6 +25,7 @@ from zlmreport.model.fitting.estimate import (
     compute_variance_of_variance,
     list_estimates_of,
 )
+from zlmreport.model.fitting.grid_search import search
 from zlmreport.model.fitting.noise import Noise, NoisePart, list_noise_parts, make_coarse_grid
 from zlmreport.model.fitting.observations import select_readings
 from zlmreport.model.fitting.repeats import compute_weights
@@ -35,7 +36,6 @@ from zlmreport.model.fitting.search import (
     Thetas,
     compute_tangents,
     refine,
-    search,
 )
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.

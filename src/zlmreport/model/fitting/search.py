@@ -1,15 +1,14 @@
 """Searched parameters by variable projection.
 
 G. H. Golub and V. Pereyra, SIAM Journal on Numerical Analysis 10 (1973) 413. For any value of θ the linear
-parameters are solved, so only the residual sum of squares as a function of θ is searched: over each effect's
-whole grid first, then between its values, then by Gauss-Newton steps.
+parameters are solved, so only the residual sum of squares as a function of θ is searched: over the grids of
+all effects first (`grid_search`), then between their values, then by Gauss-Newton steps.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
 from typing import TypeAlias
 
 import numpy as np
@@ -92,17 +91,15 @@ class FitProblem:
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
         thetas = self.model.linked(thetas)
-        columns, left = self._equations(thetas, range(len(thetas)))
+        columns, left = self.equations(thetas, range(len(thetas)))
         solved = solve(columns, left)
         return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
 
-    def squares_of(self, thetas: Thetas, terms: Collection[int]) -> float:
-        """Return the residual sum of squares for one θ of some terms alone, by their places in the model."""
-        columns, left = self._equations(self.model.linked(thetas), terms)
-        return float(np.sum((left - columns @ solve(columns, left)) ** 2))
+    def equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
+        """Return the whitened columns of some terms, and what their given coefficients leave, both whitened.
 
-    def _equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
-        """Return the whitened columns of some terms, and what is left beside given coefficients."""
+        `terms`: By their places in the model; what is linked to one of them comes along.
+        """
         own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
         pairs = self.model.add_linked(self.design, thetas, own)
         chosen = [pairs[index] for index in terms]
@@ -136,59 +133,6 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
     # Once more on what is left: polynomials of high order lose digits otherwise.
     found = found + np.linalg.lstsq(scaled, values - scaled @ found, rcond=None)[0]
     return found / np.where(lengths > 0, lengths, 1.0)
-
-
-def search(problem: FitProblem) -> Solution:
-    """Return the best fit over the whole grid of every term, refined."""
-    grids = [term.grid(problem.design) for term in problem.model.terms]
-    searched = [index for index, grid in enumerate(grids) if len(grid) > 1]
-    starts = [[grid[0] for grid in grids]]
-    if len(searched) > 1:  # where the search ends hangs on whose value is searched beside a wrong one
-        starts.append(_choose_one_by_one(problem, grids, searched))
-    ends = [_sweep(problem, grids, searched, tuple(start)) for start in starts]
-    return refine(problem, reduce(_choose_better, ends))
-
-
-def _choose_one_by_one(
-    problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int]
-) -> list[FloatArray]:
-    """Return a value of its grid for each term, found beside those terms alone that have theirs already.
-
-    Always that term is next which leaves least.
-    """
-    chosen = [grid[0] for grid in grids]
-    known = [index for index in range(len(grids)) if index not in searched]
-    while len(known) < len(grids):
-        tried = [
-            (
-                problem.squares_of((*chosen[:index], theta, *chosen[index + 1 :]), (*known, index)),
-                index,
-                place,
-            )
-            for index in searched
-            if index not in known
-            for place, theta in enumerate(grids[index])
-        ]
-        _, index, place = min(tried)
-        chosen[index] = grids[index][place]
-        known.append(index)
-    return chosen
-
-
-def _sweep(
-    problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int], start: Thetas
-) -> Solution:
-    """Return the best fit that is found grid after grid, from a start."""
-    best = problem.solution(start)
-    for _ in range(_SWEEPS if len(searched) > 1 else len(searched)):
-        before = best
-        for index in searched:
-            for theta in grids[index]:
-                tried = problem.solution((*best.thetas[:index], theta, *best.thetas[index + 1 :]))
-                best = _choose_better(best, tried)
-        if best is before:
-            break
-    return best
 
 
 def refine(problem: FitProblem, start: Solution) -> Solution:
