@@ -275,6 +275,7 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
 
     Where several could stand in a place, it is their evidence together that something stands there.
     """
+    is_whole = not search.has_nameless(found)
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
         order = sorted(range(len(without)), key=lambda each: without[each].score)
@@ -282,7 +283,8 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         if needless is None:
             break
         found = without[needless]
-    return _keep_sure(search, found) if search.has_nameless(found) else found
+    # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
+    return found if is_whole else _keep_sure(search, found)
 
 
 def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:
