@@ -26,6 +26,7 @@ from zlmreport.model.diagnosis.null_distribution import (
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
+from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
@@ -231,7 +232,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
     deviations = fitted.open_deviation[:, np.newaxis]
-    observed = contest.trials(start.amplitudes, start.columns, deviations, stated.known)
+    observed = Trials(contest, start.amplitudes, start.columns, deviations, stated.known)
     p_value = null.p_value(Scores(observed.ratios, observed.nameless))
     reduced = contest.reduced(start.amplitudes, start.columns)
     sigma = float(np.sqrt(contest.left(reduced)[0] / contest.space.degrees))

@@ -8,9 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
 from zlmreport.model.diagnosis.families import make_orthonormal
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 
 #: Evidence by which another part of a grid must be better for a parameter to jump there, and of another form.
 _JUMP, _CLEAR_GAIN = 2.0, 0.5

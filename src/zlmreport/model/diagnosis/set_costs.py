@@ -11,8 +11,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter
 from zlmreport.model.effects.sizes import compute_times_usual, find_usual_range, name_of
