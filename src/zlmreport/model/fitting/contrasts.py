@@ -15,7 +15,8 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import Noise, NoisePart
+from zlmreport.model.fitting.by_target import ByTarget
+from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
 
 #: Columns that add less than this share of their length to those before them add nothing.
 _DEPENDENT = 1e-11
@@ -118,13 +119,6 @@ class Contrasts:
         flat = flat - self.base @ (self.base.T @ flat)
         return flat.reshape(columns.shape)
 
-    def metric(self, ratios: FloatArray) -> Metric:
-        """Return the inner product for one φ, shape (parts,)."""
-        active, roots, gram = self._active(ratios)
-        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
-        logarithms = np.log(np.diagonal(factor))
-        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
-
     def restricted(
         self, contrast: FloatArray, known: float = 0.0
     ) -> Callable[[FloatArray], tuple[float, float]]:
@@ -135,30 +129,46 @@ class Contrasts:
         `contrast`, (N,): Of the deviations.
         `known`: Residual sum of squares of a noise of known size that stands beside σ.
         """
-        total, products = float(contrast @ contrast), self.factors.T @ contrast
-        length = np.sqrt(max(total, _NOTHING))
+        total = float(contrast @ contrast)
+        is_by_target = np.array([self._is_by_target(part) for part in self.parts], dtype=np.bool_)
+        own = [self.single.whitened(part.factor) for part in self.parts]
+        widths = [each.shape[1] for each, apart in zip(own, is_by_target, strict=True) if not apart]
+        beside = [each for each, apart in zip(own, is_by_target, strict=True) if not apart]
+        readings = contrast[:, np.newaxis] / np.sqrt(max(total, _NOTHING))
+        targets = ByTarget(
+            [each for each, apart in zip(own, is_by_target, strict=True) if apart],
+            np.concatenate([*beside, self.base, readings], axis=1),
+        )
+        shared = sum(widths)
 
         def criterion(ratios: FloatArray) -> tuple[float, float]:
-            active, roots, gram = self._active(ratios)
-            # A border of products with the readings: the last pivot of the root is what these leave.
-            bordered = np.zeros((len(active) + 1, len(active) + 1))
-            bordered[:-1, :-1] = gram
-            bordered[-1, :-1] = roots * products[active] / length
-            bordered[np.diag_indices(len(active))] += 1.0
-            bordered[-1, -1] = 1.0 + _ROUNDING
+            bordered, logarithm = targets.products(ratios[is_by_target])
+            roots = np.ones(len(bordered))
+            roots[:shared] = np.sqrt(np.repeat(ratios[~is_by_target], widths))
+            bordered = roots[:, np.newaxis] * bordered * roots
+            bordered[np.diag_indices(shared)] += 1.0
+            bordered[-1, -1] += _ROUNDING
+            # The last pivot of the root is what all else leaves of the readings.
             pivots = np.diagonal(np.linalg.cholesky(bordered))
             squares = total * float(pivots[-1]) ** 2 + known
-            logarithms = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
-            return float(logarithms), squares
+            logarithm += self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
+            return float(logarithm), squares
 
         return criterion
 
-    def _active(self, ratios: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Return the columns of the factors with a share in the covariance, √φ of each, and √φ·ZᵀZ·√φ."""
+    def _is_by_target(self, part: NoisePart) -> bool:
+        """Return whether readings of other targets share nothing of a part, made independent singly."""
+        return self.single.kept is None and part.source in BY_TARGET
+
+    def metric(self, ratios: FloatArray) -> Metric:
+        """Return the inner product for one φ, shape (parts,)."""
         spread = np.repeat(ratios, [part.factor.shape[1] for part in self.parts])
         active = np.flatnonzero(spread)
         roots = np.sqrt(spread[active])
-        return active, roots, roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
+        gram = roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
+        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
+        logarithms = np.log(np.diagonal(factor))
+        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
     def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
         """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""

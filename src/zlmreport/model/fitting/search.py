@@ -93,9 +93,9 @@ class FitProblem:
         thetas = self.model.linked(thetas)
         own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
         pairs = self.model.add_linked(self.design, thetas, own)
-        empty = np.empty((len(self.deviation), 0))
-        columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
-        left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
+        left = self.deviation - np.sum([given for _, given in pairs], axis=0)
+        whitened = self.whiten(np.column_stack([*(each for each, _ in pairs), left]))
+        columns, left = whitened[:, :-1], whitened[:, -1]
         solved = solve(columns, left)
         return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
 
