@@ -24,6 +24,8 @@ _SWEEPS = 4
 _HALVINGS = 12
 _STEPS = 60
 _CONVERGED = 1e-14
+#: Share of the sum of squares that is rounding: a step that changes less is the last.
+_SETTLED = 1e-14
 #: Step of a derivative over the distance of neighbours in the grid: where rounding and curvature err alike.
 _DERIVATIVE = 3e-3
 _SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-12, 1e6
@@ -187,7 +189,7 @@ def compute_tangents(
 def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
     """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian).
 
-    A step that changes the sum of squares by less than `settled` is the last.
+    A step that changes the sum of squares by less than `settled`, or by rounding, is the last.
     """
     best, places = start, problem.places(start.thetas)
     damping = _SMALLEST_DAMPING
@@ -216,7 +218,7 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
             best, damping = tried, max(damping / 10, _SMALLEST_DAMPING)
         else:
             damping = max(damping * 100, 1e-6)
-        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING or change < settled:
+        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING or change < max(settled, _SETTLED * best.squares):
             break
     return best
 
