@@ -15,7 +15,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.by_target import ByTarget
+from zlmreport.model.fitting.by_target import FactorsByTarget, ProductsByTarget, RootByTarget
 from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
 
 #: Columns that add less than this share of their length to those before them add nothing.
@@ -135,14 +135,14 @@ class Contrasts:
         widths = [each.shape[1] for each, apart in zip(own, is_by_target, strict=True) if not apart]
         beside = [each for each, apart in zip(own, is_by_target, strict=True) if not apart]
         readings = contrast[:, np.newaxis] / np.sqrt(max(total, _NOTHING))
-        targets = ByTarget(
-            [each for each, apart in zip(own, is_by_target, strict=True) if apart],
-            np.concatenate([*beside, self.base, readings], axis=1),
+        factors = FactorsByTarget(
+            [each for each, apart in zip(own, is_by_target, strict=True) if apart], len(contrast)
         )
+        products = ProductsByTarget(factors, np.concatenate([*beside, self.base, readings], axis=1))
         shared = sum(widths)
 
         def criterion(ratios: FloatArray) -> tuple[float, float]:
-            bordered, logarithm = targets.products(ratios[is_by_target])
+            bordered, logarithm = products.under(ratios[is_by_target])
             roots = np.ones(len(bordered))
             roots[:shared] = np.sqrt(np.repeat(ratios[~is_by_target], widths))
             bordered = roots[:, np.newaxis] * bordered * roots
@@ -245,3 +245,39 @@ def make_whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
     factors = np.concatenate([np.empty((len(scale), 0)), *active], axis=1) * scale[:, np.newaxis]
     modes, singular, _ = np.linalg.svd(factors, full_matrices=False)
     return Whitener(scale, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A root W of V⁻¹, WᵀW = V⁻¹, that a hundred targets make hardly dearer than ten."""
+
+    scale: FloatArray  #: (N,): 1/√w.
+    by_target: RootByTarget  #: The root of what readings of other targets do not share.
+    modes: FloatArray  #: (N, r): Orthonormal directions in which readings scatter together beside that.
+    excess: FloatArray  #: (r,): 1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
+
+    def __call__(self, columns: FloatArray) -> FloatArray:
+        """Return W times columns over the readings, shape (N, k)."""
+        return self._keep_modes(self.by_target(self.scale[:, np.newaxis] * columns))
+
+    def transposed(self, columns: FloatArray) -> FloatArray:
+        """Return Wᵀ times columns, shape (N, k)."""
+        return self.scale[:, np.newaxis] * self.by_target(self._keep_modes(columns))
+
+    def _keep_modes(self, columns: FloatArray) -> FloatArray:
+        return columns - self.modes @ (self.excess[:, np.newaxis] * (self.modes.T @ columns))
+
+
+def make_root(parts: Sequence[NoisePart], noise: Noise) -> Root:
+    """Return what makes readings independent under a noise; single ones where no part has a share."""
+    scale = 1.0 / np.sqrt(noise.weights)
+    active = [part for part in parts if noise.ratios.get(part.source, 0.0) > 0]
+    apart = [part for part in active if part.source in BY_TARGET]
+    factors = FactorsByTarget([scale[:, np.newaxis] * part.factor for part in apart], len(scale))
+    by_target = RootByTarget(factors, np.array([noise.ratios[part.source] for part in apart]))
+    shared = [
+        part.factor * np.sqrt(noise.ratios[part.source]) for part in active if part.source not in BY_TARGET
+    ]
+    together = by_target(scale[:, np.newaxis] * np.concatenate([np.empty((len(scale), 0)), *shared], axis=1))
+    modes, singular, _ = np.linalg.svd(together, full_matrices=False)
+    return Root(scale, by_target, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))

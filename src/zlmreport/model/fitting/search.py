@@ -7,7 +7,7 @@ whole grid first, then between its values, then by Gauss-Newton steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -16,6 +16,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import Root
 
 #: Of all terms, in the order of the model; empty arrays for terms without θ.
 Thetas: TypeAlias = tuple[FloatArray, ...]
@@ -83,7 +84,7 @@ class FitProblem:
     model: AxisModel
     design: Design
     deviation: FloatArray
-    whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
+    whiten: Root  #: Makes readings independent.
     # Of each term its last θ and what it comes to: from one solution to the next one term changes. Not
     # handed on by `replace`: another model has other columns.
     _last: dict[int, tuple[bytes, tuple[FloatArray, FloatArray]]] = field(
@@ -218,7 +219,11 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
             best, damping = tried, max(damping / 10, _SMALLEST_DAMPING)
         else:
             damping = max(damping * 100, 1e-6)
-        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING or change < max(settled, _SETTLED * best.squares):
+        if (
+            np.abs(step).max() < _CONVERGED
+            or damping > _LARGEST_DAMPING
+            or change < max(settled, _SETTLED * best.squares)
+        ):
             break
     return best
 
