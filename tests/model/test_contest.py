@@ -233,6 +233,7 @@ def test_single_readings_that_resemble_those_before_them_are_made_independent() 
     root = single.whitened(np.eye(len(BASE)))
     np.testing.assert_allclose(root @ covariance @ root.T, np.eye(len(BASE)), atol=1e-9)
     np.testing.assert_allclose(single.coloured(root), np.eye(len(BASE)), atol=1e-9)
+    np.testing.assert_allclose(single.transposed(np.eye(len(BASE))), root.T, atol=1e-12)
     expected = np.linalg.slogdet(covariance)[1] - np.log(weights).sum()
     assert single.log_determinant == pytest.approx(expected, abs=1e-9)
 

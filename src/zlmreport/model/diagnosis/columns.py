@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.model.fitting.by_target import FactorsByTarget
 from zlmreport.model.fitting.contrasts import Contrasts
 
 _FIRST_ROOM = 256
@@ -83,14 +84,13 @@ class Columns:
         """
         self.space = space
         readings = len(space.scale)
-        self._factor = np.concatenate([np.empty((readings, 0)), *irregular], axis=1)
+        self._factors = FactorsByTarget(irregular, readings)
         self._widths = [each.shape[1] for each in irregular]
-        contrasts = space.of(self._factor)
+        contrasts = space.of(np.concatenate([np.empty((readings, 0)), *irregular], axis=1))
         self._gram = contrasts.T @ contrasts
-        self._factor = space.single.whitened(self._factor)
         # A row each: to gather some of them then copies whole stretches.
         self._values = np.empty((_FIRST_ROOM, readings))
-        self._sums = np.empty((_FIRST_ROOM, self._factor.shape[1]))
+        self._sums = np.empty((_FIRST_ROOM, len(self._gram)))
         self._count = self._core = self._kept = 0
         self._plain = _Table(np.empty((0, 0)))  # of products with all kept columns, nothing eliminated
         self._eliminated: dict[tuple[float, ...], _Eliminated] = {}
@@ -188,8 +188,9 @@ class Columns:
 
     def _sum(self, contrasts: FloatArray) -> FloatArray:
         """Return products of contrasts, (N, k), with the irregular factors, shape (k, r)."""
-        # Contrasts are at right angles to the model: the factor itself does for its contrasts.
-        return np.asarray(contrasts.T @ self._factor)
+        # Contrasts are at right angles to the model: the factors themselves do for their contrasts.
+        sums = self._factors.sums(self.space.single.transposed(contrasts))
+        return sums.transpose(2, 1, 0).reshape(contrasts.shape[1], len(self._gram))
 
     def _within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
         rows = np.ascontiguousarray(held.contrasts.T).reshape(-1, width, len(held.contrasts))

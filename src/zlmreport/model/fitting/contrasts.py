@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 
 import numpy as np
@@ -71,6 +72,14 @@ class SingleReadings:
         found[1:] = ((scaled[1:].T - scaled[:-1].T * self.kept) / np.sqrt(1.0 - self.kept**2)).T
         return found
 
+    def transposed(self, columns: FloatArray) -> FloatArray:
+        """Return Wᵀ times columns, shape (N, …)."""
+        found = columns.copy()
+        if self.kept is not None:
+            found[1:] = (found[1:].T / np.sqrt(1.0 - self.kept**2)).T
+            found[:-1] -= (found[1:].T * self.kept).T
+        return (found.T * self.scale).T
+
     def coloured(self, columns: FloatArray) -> FloatArray:
         """Return W⁻¹ times columns: what was made independent as it was read."""
         found = columns.copy()
@@ -93,15 +102,20 @@ def describe_single_readings(design: Design, weights: FloatArray, memory: float 
     return SingleReadings(scale, np.minimum(kept, _MOST_KEPT))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Contrasts:
     """The space of error contrasts of a base model."""
 
     base: FloatArray  #: (N, q): Orthonormal columns that span the model, single readings made independent.
     single: SingleReadings  #: How these scatter by themselves.
     parts: tuple[NoisePart, ...]  #: The sources of shared scatter.
-    factors: FloatArray  #: (N, r): Their factors Z side by side, as contrasts.
-    gram: FloatArray  #: (r, r): ZᵀZ.
+
+    @cached_property
+    def gram(self) -> FloatArray:
+        """Products of their factors Z side by side, as contrasts, shape (r, r)."""
+        factors = np.concatenate([self.base[:, :0], *(part.factor for part in self.parts)], axis=1)
+        contrasts = self.of(factors)
+        return np.asarray(contrasts.T @ contrasts)
 
     @property
     def scale(self) -> FloatArray:
@@ -188,10 +202,7 @@ def make_contrasts_of(
     lengths = np.linalg.norm(weighted, axis=0)
     left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
     orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
-    factors = np.concatenate([np.empty((len(base), 0)), *(part.factor for part in parts)], axis=1)
-    factors = single.whitened(factors)
-    factors -= orthonormal @ (orthonormal.T @ factors)
-    return Contrasts(orthonormal, single, tuple(parts), factors, factors.T @ factors)
+    return Contrasts(orthonormal, single, tuple(parts))
 
 
 def estimate_restricted(
