@@ -137,20 +137,24 @@ class Columns:
             return self.products(ratios, other, one).T
         return self._between(known, one, other)
 
-    def products_among(self, ratios: tuple[float, ...], first: IntArray, members: IntArray) -> FloatArray:
-        """Return products of columns of the core and of members of a set among themselves, the core first."""
-        known, count = self._of(ratios), len(first)
-        found = np.empty((count + len(members), count + len(members)))
-        together = np.concatenate([first, members])
-        rows = known.near.rows(together, lambda missing: self._with_core(known, missing))
-        found[:, :count] = known.near.values[rows[:, np.newaxis], first]
-        found[:count, count:] = found[count:, :count].T
+    def products_among(
+        self, ratios: tuple[float, ...], first: IntArray, members: IntArray, last: IntArray
+    ) -> FloatArray:
+        """Return products of columns of the core, of a set and of the core again, among themselves."""
+        known, begin, end = self._of(ratios), len(first), len(first) + len(members)
+        together = np.concatenate([first, members, last])
+        found = np.empty((len(together), len(together)))
+        rows = known.near.rows(together, lambda missing: self._with_core(known, missing))[:, np.newaxis]
+        found[:, :begin] = known.near.values[rows, first]
+        found[:, end:] = known.near.values[rows, last]
+        found[:begin, begin:end] = found[begin:end, :begin].T
+        found[end:, begin:end] = found[begin:end, end:].T
         if len(members):
             # The same set is asked about again and again, each time beside other curves without a name.
             key = members.tobytes()
             if key not in known.among:
                 known.among[key] = self._between(known, members, members)
-            found[count:, count:] = known.among[key]
+            found[begin:end, begin:end] = known.among[key]
         return found
 
     def squares_of_core(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:

@@ -232,19 +232,24 @@ class Contest(Likelihood):
         self, squares: FloatArray | float, explained: FloatArray, ranks: FloatArray, square: FloatArray
     ) -> FloatArray:
         """Return the criterion of blocks against none, their coefficients averaged over."""
-        found = []
-        for factor, weight in _WORTHS:
-            prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
-            left = squares - explained * (prior / (1.0 + prior))
-            left = np.maximum(left, ROUNDING * self.squares + self.known)
-            gained = self.logarithm(left) - self.logarithm(squares)
-            found.append(gained + ranks * np.log1p(prior) - 2.0 * np.log(weight))
-        return average_likelihoods(np.array(found), 0)
+        priors, costs = self._list_priors(square)
+        left = squares - explained * (priors / (1.0 + priors))
+        left = np.maximum(left, ROUNDING * self.squares + self.known)
+        gained = self.logarithm(left) - self.logarithm(squares)
+        return average_likelihoods(gained + ranks * np.log1p(priors) + costs, 0)
 
     def worth(self, explained: float, rank: int, square: float) -> float:
         """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
-        found = []
-        for factor, weight in _WORTHS:
-            prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
-            found.append(explained / (1.0 + prior) + rank * np.log1p(prior) - 2.0 * np.log(weight))
-        return float(average_likelihoods(np.array(found), 0))
+        priors, costs = self._list_priors(square)
+        return float(average_likelihoods(explained / (1.0 + priors) + rank * np.log1p(priors) + costs, 0))
+
+    def _list_priors(self, square: FloatArray | float) -> tuple[FloatArray, FloatArray]:
+        """Return variances of effects before any reading, over σ², along a first axis, and what each costs.
+
+        `square`: Mean square that is expected of each effect, over σ².
+        """
+        shape = (-1, *(1 for _ in np.shape(square)))
+        worths, weights = (column.reshape(shape) for column in np.array(_WORTHS).T)
+        expected = np.ones((len(_WORTHS), *np.shape(square)))
+        expected[0] = square
+        return float(self.space.degrees) * worths * expected, -2.0 * np.log(weights)

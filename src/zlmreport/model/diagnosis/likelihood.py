@@ -147,7 +147,7 @@ class Likelihood:
     def _reduce(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
         count, root = len(active.places), active.roots
-        products = self.columns.products_among(active.ratios, active.places, own)
+        products = self.columns.products_among(active.ratios, active.places, own, self.response[:0])
         inner = root[:, np.newaxis] * products[:count, :count] * root
         factor = np.linalg.cholesky(np.eye(count) + inner)
         own_root = np.linalg.inv(factor) * root
@@ -178,10 +178,8 @@ class Likelihood:
     def _compute_criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
         count, key = len(active.places), active.ratios
-        products = self.columns.products_among(key, np.concatenate([active.places, self.response]), own)
         # The pivots of one factor tell all: those of the parts ln|V|, the last what is left of the readings.
-        order = np.r_[:count, count + 1 : len(products), count]
-        bordered = products[order[:, np.newaxis], order]
+        bordered = self.columns.products_among(key, active.places, own, self.response)
         bordered[:count] *= active.roots[:, np.newaxis]
         bordered[:, :count] *= active.roots
         diagonal = np.arange(len(bordered))
