@@ -40,6 +40,8 @@ from zlmreport.model.fitting.search import (
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
 _LARGEST_RATIO = 1e4
+#: Share of the sum of squares by which a last step changes it where runs are predicted from the others.
+_SETTLED = 1e-13
 
 
 @dataclass(frozen=True, slots=True)
@@ -309,7 +311,8 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
         kept = np.flatnonzero(cycle != run)
         independent = make_root((), Noise(1.0, {}, np.ones(len(kept))))
         problem = FitProblem(model, select_readings(design, kept), deviation[kept], independent)
-        found = refine(problem, problem.solution(thetas))
+        start = problem.solution(thetas)
+        found = refine(problem, start, _SETTLED * start.squares)
         others = select_readings(design, left_out)
         predicted = np.zeros(len(left_out))
         for term, theta, gamma in zip(model.terms, found.thetas, found.coefficients, strict=True):

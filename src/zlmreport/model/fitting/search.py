@@ -25,8 +25,6 @@ _SWEEPS = 4
 _HALVINGS = 12
 _STEPS = 60
 _CONVERGED = 1e-14
-#: Share of the sum of squares that is rounding: a step that changes less is the last.
-_SETTLED = 1e-14
 #: Step of a derivative over the distance of neighbours in the grid: where rounding and curvature err alike.
 _DERIVATIVE = 3e-3
 _SMALLEST_DAMPING, _LARGEST_DAMPING = 1e-12, 1e6
@@ -154,8 +152,11 @@ def _sweep(problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[
     return best
 
 
-def refine(problem: FitProblem, start: Solution) -> Solution:
-    """Return the best fit near another one: halving steps first, then Gauss-Newton."""
+def refine(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
+    """Return the best fit near another one: halving steps first, then Gauss-Newton.
+
+    `settled`: As for `descend`.
+    """
     best, places = start, problem.places(start.thetas)
     steps = [place.spacing / 2 for place in places]
     for _ in range(_HALVINGS if places else 0):
@@ -163,7 +164,7 @@ def refine(problem: FitProblem, start: Solution) -> Solution:
             either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
             best = _choose_better(best, min(either, key=_sum_squares))
         steps = [step / 2 for step in steps]
-    return descend(problem, best)
+    return descend(problem, best, settled)
 
 
 def compute_tangents(
@@ -190,7 +191,7 @@ def compute_tangents(
 def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
     """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian).
 
-    A step that changes the sum of squares by less than `settled`, or by rounding, is the last.
+    A step that changes the sum of squares by less than `settled` is the last.
     """
     best, places = start, problem.places(start.thetas)
     damping = _SMALLEST_DAMPING
@@ -219,11 +220,7 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
             best, damping = tried, max(damping / 10, _SMALLEST_DAMPING)
         else:
             damping = max(damping * 100, 1e-6)
-        if (
-            np.abs(step).max() < _CONVERGED
-            or damping > _LARGEST_DAMPING
-            or change < max(settled, _SETTLED * best.squares)
-        ):
+        if np.abs(step).max() < _CONVERGED or damping > _LARGEST_DAMPING or change < settled:
             break
     return best
 
