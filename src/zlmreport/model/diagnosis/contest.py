@@ -210,13 +210,12 @@ class Contest(Likelihood):
         return self._scans[place]
 
     def _scan(self, reduced: Reduced, groups: Iterable[Group]) -> Scan:
-        squares, taken = self.left(reduced)
         count = len(self.families)
         scan = Scan(np.full(count, np.inf), np.zeros(count, dtype=np.int64), np.zeros(count))
         for group in groups:
             response = self.columns.products_with_kept(reduced.ratios, self.response, group.places.ravel())
-            explained, ranks = self.explain_group(reduced, group, response.T, taken[:, np.newaxis])
-            added = self.added(squares, explained[:, 0] * self.squares, ranks, group.squares)
+            explained, ranks = self.explain_group(reduced, group, response.T, reduced.taken[:, np.newaxis])
+            added = self.added(reduced.squares, explained[:, 0] * self.squares, ranks, group.squares)
             least = np.minimum.reduceat(added, group.starts)
             above = added - np.repeat(least, group.sizes)
             spread = -2.0 * np.log(np.add.reduceat(np.exp(group.log_weights - 0.5 * above), group.starts))

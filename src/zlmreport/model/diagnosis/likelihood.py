@@ -42,6 +42,8 @@ class Reduced:
     crossed: FloatArray  #: R·ZᵀC.
     set_root: FloatArray  #: (r, p): S with S·(CᵀV⁻¹C)·Sᵀ the unit matrix.
     log_determinant: float  #: ln|V|.
+    taken: FloatArray  #: The deviations in the coordinates of V and the set.
+    squares: float  #: Their residual sum of squares.
 
     def coordinates(self, products: FloatArray) -> FloatArray:
         """Return what V and the set take away of columns, from their products with `places`."""
@@ -73,6 +75,7 @@ class Likelihood:
     # A search comes by the same set again and again, from other sets.
     _reduced: dict[Place, Reduced] = field(default_factory=dict, repr=False)
     _criteria: dict[Place, float] = field(default_factory=dict, repr=False)
+    _levels: dict[tuple[Place, tuple[int, ...]], list[FloatArray]] = field(default_factory=dict, repr=False)
 
     @property
     def space(self) -> Contrasts:
@@ -147,26 +150,24 @@ class Likelihood:
     def _reduce(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
         count, root = len(active.places), active.roots
-        products = self.columns.products_among(active.ratios, active.places, own, self.response[:0])
+        products = self.columns.products_among(active.ratios, active.places, own, self.response)
         inner = root[:, np.newaxis] * products[:count, :count] * root
         factor = np.linalg.cholesky(np.eye(count) + inner)
         own_root = np.linalg.inv(factor) * root
         crossed = own_root @ products[:count, count:]
+        left = products[count:, count:] - crossed.T @ crossed
+        set_root = find_root_of(left[:-1, :-1])
+        taken = set_root @ left[:-1, -1]
         return Reduced(
             active.ratios,
             np.concatenate([active.places, own]),
             own_root,
-            crossed,
-            find_root_of(products[count:, count:] - crossed.T @ crossed),
+            crossed[:, :-1],
+            set_root,
             self.columns.log_determinant(active.ratios) + 2.0 * float(np.log(np.diagonal(factor)).sum()),
+            np.concatenate([crossed[:, -1], taken]),
+            max(float(left[-1, -1] - taken @ taken), ROUNDING) * self.squares + self.known,
         )
-
-    def left(self, reduced: Reduced) -> tuple[float, FloatArray]:
-        """Return the residual sum of squares, and the deviations in the coordinates of the set."""
-        products = self.columns.products(reduced.ratios, reduced.places, self.response)
-        taken = reduced.coordinates(products)[:, 0]
-        own = self.columns.products(reduced.ratios, self.response, self.response)[0, 0]
-        return max(float(own - taken @ taken), ROUNDING) * self.squares + self.known, taken
 
     def criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         """Return −2·ln of the restricted likelihood times the prior odds of the amplitudes."""
@@ -195,7 +196,7 @@ class Likelihood:
             determinant = self.columns.log_determinant(key) + 2.0 * float(np.log(pivots[:count]).sum())
         else:  # columns of the set depend on each other
             reduced = self.reduced(amplitudes, members)
-            squares, determinant = self.left(reduced)[0], reduced.log_determinant
+            squares, determinant = reduced.squares, reduced.log_determinant
         return float(self.logarithm(squares) + determinant + self.space.single.log_determinant + active.costs)
 
     def by_level(
@@ -206,8 +207,16 @@ class Likelihood:
         `numbers`: Of parts that are at nothing, or of a single one; not of irregular ones.
         """
         base = tuple(0 if number in numbers else level for number, level in enumerate(amplitudes))
+        key = place_of(base, members), tuple(numbers)
+        if key not in self._levels:
+            self._levels[key] = self._compute_by_level(base, members, numbers)
+        return self._levels[key]
+
+    def _compute_by_level(
+        self, base: Amplitudes, members: Sequence[IntArray], numbers: Sequence[int]
+    ) -> list[FloatArray]:
+        """Return the same, all these parts being at nothing in `base`."""
         reduced = self.reduced(base, members)
-        squares, taken = self.left(reduced)
         alike: dict[tuple[int, int], list[int]] = {}
         for number in numbers:
             alike.setdefault((self.parts[number].width, len(self.parts[number].levels)), []).append(number)
@@ -216,8 +225,10 @@ class Likelihood:
         for group in alike.values():
             flat = np.concatenate([self.parts[number].columns for number in group])
             response = self.columns.products(reduced.ratios, flat, self.response)
-            away, spread = self.take_parts(reduced, group, response, taken[:, np.newaxis])
-            left = np.maximum(squares - away[:, :, 0] * self.squares, ROUNDING * self.squares + self.known)
+            away, spread = self.take_parts(reduced, group, response, reduced.taken[:, np.newaxis])
+            left = np.maximum(
+                reduced.squares - away[:, :, 0] * self.squares, ROUNDING * self.squares + self.known
+            )
             costs = np.array([self.parts[number].costs for number in group])
             criteria = self.logarithm(left) + spread + beside + costs - costs[:, :1]
             found.update(zip(group, criteria, strict=True))
@@ -262,17 +273,14 @@ class Likelihood:
         """Return −2·ln of the likelihood that residual sums of squares have, σ profiled out."""
         return np.asarray(self.space.degrees * np.log(np.maximum(squares, NOTHING)))
 
-    def explained(self, reduced: Reduced, blocks: FloatArray, taken: FloatArray) -> FloatArray:
-        """Return what blocks of contrasts (N, g, k) explain of the squares beside a set, shape (g,).
-
-        `taken`: The deviations in the coordinates of the set.
-        """
+    def explained(self, reduced: Reduced, blocks: FloatArray) -> FloatArray:
+        """Return what blocks of contrasts (N, g, k) explain of the squares beside a set, shape (g,)."""
         held = self.columns.hold(blocks.reshape(len(blocks), -1))
         both = np.concatenate([reduced.places, self.response])
         products = self.columns.products_with(reduced.ratios, both, held)
         coordinates = reduced.coordinates(products[:-1])
         own = self.columns.squares_of(reduced.ratios, held, blocks.shape[2])
-        left = (products[-1] - taken @ coordinates) * np.sqrt(self.squares)
+        left = (products[-1] - reduced.taken @ coordinates) * np.sqrt(self.squares)
         return solve_blocks(take_from(own, coordinates), left.reshape(*own.shape[:2], 1))[0][:, 0]
 
     def coordinates_of(self, reduced: Reduced, held: Held) -> FloatArray:

@@ -68,9 +68,8 @@ def refine_member(
     rest = contest.reduced(
         amplitudes, [each.columns for place, each in enumerate(members) if place != number]
     )
-    taken = contest.left(rest)[1]
     theta = member.theta.copy()
-    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis], taken)[0])
+    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis])[0])
     best: tuple[FloatArray, int] | None = None
     steps = {}
     for column, values in places:
@@ -85,7 +84,7 @@ def refine_member(
             )
             if not len(seen):
                 break
-            explained = contest.explained(rest, blocks, taken)
+            explained = contest.explained(rest, blocks)
             leading = int(np.argmax(explained))
             if explained[leading] > most:
                 most, theta = float(explained[leading]), tried[seen[leading]]
@@ -110,8 +109,7 @@ def _find_tangents(
     """Return the places of what small shifts of a member's searched parameters change."""
     member = members[number]
     reduced = contest.reduced(amplitudes, [each.columns for each in members])
-    taken = contest.left(reduced)[1]
-    solved = reduced.set_root.T @ taken[len(reduced.root) :]
+    solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :]
     first = sum(len(each.columns) for each in members[:number])
     own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
     effect, design = member.effect, contest.design

@@ -43,9 +43,8 @@ class SetCosts:
             return 0.0
         contest = self._contest
         reduced = contest.reduced(amplitudes, [each.columns for each in members])
-        squares, taken = contest.left(reduced)
-        variance = squares / contest.space.degrees
-        solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
+        variance = reduced.squares / contest.space.degrees
+        solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
         cost, first = 0.0, 0
         for each in members:
