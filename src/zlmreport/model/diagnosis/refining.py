@@ -15,8 +15,8 @@ from zlmreport.model.diagnosis.likelihood import Amplitudes
 
 #: Evidence by which another part of a grid must be better for a parameter to jump there, and of another form.
 _JUMP, _CLEAR_GAIN = 2.0, 0.5
-#: Values that are tried between two of a grid, in rounds, each about the best of the last.
-_BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
+#: Values that are tried between two of a grid, in steps of it, in rounds, each about the best of the last.
+_BETWEEN, _ROUNDS, _CLOSER = (-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8), 3, 0.22
 
 
 def jump_along_grids(
@@ -76,8 +76,8 @@ def refine_member(
         near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
         step = steps[column] = float(values[near] - values[near - 1])
         for _ in range(_ROUNDS):
-            tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
-            tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
+            tried = np.repeat(theta[np.newaxis], len(_BETWEEN), axis=0)
+            tried[:, column] += step * np.array(_BETWEEN)
             tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
             blocks, ranks, seen = make_orthonormal(
                 contest.space, contest.design, effect, tried, contest.least_visible
