@@ -26,6 +26,7 @@ from zlmreport.model.diagnosis.null_distribution import (
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
+from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
@@ -231,10 +232,10 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
     deviations = fitted.open_deviation[:, np.newaxis]
-    observed = contest.trials(start.amplitudes, start.columns, deviations, stated.known)
+    observed = Trials(contest, start.amplitudes, start.columns, deviations, stated.known)
     p_value = null.p_value(Scores(observed.ratios, observed.nameless))
     reduced = contest.reduced(start.amplitudes, start.columns)
-    sigma = float(np.sqrt(contest.left(reduced)[0] / contest.space.degrees))
+    sigma = float(np.sqrt(reduced.squares / contest.space.degrees))
     noise = Noise(sigma, contest.ratios_of(start.amplitudes), fitted.noise.weights)
     visible = judge_visibility(contest, null, reduced, sigma)
     told(0.2)
@@ -332,11 +333,8 @@ def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     chosen: list[int] = []
     while open_:
         reduced = contest.reduced(contest.quiet, [found.members[each].columns for each in chosen])
-        taken = contest.left(reduced)[1]
         explained = {
-            each: float(
-                contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis], taken)[0]
-            )
+            each: float(contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis])[0])
             for each in open_
         }
         chosen.append(max(open_, key=explained.__getitem__))

@@ -19,7 +19,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import NoisePart, NoiseSource, split_by_session
+from zlmreport.model.fitting.noise import BY_TARGET, NoisePart, NoiseSource, split_by_session
 from zlmreport.model.fitting.pauses import compute_working_time
 from zlmreport.model.fitting.priors import PriorExpectation
 
@@ -110,7 +110,7 @@ def list_parts_of(
     nowhere = columns.add(np.empty((len(design.position), 0)))
     irregular = 0
     for each in noise:
-        is_irregular = each.source in _BY_POSITION
+        is_irregular = each.source in BY_TARGET
         contrasts = columns.space.of(each.factor)
         places = nowhere if is_irregular else columns.add(contrasts)
         may_be_more = with_nameless and each.source is not NoiseSource.TIME
@@ -154,7 +154,7 @@ def _compute_noise_costs(noise: NoisePart, expected: PriorExpectation) -> tuple[
 
 def make_irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
     """Return the factors of what is irregular from position to position."""
-    return [each.factor for each in noise if each.source in _BY_POSITION]
+    return [each.factor for each in noise if each.source in BY_TARGET]
 
 
 def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
@@ -197,7 +197,6 @@ def _smooth(where: FloatArray, length: float) -> FloatArray:
     return np.asarray(curves - curves.mean(axis=0), dtype=np.float64)
 
 
-_BY_POSITION = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
 _COURSES: Mapping[NoiseSource, Course] = {
     NoiseSource.POSITION: Course.IRREGULAR,
     NoiseSource.DIRECTION: Course.IRREGULAR,

@@ -19,7 +19,7 @@ import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
     MemberKey,
@@ -32,6 +32,7 @@ from zlmreport.model.diagnosis.effect_set import (
     make_member,
 )
 from zlmreport.model.diagnosis.families import Family, make_orthonormal
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.refining import jump_along_grids, refine_member
 from zlmreport.model.diagnosis.set_costs import SetCosts
 from zlmreport.model.diagnosis.set_pairs import list_pairs

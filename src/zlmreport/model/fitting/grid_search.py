@@ -27,13 +27,14 @@ _IMITATED = 1e-14
 def search(problem: FitProblem) -> Solution:
     """Return the best fit on the grids of all terms, refined."""
     first = tuple(term.grid(problem.design)[0] for term in problem.model.terms)
-    grids = [_Grid.of(problem, first, terms) for terms in problem.model.linked_terms]
-    chosen = _choose_one_by_one(problem, grids)
+    deviation = problem.equations(first, ())[1]
+    grids = [_Grid.of(problem, first, deviation, terms) for terms in problem.model.linked_terms]
+    chosen = _choose_one_by_one(deviation, grids)
     searched = [place for place, grid in enumerate(grids) if len(grid.columns) > 1]
     for _ in range(_SWEEPS):
         before = list(chosen)
         for one, other in combinations(searched, 2):
-            _choose_together(problem, grids, chosen, one, other)
+            _choose_together(deviation, grids, chosen, one, other)
         if chosen == before:
             break
     values = {
@@ -54,7 +55,7 @@ class _Grid:
     given: FloatArray  #: (g, N): Whitened deviation that given coefficients make.
 
     @classmethod
-    def of(cls, problem: FitProblem, first: Thetas, terms: tuple[int, ...]) -> _Grid:
+    def of(cls, problem: FitProblem, first: Thetas, deviation: FloatArray, terms: tuple[int, ...]) -> _Grid:
         """Return the grid of some terms, all others at their first values."""
         rows: dict[bytes, Thetas] = {}
         for own in product(*(problem.model.terms[term].grid(problem.design) for term in terms)):
@@ -62,22 +63,21 @@ class _Grid:
             thetas = problem.model.linked([values.get(term, theta) for term, theta in enumerate(first)])
             rows[b"".join(thetas[term].tobytes() for term in terms)] = thetas
         equations = [problem.equations(thetas, terms) for thetas in rows.values()]
-        whole = problem.whiten(problem.deviation)
         return cls(
             terms,
             [tuple(thetas[term] for term in terms) for thetas in rows.values()],
             np.stack([columns for columns, _ in equations]),
-            np.stack([whole - left for _, left in equations]),
+            np.stack([deviation - left for _, left in equations]),
         )
 
 
-def _choose_one_by_one(problem: FitProblem, grids: Sequence[_Grid]) -> list[int]:
+def _choose_one_by_one(deviation: FloatArray, grids: Sequence[_Grid]) -> list[int]:
     """Return a row of each grid, found beside those alone that have theirs already."""
     chosen = [0 for _ in grids]
     known = [place for place, grid in enumerate(grids) if len(grid.columns) == 1]
     while open_ := [place for place in range(len(grids)) if place not in known]:
         beside = [(grids[place], chosen[place]) for place in known]
-        left = {place: _list_left(problem, beside, grids[place]) for place in open_}
+        left = {place: _list_left(deviation, beside, grids[place]) for place in open_}
         best = min(open_, key=lambda place: float(left[place].min()))
         chosen[best] = _find_first_best(left[best])
         known.append(best)
@@ -85,7 +85,7 @@ def _choose_one_by_one(problem: FitProblem, grids: Sequence[_Grid]) -> list[int]
 
 
 def _choose_together(
-    problem: FitProblem, grids: Sequence[_Grid], chosen: list[int], one: int, other: int
+    deviation: FloatArray, grids: Sequence[_Grid], chosen: list[int], one: int, other: int
 ) -> None:
     """Move two grids to the rows that leave least together, all else as it is."""
     few, many = sorted((one, other), key=lambda place: len(grids[place].columns))
@@ -96,7 +96,7 @@ def _choose_together(
     ]
     left = np.array(
         [
-            _list_left(problem, [*rest, (grids[few], row)], grids[many])
+            _list_left(deviation, [*rest, (grids[few], row)], grids[many])
             for row in range(len(grids[few].columns))
         ]
     )
@@ -104,13 +104,15 @@ def _choose_together(
         chosen[few], chosen[many] = divmod(_find_first_best(left.ravel()), left.shape[1])
 
 
-def _list_left(problem: FitProblem, beside: Sequence[tuple[_Grid, int]], grid: _Grid) -> FloatArray:
-    """Return the residual sum of squares with each row of a grid beside rows of others, shape (g,)."""
-    empty = np.empty((len(problem.deviation), 0))
+def _list_left(deviation: FloatArray, beside: Sequence[tuple[_Grid, int]], grid: _Grid) -> FloatArray:
+    """Return the residual sum of squares with each row of a grid beside rows of others, shape (g,).
+
+    `deviation`, (N,): Whitened.
+    """
+    empty = np.empty((len(deviation), 0))
     others = np.concatenate([empty, *(each.columns[row] for each, row in beside)], axis=1)
     basis = _make_orthonormal(others)
-    open_ = problem.whiten(problem.deviation) - sum(each.given[row] for each, row in beside)
-    left = open_ - grid.given
+    left = deviation - sum(each.given[row] for each, row in beside) - grid.given
     left = left - (left @ basis) @ basis.T
     own = grid.columns - basis @ (basis.T @ grid.columns)
     lengths = np.linalg.norm(grid.columns, axis=1)

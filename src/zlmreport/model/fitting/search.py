@@ -7,7 +7,7 @@ all effects first (`grid_search`), then between their values, then by Gauss-Newt
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -16,11 +16,11 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import Root
 
 #: Of all terms, in the order of the model; empty arrays for terms without θ.
 Thetas: TypeAlias = tuple[FloatArray, ...]
 
-_SWEEPS = 4
 _HALVINGS = 12
 _STEPS = 60
 _CONVERGED = 1e-14
@@ -81,7 +81,7 @@ class FitProblem:
     model: AxisModel
     design: Design
     deviation: FloatArray
-    whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
+    whiten: Root  #: Makes readings independent.
     # Of each term its last θ and what it comes to: from one solution to the next one term changes. Not
     # handed on by `replace`: another model has other columns.
     _last: dict[int, tuple[bytes, tuple[FloatArray, FloatArray]]] = field(
@@ -103,9 +103,9 @@ class FitProblem:
         own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
         pairs = self.model.add_linked(self.design, thetas, own)
         chosen = [pairs[index] for index in terms]
-        empty = np.empty((len(self.deviation), 0))
-        columns = self.whiten(np.concatenate([empty, *(each for each, _ in chosen)], axis=1))
-        return columns, self.whiten(self.deviation - np.sum([given for _, given in chosen], axis=0))
+        left = self.deviation - np.sum([given for _, given in chosen], axis=0)
+        whitened = self.whiten(np.column_stack([*(each for each, _ in chosen), left]))
+        return whitened[:, :-1], whitened[:, -1]
 
     def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns of a term whose coefficients are solved, and what the given ones make."""
@@ -135,8 +135,11 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
     return found / np.where(lengths > 0, lengths, 1.0)
 
 
-def refine(problem: FitProblem, start: Solution) -> Solution:
-    """Return the best fit near another one: halving steps first, then Gauss-Newton."""
+def refine(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
+    """Return the best fit near another one: halving steps first, then Gauss-Newton.
+
+    `settled`: As for `descend`.
+    """
     best, places = start, problem.places(start.thetas)
     steps = [place.spacing / 2 for place in places]
     for _ in range(_HALVINGS if places else 0):
@@ -144,7 +147,7 @@ def refine(problem: FitProblem, start: Solution) -> Solution:
             either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
             best = _choose_better(best, min(either, key=_sum_squares))
         steps = [step / 2 for step in steps]
-    return descend(problem, best)
+    return descend(problem, best, settled)
 
 
 def compute_tangents(
