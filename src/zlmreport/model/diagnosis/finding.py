@@ -276,6 +276,9 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
 
     Where several could stand in a place, it is their evidence together that something stands there.
     """
+    if not search.has_nameless(found):
+        # With enough names any curve is described: several that one curve replaces are not told.
+        found = search.find_fewer_beside_curve(found, TOLD_APART) or found
     is_whole = not search.has_nameless(found)
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]

@@ -53,6 +53,8 @@ _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
 #: names may do what one curve without a name does at less cost.
 _SURE, _FEW = 6.0, 2
+#: Names in the place of which one curve is less to believe than they are.
+_SEVERAL = 2
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
 #: How many levels of each part are thought of, whether forms are, families with their searched parameters,
@@ -172,6 +174,20 @@ class SetSearch:
             each.score for (known, own), each in self._best.items() if not known & names and own <= forms
         ]
         return min(others, default=np.inf) - found.score
+
+    def find_fewer_beside_curve(self, found: EffectSet, within: float) -> EffectSet | None:
+        """Return the best of all sets looked at in which a curve without a name replaces several names.
+
+        `within`: What evidence it may lack; None where all lack more.
+        """
+        fewer = [
+            each
+            for each in self._best.values()
+            if len(each.named) <= len(found.named) - _SEVERAL
+            and each.score < found.score + within
+            and self.has_nameless(each)
+        ]
+        return min(fewer, key=find_score, default=None)
 
     def holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
         """Return the best set with these named members alone; what has no name as it then is."""
