@@ -21,12 +21,15 @@ from model.axis_tests import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.blocks import find_root_of
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
-from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, _root_of, average_evidence
+from zlmreport.model.diagnosis.contest import _WORTHS, Contest
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.null_distribution import TRIALS, NullDistribution, Scores, simulate_null
+from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.fitting.contrasts import describe_single_readings
 from zlmreport.model.fitting.noise import NoiseSource
 from zlmreport.model.fitting.observations import select_readings
@@ -89,7 +92,7 @@ def test_the_criterion_of_a_set_is_that_of_a_plain_restricted_likelihood(
 def test_the_likelihood_ratio_of_an_effect_is_that_of_plain_fits(name: str) -> None:
     effect, covariance = EFFECTS[name], _covariance(CONTEST, AMPLITUDES)
     best = min(_restricted(covariance, effect.columns(DESIGN, theta)) for theta in effect.grid(DESIGN))
-    found = CONTEST.trials(AMPLITUDES, [], READINGS[:, np.newaxis]).ratios
+    found = Trials(CONTEST, AMPLITUDES, [], READINGS[:, np.newaxis]).ratios
     assert found[CONTEST.identifiers.index(name), 0] == pytest.approx(
         _restricted(covariance, BASE[:, :0]) - best, abs=1e-6
     )
@@ -119,7 +122,7 @@ def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() ->
     deviation = noise(design) + 2e-6 * design.direction * design.position
     base = np.concatenate([term.effect.columns(design, np.empty(0)) for term in USUAL.terms], axis=1)
     contest = Contest.of(design, base, [effect], deviation, with_nameless=False)
-    found = contest.trials(contest.quiet, [], deviation[:, np.newaxis]).evidence[0, 0]
+    found = Trials(contest, contest.quiet, [], deviation[:, np.newaxis]).evidence[0, 0]
     degrees = len(deviation) - np.linalg.matrix_rank(base / np.linalg.norm(base, axis=0))
 
     def squares(columns: FloatArray) -> float:
@@ -139,7 +142,7 @@ def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() ->
 
 def test_a_scan_has_the_evidence_and_the_price_of_an_effect() -> None:
     scan = CONTEST.scan(AMPLITUDES, [])
-    evidence = CONTEST.trials(AMPLITUDES, [], READINGS[:, np.newaxis]).evidence[:, 0]
+    evidence = Trials(CONTEST, AMPLITUDES, [], READINGS[:, np.newaxis]).evidence[:, 0]
     for name in ("backlash-bow", "thermal-drift"):
         place = CONTEST.identifiers.index(name)
         assert scan.criterion[_family(CONTEST, name)] == pytest.approx(PRICE - evidence[place], abs=1e-6)
@@ -147,7 +150,7 @@ def test_a_scan_has_the_evidence_and_the_price_of_an_effect() -> None:
 
 def test_what_the_base_model_describes_changes_nothing() -> None:
     more = READINGS + BASE @ np.array([3e-6, -20e-6, 7e-6, 1e-6, 4e-6])
-    one, other = (CONTEST.trials(AMPLITUDES, [], each[:, np.newaxis]) for each in (READINGS, more))
+    one, other = (Trials(CONTEST, AMPLITUDES, [], each[:, np.newaxis]) for each in (READINGS, more))
     assert other.ratios == pytest.approx(one.ratios, abs=1e-6)
     assert other.nameless == pytest.approx(one.nameless, abs=1e-6)
 
@@ -181,14 +184,14 @@ def test_the_order_of_the_effects_changes_nothing() -> None:
 
 
 def test_sets_of_deviations_are_judged_each_by_itself() -> None:
-    alone = CONTEST.trials(AMPLITUDES, [], READINGS[:, np.newaxis])
-    together = CONTEST.trials(AMPLITUDES, [], np.column_stack([noise(DESIGN), READINGS]))
+    alone = Trials(CONTEST, AMPLITUDES, [], READINGS[:, np.newaxis])
+    together = Trials(CONTEST, AMPLITUDES, [], np.column_stack([noise(DESIGN), READINGS]))
     assert together.ratios[:, 1] == pytest.approx(alone.ratios[:, 0], abs=1e-8)
     assert together.evidence[:, 1] == pytest.approx(alone.evidence[:, 0], abs=1e-8)
 
 
 def test_evidence_that_is_averaged_over_one_noise_is_that_of_this_noise() -> None:
-    found = CONTEST.trials(AMPLITUDES, [], READINGS[:, np.newaxis])
+    found = Trials(CONTEST, AMPLITUDES, [], READINGS[:, np.newaxis])
     evidence, nameless = average_evidence([found])
     assert evidence == pytest.approx(found.evidence, abs=1e-9)
     assert nameless == pytest.approx(found.nameless, abs=1e-9)
@@ -230,6 +233,7 @@ def test_single_readings_that_resemble_those_before_them_are_made_independent() 
     root = single.whitened(np.eye(len(BASE)))
     np.testing.assert_allclose(root @ covariance @ root.T, np.eye(len(BASE)), atol=1e-9)
     np.testing.assert_allclose(single.coloured(root), np.eye(len(BASE)), atol=1e-9)
+    np.testing.assert_allclose(single.transposed(np.eye(len(BASE))), root.T, atol=1e-12)
     expected = np.linalg.slogdet(covariance)[1] - np.log(weights).sum()
     assert single.log_determinant == pytest.approx(expected, abs=1e-9)
 
@@ -279,7 +283,7 @@ class TestNullDistribution:
 
     def test_false_alarms_are_as_rare_as_is_stated(self) -> None:
         fresh = SIGMA * np.random.default_rng(99).standard_normal((len(BASE), 400))
-        trials = CONTEST.trials(CONTEST.quiet, [], fresh)
+        trials = Trials(CONTEST, CONTEST.quiet, [], fresh)
         alarms = self.null.excess(Scores(trials.ratios, trials.nameless)) > self.null.threshold
         # 400 tests know 5 % to 1.1 %, and 400 trials the threshold to as much.
         assert np.mean(alarms) == pytest.approx(0.05, abs=0.04)
@@ -310,7 +314,7 @@ def test_column_of_zeros_changes_nothing_of_a_set() -> None:
     gram = columns.T @ columns
     padded = np.zeros((6, 6))
     padded[np.ix_([0, 1, 3, 4, 5], [0, 1, 3, 4, 5])] = gram
-    root = _root_of(padded)
+    root = find_root_of(padded)
     assert np.abs(root).max() < 10.0
     assert root.T @ root == pytest.approx(np.linalg.pinv(padded), abs=1e-9)
 

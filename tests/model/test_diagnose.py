@@ -342,7 +342,7 @@ class TestReport:
 
 def test_more_readings_than_memory_holds_are_refused_with_what_they_would_take() -> None:
     design = linear_test(50, 220)
-    with pytest.raises(ModelError, match="22000 readings, which takes at least 3 min and 5 GB"):
+    with pytest.raises(ModelError, match="22000 readings, which takes at least 1 min and 5 GB"):
         diagnose(model_of("offset"), observations(design, noise(design)), INSTALLED)
 
 

@@ -9,8 +9,8 @@ from model.axis_tests import SIGMA, USUAL, linear_test, noise, realistic_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.contrasts import estimate_restricted, make_contrasts_of, make_whitener
-from zlmreport.model.fitting.noise import Noise, NoiseSource, list_noise_parts, make_ratio_grid
+from zlmreport.model.fitting.contrasts import estimate_restricted, make_contrasts_of, make_root, make_whitener
+from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoiseSource, list_noise_parts, make_ratio_grid
 
 DESIGN = linear_test(targets=9, runs=4)
 PARTS = list_noise_parts(DESIGN)
@@ -64,6 +64,19 @@ def test_whitened_readings_are_independent() -> None:
     whiten = make_whitener(PARTS, Noise(1.0, by_source, WEIGHTS))
     root = whiten(np.eye(len(WEIGHTS)))
     assert root @ _covariance() @ root.T == pytest.approx(np.eye(len(WEIGHTS)), abs=1e-10)
+
+
+@pytest.mark.parametrize("left_out", [frozenset(), BY_TARGET, frozenset({NoiseSource.RUN, NoiseSource.TIME})])
+def test_the_root_of_a_fit_makes_readings_independent(left_out: frozenset[NoiseSource]) -> None:
+    by_source = {
+        part.source: 0.0 if part.source in left_out else float(ratio)
+        for part, ratio in zip(PARTS, RATIOS, strict=True)
+    }
+    root = make_root(PARTS, Noise(1.0, by_source, WEIGHTS))
+    unit = np.eye(len(WEIGHTS))
+    covariance = _covariance(np.array([by_source[part.source] for part in PARTS]))
+    assert root(unit) @ covariance @ root(unit).T == pytest.approx(unit, abs=1e-10)
+    assert root.transposed(unit) == pytest.approx(root(unit).T, abs=1e-12)
 
 
 def test_restricted_likelihood_is_that_of_the_textbook() -> None:

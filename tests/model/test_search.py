@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 
@@ -42,3 +44,19 @@ def test_a_fit_is_as_good_in_whichever_order_the_effects_stand() -> None:
     ]
     assert errors[0] == pytest.approx(errors[1], rel=1e-6)
     assert errors[0] < 1.2 * SIGMA
+
+
+def test_four_effects_whose_values_are_searched_are_found_in_whichever_order_they_stand() -> None:
+    names = ("lost-motion-step", "datum-step", "scale-kink", "time-periodic")
+    design, random = linear_test(21, 3), np.random.default_rng(31)
+    readings = noise(design)
+    for each in (EFFECTS[name] for name in names):
+        grid = each.grid(design)
+        columns = each.columns(design, grid[int(random.integers(len(grid)))])
+        shape = columns @ random.standard_normal(columns.shape[1])
+        readings = readings + random.uniform(2, 4) * SIGMA * shape / shape.std()
+    plain = Assumptions(parts=(), weights=np.ones(len(readings)))
+    orders = list(permutations(names))
+    errors = [fit(model_of("offset", *order), design, readings, plain).rms for order in orders[::3]]
+    np.testing.assert_allclose(errors, errors[0], rtol=1e-6)
+    assert errors[0] < 1.1 * SIGMA

@@ -20,6 +20,7 @@ from model.axis_tests import (
 )
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.null_distribution import Scores, simulate_null
+from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, plan_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
@@ -96,7 +97,7 @@ def test_the_smallest_effect_is_found_about_half_of_the_time(effect: str, theta:
     shape = hidden(DESIGN, effect, theta)
     size = _seen(DESIGN, effect).smallest_rms / np.sqrt(np.mean(shape**2))
     readings = [noise(DESIGN, seed) + size * shape for seed in range(SETS)]
-    trials = contest.trials(contest.quiet, [], np.column_stack(readings))
+    trials = Trials(contest, contest.quiet, [], np.column_stack(readings))
     found = null.excess(Scores(trials.ratios, trials.nameless)) > null.threshold
     # 300 sets know the share to 3 %; at 1.1 times the size it would be 0.2 larger.
     assert np.mean(found) == pytest.approx(0.5, abs=0.12)

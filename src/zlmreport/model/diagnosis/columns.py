@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.model.fitting.by_target import FactorsByTarget
 from zlmreport.model.fitting.contrasts import Contrasts
 
 _FIRST_ROOM = 256
@@ -23,26 +24,35 @@ class _Table:
     """Products of columns with the first ones, a column a row; filled as they are asked for."""
 
     def __init__(self, core: FloatArray) -> None:
-        """Begin a table with the products of the core."""
+        """Begin a table with the products of the core, or with none."""
         self.values, self._filled = core, len(core)
         self._row = np.arange(len(core))  # of each column by its place; −1 of those that nobody asked for
 
     def rows(self, places: IntArray, fill: Callable[[IntArray], FloatArray]) -> IntArray:
         """Return the rows of some columns; `fill` makes those that are missing."""
         if len(places) and places.max() >= len(self._row):
-            more = np.full(int(places.max()) + len(self._row), -1)
+            more = np.full(int(places.max()) + 1 + len(self._row), -1)
             more[: len(self._row)] = self._row
             self._row = more
         found = self._row[places]
         if found.min(initial=0) < 0:
             missing = np.unique(places[found < 0])
             first, self._filled = self._filled, self._filled + len(missing)
-            while self._filled > len(self.values):
-                self.values = np.concatenate([self.values, np.empty_like(self.values)])
+            if self._filled > len(self.values):
+                room = np.empty((self._filled, self.values.shape[1]))
+                self.values = np.concatenate([self.values, room])
             self.values[first : self._filled] = fill(missing)
             self._row[missing] = np.arange(first, self._filled)
             found = self._row[places]
         return found
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """Contrasts that are not in a table, held against it under many covariances."""
+
+    contrasts: FloatArray  #: (N, k)
+    sums: FloatArray  #: (k, r): Products with the irregular factors.
 
 
 @dataclass(slots=True)
@@ -50,9 +60,11 @@ class _Eliminated:
     """Irregular shares of given amplitudes, eliminated: products a·b become a·b − (Mᵀa)ᵀ·K·(Mᵀb)."""
 
     log_determinant: float
-    kernel: FloatArray  #: K, (r, r).
+    active: slice  #: Columns of the factors among which all lie that have a share.
+    kernel: FloatArray  #: K of these.
     near: _Table  #: Products with the columns of the core.
-    squares: dict[int, FloatArray] = field(default_factory=dict)  #: Of blocks of one width among themselves.
+    kept: _Table  #: Products with all kept columns.
+    squares: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of blocks among themselves.
     among: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of sets of columns among themselves.
 
 
@@ -72,14 +84,13 @@ class Columns:
         """
         self.space = space
         readings = len(space.scale)
-        self._factor = np.concatenate([np.empty((readings, 0)), *irregular], axis=1)
+        self._factors = FactorsByTarget(irregular, readings)
         self._widths = [each.shape[1] for each in irregular]
-        contrasts = space.of(self._factor)
+        contrasts = space.of(np.concatenate([np.empty((readings, 0)), *irregular], axis=1))
         self._gram = contrasts.T @ contrasts
-        self._factor = space.single.whitened(self._factor)
         # A row each: to gather some of them then copies whole stretches.
         self._values = np.empty((_FIRST_ROOM, readings))
-        self._sums = np.empty((self._factor.shape[1], _FIRST_ROOM))
+        self._sums = np.empty((_FIRST_ROOM, len(self._gram)))
         self._count = self._core = self._kept = 0
         self._plain = _Table(np.empty((0, 0)))  # of products with all kept columns, nothing eliminated
         self._eliminated: dict[tuple[float, ...], _Eliminated] = {}
@@ -89,11 +100,14 @@ class Columns:
         first, self._count = self._count, self._count + contrasts.shape[1]
         while self._count > len(self._values):
             self._values = np.concatenate([self._values, np.empty_like(self._values)])
-            self._sums = np.concatenate([self._sums, np.empty_like(self._sums)], axis=1)
+            self._sums = np.concatenate([self._sums, np.empty_like(self._sums)])
         self._values[first : self._count] = contrasts.T
-        # Contrasts are at right angles to the model: the factor itself does for its contrasts.
-        self._sums[:, first : self._count] = self._factor.T @ contrasts
+        self._sums[first : self._count] = self._sum(contrasts)
         return read_only_integers(np.arange(first, self._count))
+
+    def hold(self, contrasts: FloatArray) -> Held:
+        """Return contrasts, shape (N, k), ready for products with the columns of the table."""
+        return Held(contrasts, self._sum(contrasts))
 
     def keep(self, core: int) -> None:
         """Say that products of the columns so far will be asked for again and again, most of all of a core.
@@ -117,26 +131,30 @@ class Columns:
         if not (len(one) and len(other)):
             return np.empty((len(one), len(other)))
         if other.max() < self._core:
-            rows = known.near.rows(one, lambda missing: self._with_core(known.kernel, missing))
+            rows = known.near.rows(one, lambda missing: self._with_core(known, missing))
             return known.near.values[rows[:, np.newaxis], other]
         if one.max() < self._core:
             return self.products(ratios, other, one).T
         return self._between(known, one, other)
 
-    def products_among(self, ratios: tuple[float, ...], first: IntArray, members: IntArray) -> FloatArray:
-        """Return products of columns of the core and of members of a set among themselves, the core first."""
-        known, count = self._of(ratios), len(first)
-        found = np.empty((count + len(members), count + len(members)))
-        together = np.concatenate([first, members])
-        rows = known.near.rows(together, lambda missing: self._with_core(known.kernel, missing))
-        found[:, :count] = known.near.values[rows[:, np.newaxis], first]
-        found[:count, count:] = found[count:, :count].T
+    def products_among(
+        self, ratios: tuple[float, ...], first: IntArray, members: IntArray, last: IntArray
+    ) -> FloatArray:
+        """Return products of columns of the core, of a set and of the core again, among themselves."""
+        known, begin, end = self._of(ratios), len(first), len(first) + len(members)
+        together = np.concatenate([first, members, last])
+        found = np.empty((len(together), len(together)))
+        rows = known.near.rows(together, lambda missing: self._with_core(known, missing))[:, np.newaxis]
+        found[:, :begin] = known.near.values[rows, first]
+        found[:, end:] = known.near.values[rows, last]
+        found[:begin, begin:end] = found[begin:end, :begin].T
+        found[end:, begin:end] = found[begin:end, end:].T
         if len(members):
             # The same set is asked about again and again, each time beside other curves without a name.
             key = members.tobytes()
             if key not in known.among:
                 known.among[key] = self._between(known, members, members)
-            found[count:, count:] = known.among[key]
+            found[begin:end, begin:end] = known.among[key]
         return found
 
     def squares_of_core(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
@@ -148,45 +166,57 @@ class Columns:
         """Return the same products with many of the kept columns."""
         if not len(one):
             return np.empty((0, len(kept)))
-        rows = self._plain.rows(one, lambda missing: self._values[missing] @ self._values[: self._kept].T)
-        less = (self._of(ratios).kernel @ self._sums[:, one]).T @ self._sums[:, kept]
-        return np.asarray(self._plain.values[rows[:, np.newaxis], kept] - less)
-
-    def products_with(self, ratios: tuple[float, ...], one: IntArray, contrasts: FloatArray) -> FloatArray:
-        """Return products of columns with contrasts that are not in the table, shape (k, l)."""
-        sums = self._of(ratios).kernel @ (self._factor.T @ contrasts)
-        return np.asarray(self._values[one] @ contrasts - self._sums[:, one].T @ sums)
-
-    def squares(self, ratios: tuple[float, ...], width: int, blocks: IntArray) -> FloatArray:
-        """Return products of the columns of each block among themselves, shape (g, k, k).
-
-        `blocks`, (g, k): Always the same ones for a width.
-        """
         known = self._of(ratios)
-        if width not in known.squares:
-            known.squares[width] = self._within(known, np.moveaxis(self._values[blocks], -1, 0))
-        return known.squares[width]
+        rows = known.kept.rows(one, lambda missing: self._with_all_kept(known, missing))
+        return known.kept.values[rows[:, np.newaxis], kept]
 
-    def squares_of(self, ratios: tuple[float, ...], blocks: FloatArray) -> FloatArray:
-        """Return the same of contrasts that are not in the table, (N, g, k)."""
-        return self._within(self._of(ratios), blocks)
+    def products_with(self, ratios: tuple[float, ...], one: IntArray, held: Held) -> FloatArray:
+        """Return products of columns with contrasts that are not in the table, shape (k, l)."""
+        known = self._of(ratios)
+        turned = held.sums[:, known.active] @ known.kernel
+        return np.asarray(self._values[one] @ held.contrasts - self._sums[one, known.active] @ turned.T)
 
-    def _within(self, known: _Eliminated, blocks: FloatArray) -> FloatArray:
-        flat = blocks.reshape(len(blocks), -1)
-        sums = self._factor.T @ flat
-        turned = (known.kernel @ sums).reshape(len(sums), *blocks.shape[1:])
+    def squares(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
+        """Return products of the columns of each of some kept blocks among themselves, shape (g, k, k)."""
+        known, key = self._of(ratios), blocks.tobytes()
+        if key not in known.squares:
+            flat = blocks.ravel()
+            known.squares[key] = self._within(
+                known, Held(self.values(flat), self._sums[flat]), blocks.shape[1]
+            )
+        return known.squares[key]
+
+    def squares_of(self, ratios: tuple[float, ...], held: Held, width: int) -> FloatArray:
+        """Return the same of contrasts that are not in the table, so many in a block."""
+        return self._within(self._of(ratios), held, width)
+
+    def _sum(self, contrasts: FloatArray) -> FloatArray:
+        """Return products of contrasts, (N, k), with the irregular factors, shape (k, r)."""
+        # Contrasts are at right angles to the model: the factors themselves do for their contrasts.
+        sums = self._factors.sums(self.space.single.transposed(contrasts))
+        return sums.transpose(2, 1, 0).reshape(contrasts.shape[1], len(self._gram))
+
+    def _within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
+        rows = np.ascontiguousarray(held.contrasts.T).reshape(-1, width, len(held.contrasts))
+        sums = held.sums[:, known.active]
+        turned = (sums @ known.kernel).reshape(len(rows), width, -1)
         sums = sums.reshape(turned.shape)
-        rows = np.ascontiguousarray(np.moveaxis(blocks, 0, -1))
-        return np.asarray(rows @ np.swapaxes(rows, 1, 2) - np.einsum("rgi,rgj->gij", sums, turned))
+        return np.asarray(rows @ rows.transpose(0, 2, 1) - sums @ turned.transpose(0, 2, 1))
 
-    def _with_core(self, kernel: FloatArray, places: IntArray) -> FloatArray:
+    def _with_core(self, known: _Eliminated, places: IntArray) -> FloatArray:
         core = slice(0, self._core)
-        less = (kernel @ self._sums[:, places]).T @ self._sums[:, core]
+        less = (self._sums[places, known.active] @ known.kernel) @ self._sums[core, known.active].T
         return np.asarray(self._values[places] @ self._values[core].T - less)
 
+    def _with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
+        kept = slice(0, self._kept)
+        rows = self._plain.rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
+        less = (self._sums[places, known.active] @ known.kernel) @ self._sums[kept, known.active].T
+        return np.asarray(self._plain.values[rows] - less)
+
     def _between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
-        sums = known.kernel @ self._sums[:, other]
-        return np.asarray(self._values[one] @ self._values[other].T - self._sums[:, one].T @ sums)
+        less = (self._sums[one, known.active] @ known.kernel) @ self._sums[other, known.active].T
+        return np.asarray(self._values[one] @ self._values[other].T - less)
 
     def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
         if ratios not in self._eliminated:
@@ -200,8 +230,16 @@ class Columns:
         inner = roots[:, np.newaxis] * self._gram[np.ix_(active, active)] * roots
         factor = np.linalg.cholesky(np.eye(len(active)) + inner)
         root = np.linalg.inv(factor) * roots
-        kernel = np.zeros_like(self._gram)
-        kernel[np.ix_(active, active)] = root.T @ root
+        first, last = (active[0], active[-1] + 1) if len(active) else (0, 0)
+        kernel = np.zeros((last - first, last - first))
+        kernel[np.ix_(active - first, active - first)] = root.T @ root
         logarithm = 2.0 * float(np.log(np.diagonal(factor)).sum())
-        core = np.arange(self._core)
-        return _Eliminated(logarithm, kernel, _Table(self._with_core(kernel, core)))
+        known = _Eliminated(
+            logarithm,
+            slice(first, last),
+            kernel,
+            _Table(np.empty((0, self._core))),
+            _Table(np.empty((0, self._kept))),
+        )
+        known.near.rows(np.arange(self._core), lambda missing: self._with_core(known, missing))
+        return known

@@ -8,8 +8,8 @@ from typing import TypeAlias
 
 from zlmreport.job.choices import part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes
 from zlmreport.model.diagnosis.families import Family
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.effects.effect import Effect
 
 #: By what members of a contest are told apart: family, columns, what the search cost, tangents.

@@ -7,7 +7,7 @@ it where the odds between them are less than twenty to one.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set as AbstractSet
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name
+from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import (
     LEVEL,
@@ -26,6 +26,7 @@ from zlmreport.model.diagnosis.null_distribution import (
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
+from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
@@ -231,10 +232,10 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
     deviations = fitted.open_deviation[:, np.newaxis]
-    observed = contest.trials(start.amplitudes, start.columns, deviations, stated.known)
+    observed = Trials(contest, start.amplitudes, start.columns, deviations, stated.known)
     p_value = null.p_value(Scores(observed.ratios, observed.nameless))
     reduced = contest.reduced(start.amplitudes, start.columns)
-    sigma = float(np.sqrt(contest.left(reduced)[0] / contest.space.degrees))
+    sigma = float(np.sqrt(reduced.squares / contest.space.degrees))
     noise = Noise(sigma, contest.ratios_of(start.amplitudes), fitted.noise.weights)
     visible = judge_visibility(contest, null, reduced, sigma)
     told(0.2)
@@ -243,12 +244,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
     found = search.found(start.members, lambda share: told(0.2 + 0.6 * share))
     found = search.renumbered(_believe_set(search, found))
-    before = {(each.identifier, each.effect.settings) for each in start.members}
-    named = tuple(
-        _name_effect(search, found, number)
-        for number in _put_in_order(contest, found)
-        if (found.members[number].identifier, found.members[number].effect.settings) not in before
-    )
+    named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
         noise=noise,
@@ -280,6 +276,10 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
 
     Where several could stand in a place, it is their evidence together that something stands there.
     """
+    if not search.has_nameless(found):
+        # With enough names any curve is described: several that one curve replaces are not told.
+        found = search.find_fewer_beside_curve(found, TOLD_APART) or found
+    is_whole = not search.has_nameless(found)
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
         order = sorted(range(len(without)), key=lambda each: without[each].score)
@@ -287,7 +287,8 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         if needless is None:
             break
         found = without[needless]
-    return _keep_sure(search, found) if search.has_nameless(found) else found
+    # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
+    return found if is_whole else _keep_sure(search, found)
 
 
 def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:
@@ -335,11 +336,8 @@ def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     chosen: list[int] = []
     while open_:
         reduced = contest.reduced(contest.quiet, [found.members[each].columns for each in chosen])
-        taken = contest.left(reduced)[1]
         explained = {
-            each: float(
-                contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis], taken)[0]
-            )
+            each: float(contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis])[0])
             for each in open_
         }
         chosen.append(max(open_, key=explained.__getitem__))
@@ -347,8 +345,22 @@ def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     return chosen
 
 
-def _name_effect(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
-    """Return an effect of a set with those that could stand in its place."""
+def _name_effects(search: SetSearch, found: EffectSet, before: Iterable[Effect]) -> Iterator[NamedEffect]:
+    """Yield the effects of a set that were not there before, the one to add first first."""
+    known, leading = [(each.identifier, each.settings) for each in before], set[str]()
+    for number in _put_in_order(search.contest, found):
+        effect = found.members[number].effect
+        if (effect.identifier, effect.settings) not in known:
+            named = _name_effect(search, found, number, leading)
+            leading.add(named.identifier)
+            yield named
+
+
+def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: AbstractSet[str]) -> NamedEffect:
+    """Return an effect of a set with those that could stand in its place.
+
+    `taken`: Names under which others of the set lead.
+    """
     rest = search.without(found, number)
     member = found.members[number]
     sets = [found, *search.rivals(found, rest, _BEHIND)]
@@ -364,17 +376,25 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int) -> NamedEffec
         for each, whole, weight in zip(members, sets, weights[1:], strict=True)
     ]
     design = search.contest.design
-    near = [each for each in rivals if each.evidence > rivals[0].evidence - MENTION]
+    # What takes the place of several at once does not lead in the place of one of them.
+    others = list_names(found.named) - {find_installed_name(member.effect)}
+    near = [
+        each
+        for each, whole in zip(rivals, sets, strict=True)
+        if each.evidence > rivals[0].evidence - MENTION
+        and others < list_names(whole.named)
+        and (each is rivals[0] or each.identifier not in taken)
+    ]
     leading = min(near, key=lambda each: (_count_assumptions(each.member.effect, design), -each.evidence))
-    others = [each for each in rivals if each is not leading]
-    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in others]
+    behind = [each for each in rivals if each is not leading]
+    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in behind]
     names = {each.identifier for each in found.members}
     return NamedEffect(
         leading,
-        tuple(each for each, equal in zip(others, is_equal, strict=True) if equal),
+        tuple(each for each, equal in zip(behind, is_equal, strict=True) if equal),
         tuple(
             each
-            for each, equal in zip(others, is_equal, strict=True)
+            for each, equal in zip(behind, is_equal, strict=True)
             if not equal and each.evidence > 0 and each.identifier not in names
         ),
     )

@@ -19,7 +19,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import NoisePart, NoiseSource, split_by_session
+from zlmreport.model.fitting.noise import BY_TARGET, NoisePart, NoiseSource, split_by_session
 from zlmreport.model.fitting.pauses import compute_working_time
 from zlmreport.model.fitting.priors import PriorExpectation
 
@@ -29,6 +29,8 @@ PRICE = 9.0
 _VARIANCES = (0.02, 0.1, 0.5, 2.5, 12.0, 60.0, 300.0, 1500.0, 1e4, 1e5, 1e6)
 #: The same of irregular shares, beyond those that are noise; what drifts without being smooth stays noise.
 _IRREGULAR = (0.25, 1.0, 5.0, 25.0, 125.0, 1e3, 1e4, 1e5)
+#: By how much each level of a shared noise is rarer than the one below it, 2·ln of the odds.
+_RARER = 1.0
 #: Correlation lengths of smooth curves, as shares of the travel or the duration.
 _LENGTHS = (0.3, 0.1)
 _TERMS = 12
@@ -108,11 +110,12 @@ def list_parts_of(
     nowhere = columns.add(np.empty((len(design.position), 0)))
     irregular = 0
     for each in noise:
-        is_irregular = each.source in _BY_POSITION
+        is_irregular = each.source in BY_TARGET
         contrasts = columns.space.of(each.factor)
         places = nowhere if is_irregular else columns.add(contrasts)
         may_be_more = with_nameless and each.source is not NoiseSource.TIME
         further = tuple(level for level in _IRREGULAR if may_be_more and level > each.ratios[-1])
+        free = _compute_noise_costs(each, expected)
         found.append(
             CovariancePart(
                 _WORDS[each.source],
@@ -120,7 +123,7 @@ def list_parts_of(
                 places,
                 irregular if is_irregular else None,
                 (*each.ratios, *further),
-                (*expected.costs(each.source, each.ratios), *(PRICE for _ in further)),
+                (*free, *(PRICE + free[-1] for _ in further)),
                 len(each.ratios),
                 each.source,
             )
@@ -136,9 +139,22 @@ def list_parts_of(
     return tuple(found)
 
 
+def _compute_noise_costs(noise: NoisePart, expected: PriorExpectation) -> tuple[float, ...]:
+    """Return what each ratio of a source of noise costs.
+
+    No axis is the same at two positions, and that is free. That readings which are taken together share
+    something besides is the rarer the larger it is: else it would follow whatever a curve without a name
+    leaves of a cause.
+    """
+    costs = expected.costs(noise.source, noise.ratios)
+    if noise.source is NoiseSource.POSITION or noise.source in expected.ratios:
+        return costs
+    return tuple(cost + _RARER * level for level, cost in enumerate(costs))
+
+
 def make_irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
     """Return the factors of what is irregular from position to position."""
-    return [each.factor for each in noise if each.source in _BY_POSITION]
+    return [each.factor for each in noise if each.source in BY_TARGET]
 
 
 def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
@@ -181,7 +197,6 @@ def _smooth(where: FloatArray, length: float) -> FloatArray:
     return np.asarray(curves - curves.mean(axis=0), dtype=np.float64)
 
 
-_BY_POSITION = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
 _COURSES: Mapping[NoiseSource, Course] = {
     NoiseSource.POSITION: Course.IRREGULAR,
     NoiseSource.DIRECTION: Course.IRREGULAR,

@@ -15,7 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.diagnosis.likelihood import Amplitudes
+from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.fitting.distributions import gamma_tail
 
 #: Simulated tests.
@@ -81,7 +83,7 @@ def simulate_null(
     `amplitudes`: Those of all parts; the simulated readings have the same.
     `members`: Columns of the set.
     """
-    trials = contest.trials(amplitudes, members, _simulate(contest, amplitudes))
+    trials = Trials(contest, amplitudes, members, _simulate(contest, amplitudes))
     usual = np.quantile(trials.ratios, 1 - LEVEL, axis=1)
     usual_of_nameless = np.quantile(trials.nameless, 1 - LEVEL, axis=1)
     blank = NullDistribution(trials.ratios, trials.nameless, usual, usual_of_nameless, np.inf)
@@ -96,10 +98,10 @@ def compute_chances_of(
 
     `amplitudes`, `members`: As for `simulate_null`.
     """
-    only = frozenset(effects)
+    asked = frozenset(effects)
+    names = [each for each in contest.identifiers if each in asked]
     deviations = np.column_stack([contest.deviation, _simulate(contest, amplitudes)])
-    ratios = contest.trials(amplitudes, members, deviations, only=only).ratios
-    names = [each for each in contest.identifiers if each in only]
+    ratios = Trials(contest, amplitudes, members, deviations).ratios_of(names)
     return {name: _compute_p_value(float(own[0]), own[1:]) for name, own in zip(names, ratios, strict=True)}
 
 

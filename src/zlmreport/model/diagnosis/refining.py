@@ -8,14 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
 from zlmreport.model.diagnosis.families import make_orthonormal
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 
 #: Evidence by which another part of a grid must be better for a parameter to jump there, and of another form.
 _JUMP, _CLEAR_GAIN = 2.0, 0.5
-#: Values that are tried between two of a grid, in rounds, each about the best of the last.
-_BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
+#: Values that are tried between two of a grid, in steps of it, in rounds, each about the best of the last.
+_BETWEEN, _ROUNDS, _CLOSER = (-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8), 3, 0.22
 
 
 def jump_along_grids(
@@ -67,24 +68,23 @@ def refine_member(
     rest = contest.reduced(
         amplitudes, [each.columns for place, each in enumerate(members) if place != number]
     )
-    taken = contest.left(rest)[1]
     theta = member.theta.copy()
-    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis], taken)[0])
+    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis])[0])
     best: tuple[FloatArray, int] | None = None
     steps = {}
     for column, values in places:
         near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
         step = steps[column] = float(values[near] - values[near - 1])
         for _ in range(_ROUNDS):
-            tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
-            tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
+            tried = np.repeat(theta[np.newaxis], len(_BETWEEN), axis=0)
+            tried[:, column] += step * np.array(_BETWEEN)
             tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
             blocks, ranks, seen = make_orthonormal(
                 contest.space, contest.design, effect, tried, contest.least_visible
             )
             if not len(seen):
                 break
-            explained = contest.explained(rest, blocks, taken)
+            explained = contest.explained(rest, blocks)
             leading = int(np.argmax(explained))
             if explained[leading] > most:
                 most, theta = float(explained[leading]), tried[seen[leading]]
@@ -109,8 +109,7 @@ def _find_tangents(
     """Return the places of what small shifts of a member's searched parameters change."""
     member = members[number]
     reduced = contest.reduced(amplitudes, [each.columns for each in members])
-    taken = contest.left(reduced)[1]
-    solved = reduced.set_root.T @ taken[len(reduced.root) :]
+    solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :]
     first = sum(len(each.columns) for each in members[:number])
     own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
     effect, design = member.effect, contest.design

@@ -92,8 +92,10 @@ class Residuals:
 
     def blocks(self, columns: FloatArray) -> FloatArray:
         """Return blocks of columns, shape (g, N, k), as orthonormal contrasts of independent readings."""
-        whitened = np.stack([self.whiten(block) for block in columns])
-        left = whitened - self.base @ (self.base.T @ whitened)
+        size, readings, width = columns.shape
+        flat = self.whiten(columns.transpose(1, 0, 2).reshape(readings, -1))
+        left = flat - self.base @ (self.base.T @ flat)
+        whitened, left = (each.reshape(readings, size, width).transpose(1, 0, 2) for each in (flat, left))
         lengths = np.linalg.norm(whitened, axis=1, keepdims=True)
         vectors, singular, _ = np.linalg.svd(left / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
         return np.asarray(vectors * (singular > _DEPENDENT)[:, np.newaxis, :], dtype=np.float64)

@@ -11,8 +11,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter
 from zlmreport.model.effects.sizes import compute_times_usual, find_usual_range, name_of
@@ -25,6 +26,8 @@ _DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
 _FARTHEST = 1e3
 #: Of the longest column of an effect, one that is as short is imitated by the model.
 _SEEN = 1e-6
+#: Of the largest variance of coefficients, one that is as small is that of none.
+_DEPENDENT = 1e-9
 
 
 class SetCosts:
@@ -40,45 +43,42 @@ class SetCosts:
             return 0.0
         contest = self._contest
         reduced = contest.reduced(amplitudes, [each.columns for each in members])
-        squares, taken = contest.left(reduced)
-        variance = squares / contest.space.degrees
-        solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
+        variance = reduced.squares / contest.space.degrees
+        solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
         cost, first = 0.0, 0
         for each in members:
             own = slice(first, first + len(each.columns))
             first = own.stop
-            information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
             square = contest.expected.square(each.identifier)
             cost += each.family.price + each.spread
-            for explained, rank in self._by_size(
-                each, solved[own], np.asarray(information / variance, np.float64)
-            ):
+            root = _find_root_of_inverse(variance * inverse[own, own])
+            for explained, rank in self._by_size(each, solved[own], root):
                 cost += contest.worth(explained, rank, square)
             if each.family.is_named:
                 cost += self._unusual(each, solved[own], variance * inverse[own, own])
         return cost
 
     def _by_size(
-        self, member: SetMember, solved: FloatArray, information: FloatArray
+        self, member: SetMember, solved: FloatArray, root: FloatArray
     ) -> Iterator[tuple[float, int]]:
         """Yield what a member explains beside the others of a set, in σ², and with how many columns.
 
         All its coefficients are of one size, but for an effect that contains others: a polynomial is a
         constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
         those before it leave.
+
+        `root`: R, RᵀR the information on its coefficients.
         """
+        values = root @ solved
         if not member.effect.contains:
-            yield float(solved @ information @ solved), member.rank
+            yield float(values @ values), member.rank
             return
         contrasts = self._contest.space.of(member.effect.columns(self._contest.design, member.theta))
-        turned = self._contest.columns.values(member.columns).T @ contrasts
-        values, vectors = np.linalg.eigh(information)
-        root = np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * vectors.T
-        powers = root @ turned
+        powers = root @ (self._contest.columns.values(member.columns).T @ contrasts)
         lengths = np.linalg.norm(powers, axis=0)
         powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
-        parts = np.linalg.qr(powers)[0].T @ (root @ solved)
+        parts = np.linalg.qr(powers)[0].T @ values
         yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
     def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
@@ -105,6 +105,13 @@ class SetCosts:
             turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
             self._turns[place] = np.asarray(turn, dtype=np.float64)
         return self._turns[place]
+
+
+def _find_root_of_inverse(covariance: FloatArray) -> FloatArray:
+    """Return R with RᵀR the inverse of a covariance; directions in which nothing is determined are zero."""
+    values, vectors = np.linalg.eigh(covariance)
+    is_seen = values > _DEPENDENT * values[-1]
+    return np.asarray((vectors / np.sqrt(np.where(is_seen, values, np.inf))).T)
 
 
 def weigh_size(

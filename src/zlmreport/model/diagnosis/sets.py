@@ -19,7 +19,7 @@ import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
     MemberKey,
@@ -32,6 +32,7 @@ from zlmreport.model.diagnosis.effect_set import (
     make_member,
 )
 from zlmreport.model.diagnosis.families import Family, make_orthonormal
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.refining import jump_along_grids, refine_member
 from zlmreport.model.diagnosis.set_costs import SetCosts
 from zlmreport.model.diagnosis.set_pairs import list_pairs
@@ -52,6 +53,8 @@ _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
 #: names may do what one curve without a name does at less cost.
 _SURE, _FEW = 6.0, 2
+#: Names in the place of which one curve is less to believe than they are.
+_SEVERAL = 2
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
 #: How many levels of each part are thought of, whether forms are, families with their searched parameters,
@@ -171,6 +174,20 @@ class SetSearch:
             each.score for (known, own), each in self._best.items() if not known & names and own <= forms
         ]
         return min(others, default=np.inf) - found.score
+
+    def find_fewer_beside_curve(self, found: EffectSet, within: float) -> EffectSet | None:
+        """Return the best of all sets looked at in which a curve without a name replaces several names.
+
+        `within`: What evidence it may lack; None where all lack more.
+        """
+        fewer = [
+            each
+            for each in self._best.values()
+            if len(each.named) <= len(found.named) - _SEVERAL
+            and each.score < found.score + within
+            and self.has_nameless(each)
+        ]
+        return min(fewer, key=find_score, default=None)
 
     def holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
         """Return the best set with these named members alone; what has no name as it then is."""
@@ -386,7 +403,11 @@ class SetSearch:
             if other is None and is_thorough and self._is_coloured(now):
                 other = self._paired(now)
             if other is None:
-                break
+                # What its searched parameters cost was found beside another set.
+                before, now = now, self._settled(now)
+                if now.score >= before.score - _GAIN:
+                    break
+                other = now
             now = self._shrunk(other)
         self._ends.update(dict.fromkeys(passed, now))
         return now

@@ -10,8 +10,9 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
-from zlmreport.model.diagnosis.contest import Contest, Reduced
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.families import Family
+from zlmreport.model.diagnosis.likelihood import Reduced
 from zlmreport.model.diagnosis.null_distribution import NullDistribution, simulate_null
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -97,10 +98,11 @@ def _compute_lengths(contest: Contest, reduced: Reduced, family: Family, theta: 
     contrasts = contest.space.of(columns)
     seen = contest.space.single.coloured(contrasts)
     moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
+    squares = contest.squares_beside(reduced, contest.columns.hold(contrasts))
     return _Lengths(
         float(np.sqrt(np.mean(columns**2))),
         float(np.linalg.norm(seen)) / (moving or 1.0),
-        float(np.sqrt(np.mean(np.maximum(contest.squares_beside(reduced, contrasts), 0.0)))),
+        float(np.sqrt(np.mean(np.maximum(squares, 0.0)))),
     )
 
 

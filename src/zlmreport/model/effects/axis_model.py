@@ -135,6 +135,16 @@ class AxisModel:
             found[index][column] = thetas[other][place]
         return tuple(found)
 
+    @property
+    def linked_terms(self) -> tuple[tuple[int, ...], ...]:
+        """The places of its terms, those together of which a parameter equals one of another."""
+        groups = [{place} for place in range(len(self.terms))]
+        for index, term in enumerate(self.terms):
+            for name, _ in term.links.values():
+                joined = [each for each in groups if each & {index, self.identifiers.index(name)}]
+                groups = [each for each in groups if each not in joined] + [set().union(*joined)]
+        return tuple(tuple(sorted(each)) for each in sorted(groups, key=min))
+
     def compute_columns(
         self, design: Design, thetas: Sequence[FloatArray]
     ) -> list[tuple[FloatArray, FloatArray]]:

@@ -252,12 +252,12 @@ class FormulaEffect(Effect):
 
     def forbids(self, design: Design, values: Mapping[str, float]) -> Words | None:
         """Return why physics and the log of a test forbid values of parameters, SI."""
-        rise = find_logged_rise(design)
         for name, value in values.items():
-            low, high = self.formula.bound(name, rise)
             possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
-            if possible is not None and not low <= value <= high:
-                return possible.because
+            if possible is not None:
+                low, high = self.formula.bound(name, find_logged_rise(design))
+                if not low <= value <= high:
+                    return possible.because
         return None
 
     def tried_in(self, design: Design) -> Words | None:

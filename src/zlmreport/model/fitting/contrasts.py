@@ -9,13 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import product
 
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import Noise, NoisePart
+from zlmreport.model.fitting.by_target import FactorsByTarget, ProductsByTarget, RootByTarget
+from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
 
 #: Columns that add less than this share of their length to those before them add nothing.
 _DEPENDENT = 1e-11
@@ -70,6 +72,14 @@ class SingleReadings:
         found[1:] = ((scaled[1:].T - scaled[:-1].T * self.kept) / np.sqrt(1.0 - self.kept**2)).T
         return found
 
+    def transposed(self, columns: FloatArray) -> FloatArray:
+        """Return Wᵀ times columns, shape (N, …)."""
+        found = columns.copy()
+        if self.kept is not None:
+            found[1:] = (found[1:].T / np.sqrt(1.0 - self.kept**2)).T
+            found[:-1] -= (found[1:].T * self.kept).T
+        return (found.T * self.scale).T
+
     def coloured(self, columns: FloatArray) -> FloatArray:
         """Return W⁻¹ times columns: what was made independent as it was read."""
         found = columns.copy()
@@ -92,15 +102,20 @@ def describe_single_readings(design: Design, weights: FloatArray, memory: float 
     return SingleReadings(scale, np.minimum(kept, _MOST_KEPT))
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Contrasts:
     """The space of error contrasts of a base model."""
 
     base: FloatArray  #: (N, q): Orthonormal columns that span the model, single readings made independent.
     single: SingleReadings  #: How these scatter by themselves.
     parts: tuple[NoisePart, ...]  #: The sources of shared scatter.
-    factors: FloatArray  #: (N, r): Their factors Z side by side, as contrasts.
-    gram: FloatArray  #: (r, r): ZᵀZ.
+
+    @cached_property
+    def gram(self) -> FloatArray:
+        """Products of their factors Z side by side, as contrasts, shape (r, r)."""
+        factors = np.concatenate([self.base[:, :0], *(part.factor for part in self.parts)], axis=1)
+        contrasts = self.of(factors)
+        return np.asarray(contrasts.T @ contrasts)
 
     @property
     def scale(self) -> FloatArray:
@@ -118,13 +133,6 @@ class Contrasts:
         flat = flat - self.base @ (self.base.T @ flat)
         return flat.reshape(columns.shape)
 
-    def metric(self, ratios: FloatArray) -> Metric:
-        """Return the inner product for one φ, shape (parts,)."""
-        active, roots, gram = self._active(ratios)
-        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
-        logarithms = np.log(np.diagonal(factor))
-        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
-
     def restricted(
         self, contrast: FloatArray, known: float = 0.0
     ) -> Callable[[FloatArray], tuple[float, float]]:
@@ -135,30 +143,46 @@ class Contrasts:
         `contrast`, (N,): Of the deviations.
         `known`: Residual sum of squares of a noise of known size that stands beside σ.
         """
-        total, products = float(contrast @ contrast), self.factors.T @ contrast
-        length = np.sqrt(max(total, _NOTHING))
+        total = float(contrast @ contrast)
+        is_by_target = np.array([self._is_by_target(part) for part in self.parts], dtype=np.bool_)
+        own = [self.single.whitened(part.factor) for part in self.parts]
+        widths = [each.shape[1] for each, apart in zip(own, is_by_target, strict=True) if not apart]
+        beside = [each for each, apart in zip(own, is_by_target, strict=True) if not apart]
+        readings = contrast[:, np.newaxis] / np.sqrt(max(total, _NOTHING))
+        factors = FactorsByTarget(
+            [each for each, apart in zip(own, is_by_target, strict=True) if apart], len(contrast)
+        )
+        products = ProductsByTarget(factors, np.concatenate([*beside, self.base, readings], axis=1))
+        shared = sum(widths)
 
         def criterion(ratios: FloatArray) -> tuple[float, float]:
-            active, roots, gram = self._active(ratios)
-            # A border of products with the readings: the last pivot of the root is what these leave.
-            bordered = np.zeros((len(active) + 1, len(active) + 1))
-            bordered[:-1, :-1] = gram
-            bordered[-1, :-1] = roots * products[active] / length
-            bordered[np.diag_indices(len(active))] += 1.0
-            bordered[-1, -1] = 1.0 + _ROUNDING
+            bordered, logarithm = products.under(ratios[is_by_target])
+            roots = np.ones(len(bordered))
+            roots[:shared] = np.sqrt(np.repeat(ratios[~is_by_target], widths))
+            bordered = roots[:, np.newaxis] * bordered * roots
+            bordered[np.diag_indices(shared)] += 1.0
+            bordered[-1, -1] += _ROUNDING
+            # The last pivot of the root is what all else leaves of the readings.
             pivots = np.diagonal(np.linalg.cholesky(bordered))
             squares = total * float(pivots[-1]) ** 2 + known
-            logarithms = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
-            return float(logarithms), squares
+            logarithm += self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
+            return float(logarithm), squares
 
         return criterion
 
-    def _active(self, ratios: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
-        """Return the columns of the factors with a share in the covariance, √φ of each, and √φ·ZᵀZ·√φ."""
+    def _is_by_target(self, part: NoisePart) -> bool:
+        """Return whether readings of other targets share nothing of a part, made independent singly."""
+        return self.single.kept is None and part.source in BY_TARGET
+
+    def metric(self, ratios: FloatArray) -> Metric:
+        """Return the inner product for one φ, shape (parts,)."""
         spread = np.repeat(ratios, [part.factor.shape[1] for part in self.parts])
         active = np.flatnonzero(spread)
         roots = np.sqrt(spread[active])
-        return active, roots, roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
+        gram = roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
+        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
+        logarithms = np.log(np.diagonal(factor))
+        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
     def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
         """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
@@ -178,10 +202,7 @@ def make_contrasts_of(
     lengths = np.linalg.norm(weighted, axis=0)
     left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
     orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
-    factors = np.concatenate([np.empty((len(base), 0)), *(part.factor for part in parts)], axis=1)
-    factors = single.whitened(factors)
-    factors -= orthonormal @ (orthonormal.T @ factors)
-    return Contrasts(orthonormal, single, tuple(parts), factors, factors.T @ factors)
+    return Contrasts(orthonormal, single, tuple(parts))
 
 
 def estimate_restricted(
@@ -235,3 +256,39 @@ def make_whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
     factors = np.concatenate([np.empty((len(scale), 0)), *active], axis=1) * scale[:, np.newaxis]
     modes, singular, _ = np.linalg.svd(factors, full_matrices=False)
     return Whitener(scale, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))
+
+
+@dataclass(frozen=True, slots=True)
+class Root:
+    """A root W of V⁻¹, WᵀW = V⁻¹, that a hundred targets make hardly dearer than ten."""
+
+    scale: FloatArray  #: (N,): 1/√w.
+    by_target: RootByTarget  #: The root of what readings of other targets do not share.
+    modes: FloatArray  #: (N, r): Orthonormal directions in which readings scatter together beside that.
+    excess: FloatArray  #: (r,): 1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
+
+    def __call__(self, columns: FloatArray) -> FloatArray:
+        """Return W times columns over the readings, shape (N, k)."""
+        return self._keep_modes(self.by_target(self.scale[:, np.newaxis] * columns))
+
+    def transposed(self, columns: FloatArray) -> FloatArray:
+        """Return Wᵀ times columns, shape (N, k)."""
+        return self.scale[:, np.newaxis] * self.by_target(self._keep_modes(columns))
+
+    def _keep_modes(self, columns: FloatArray) -> FloatArray:
+        return columns - self.modes @ (self.excess[:, np.newaxis] * (self.modes.T @ columns))
+
+
+def make_root(parts: Sequence[NoisePart], noise: Noise) -> Root:
+    """Return what makes readings independent under a noise; single ones where no part has a share."""
+    scale = 1.0 / np.sqrt(noise.weights)
+    active = [part for part in parts if noise.ratios.get(part.source, 0.0) > 0]
+    apart = [part for part in active if part.source in BY_TARGET]
+    factors = FactorsByTarget([scale[:, np.newaxis] * part.factor for part in apart], len(scale))
+    by_target = RootByTarget(factors, np.array([noise.ratios[part.source] for part in apart]))
+    shared = [
+        part.factor * np.sqrt(noise.ratios[part.source]) for part in active if part.source not in BY_TARGET
+    ]
+    together = by_target(scale[:, np.newaxis] * np.concatenate([np.empty((len(scale), 0)), *shared], axis=1))
+    modes, singular, _ = np.linalg.svd(together, full_matrices=False)
+    return Root(scale, by_target, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))

@@ -16,7 +16,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter
-from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_whitener
+from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_root
 from zlmreport.model.fitting.estimate import (
     Estimate,
     InstrumentError,
@@ -25,6 +25,7 @@ from zlmreport.model.fitting.estimate import (
     compute_variance_of_variance,
     list_estimates_of,
 )
+from zlmreport.model.fitting.grid_search import search
 from zlmreport.model.fitting.noise import Noise, NoisePart, list_noise_parts, make_coarse_grid
 from zlmreport.model.fitting.observations import select_readings
 from zlmreport.model.fitting.repeats import compute_weights
@@ -35,11 +36,12 @@ from zlmreport.model.fitting.search import (
     Thetas,
     compute_tangents,
     refine,
-    search,
 )
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
 _LARGEST_RATIO = 1e4
+#: Share of the sum of squares by which a last step changes it where runs are predicted from the others.
+_SETTLED = 1e-13
 
 
 @dataclass(frozen=True, slots=True)
@@ -211,14 +213,14 @@ def _fit(
     parts = list_noise_parts(design) if taken.parts is None else taken.parts
     known = compute_weights(design, deviation) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
-    problem = FitProblem(model, design, deviation, make_whitener(parts, noise))
+    problem = FitProblem(model, design, deviation, make_root(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))
     refuse_collisions(model, _list_columns(model, design, solution))
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
         base = _compute_jacobian(model, design, solution, problem.places(solution.thetas))
         space = make_contrasts_of(base, parts, noise.weights)
         noise = _estimate_noise(space, _open(model, design, deviation, solution), noise.weights)
-        problem = FitProblem(model, design, deviation, make_whitener(parts, noise))
+        problem = FitProblem(model, design, deviation, make_root(parts, noise))
         solution = refine(problem, problem.solution(solution.thetas))
     return _finish(problem, solution, space, noise, taken)
 
@@ -274,7 +276,7 @@ def _finish(
     root = np.linalg.pinv(whitened / lengths) / lengths[:, np.newaxis]
     inverse = root @ root.T
     systematic = root @ problem.whiten(assumptions.instrument.factor(design))
-    weighted = problem.whiten(whitened) @ inverse
+    weighted = problem.whiten.transposed(whitened) @ inverse
     variances = compute_variance_of_variance(space, noise, weighted)
     uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)
     return Fit(
@@ -307,8 +309,10 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
     for run in runs:
         left_out = np.flatnonzero(cycle == run)
         kept = np.flatnonzero(cycle != run)
-        problem = FitProblem(model, select_readings(design, kept), deviation[kept], lambda columns: columns)
-        found = refine(problem, problem.solution(thetas))
+        independent = make_root((), Noise(1.0, {}, np.ones(len(kept))))
+        problem = FitProblem(model, select_readings(design, kept), deviation[kept], independent)
+        start = problem.solution(thetas)
+        found = refine(problem, start, _SETTLED * start.squares)
         others = select_readings(design, left_out)
         predicted = np.zeros(len(left_out))
         for term, theta, gamma in zip(model.terms, found.thetas, found.coefficients, strict=True):

@@ -53,6 +53,8 @@ _WORDS = {
     NoiseSource.TIME: Words("slow irregular drift"),
 }
 
+#: Sources of which readings of other targets share nothing.
+BY_TARGET = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
 #: Ratios φ that are tried. What is larger than half the repeatability of a single reading (φ = ¼), and of a
 #: whole run than a quarter of it, is no noise but something that the model lacks.
 _RATIOS = {

@@ -17,7 +17,7 @@ import numpy as np
 
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Parameter
-from zlmreport.model.fitting.contrasts import make_whitener
+from zlmreport.model.fitting.contrasts import make_root
 from zlmreport.model.fitting.estimate import Estimate, find_scanned_ends
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import list_noise_parts
@@ -54,7 +54,7 @@ def find_intervals(fitted: Fit) -> tuple[Interval, ...]:
     """
     parts = fitted.assumptions.parts
     parts = list_noise_parts(fitted.design) if parts is None else parts
-    problem = FitProblem(fitted.model, fitted.design, fitted.deviation, make_whitener(parts, fitted.noise))
+    problem = FitProblem(fitted.model, fitted.design, fitted.deviation, make_root(parts, fitted.noise))
     return tuple(_list_intervals(fitted, problem))
 
 
@@ -104,7 +104,7 @@ def _find_usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate
     else:  # it lies at a bound, and no column is its own
         term = fitted.model.terms[index]
         columns = term.effect.columns(fitted.design, fitted.solution.thetas[index])
-        column = problem.whiten(columns[:, term.effect.linear.index(estimate.parameter)])
+        column = problem.whiten(columns[:, [term.effect.linear.index(estimate.parameter)]])
         standard, systematic = 1.0 / float(np.linalg.norm(column)), 0.0
     return estimate.coverage_factor * known.sigma * standard, estimate.coverage_factor * systematic
 

@@ -1,13 +1,13 @@
 """Searched parameters by variable projection.
 
 G. H. Golub and V. Pereyra, SIAM Journal on Numerical Analysis 10 (1973) 413. For any value of θ the linear
-parameters are solved, so only the residual sum of squares as a function of θ is searched: over each effect's
-whole grid first, then between its values, then by Gauss-Newton steps.
+parameters are solved, so only the residual sum of squares as a function of θ is searched: over the grids of
+all effects first (`grid_search`), then between their values, then by Gauss-Newton steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -16,11 +16,11 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import Root
 
 #: Of all terms, in the order of the model; empty arrays for terms without θ.
 Thetas: TypeAlias = tuple[FloatArray, ...]
 
-_SWEEPS = 4
 _HALVINGS = 12
 _STEPS = 60
 _CONVERGED = 1e-14
@@ -81,7 +81,7 @@ class FitProblem:
     model: AxisModel
     design: Design
     deviation: FloatArray
-    whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
+    whiten: Root  #: Makes readings independent.
     # Of each term its last θ and what it comes to: from one solution to the next one term changes. Not
     # handed on by `replace`: another model has other columns.
     _last: dict[int, tuple[bytes, tuple[FloatArray, FloatArray]]] = field(
@@ -91,13 +91,21 @@ class FitProblem:
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
         thetas = self.model.link(thetas)
-        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
-        pairs = self.model.add_linked(self.design, thetas, own)
-        empty = np.empty((len(self.deviation), 0))
-        columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
-        left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
+        columns, left = self.equations(thetas, range(len(thetas)))
         solved = solve(columns, left)
         return Solution(thetas, self.model.collect_coefficients(solved), columns, left - columns @ solved)
+
+    def equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
+        """Return the whitened columns of some terms, and what their given coefficients leave, both whitened.
+
+        `terms`: By their places in the model; what is linked to one of them comes along.
+        """
+        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
+        pairs = self.model.add_linked(self.design, thetas, own)
+        chosen = [pairs[index] for index in terms]
+        left = self.deviation - np.sum([given for _, given in chosen], axis=0)
+        whitened = self.whiten(np.column_stack([*(each for each, _ in chosen), left]))
+        return whitened[:, :-1], whitened[:, -1]
 
     def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns of a term whose coefficients are solved, and what the given ones make."""
@@ -127,32 +135,11 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
     return found / np.where(lengths > 0, lengths, 1.0)
 
 
-def search(problem: FitProblem) -> Solution:
-    """Return the best fit over the whole grid of every term, refined."""
-    grids = [term.make_grid(problem.design) for term in problem.model.terms]
-    searched = [index for index, grid in enumerate(grids) if len(grid) > 1]
-    best = _sweep(problem, grids, searched)
-    if len(searched) > 1:  # where the search ends hangs on whose value is searched beside a wrong one
-        best = _choose_better(best, _sweep(problem, grids, searched[::-1]))
-    return refine(problem, best)
+def refine(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
+    """Return the best fit near another one: halving steps first, then Gauss-Newton.
 
-
-def _sweep(problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int]) -> Solution:
-    """Return the best fit that is found grid after grid, in an order of the terms."""
-    best = problem.solution(tuple(grid[0] for grid in grids))
-    for _ in range(_SWEEPS if len(searched) > 1 else len(searched)):
-        before = best
-        for index in searched:
-            for theta in grids[index]:
-                tried = problem.solution((*best.thetas[:index], theta, *best.thetas[index + 1 :]))
-                best = _choose_better(best, tried)
-        if best is before:
-            break
-    return best
-
-
-def refine(problem: FitProblem, start: Solution) -> Solution:
-    """Return the best fit near another one: halving steps first, then Gauss-Newton."""
+    `settled`: As for `descend`.
+    """
     best, places = start, problem.places(start.thetas)
     steps = [place.spacing / 2 for place in places]
     for _ in range(_HALVINGS if places else 0):
@@ -160,7 +147,7 @@ def refine(problem: FitProblem, start: Solution) -> Solution:
             either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
             best = _choose_better(best, min(either, key=_sum_squares))
         steps = [step / 2 for step in steps]
-    return descend(problem, best)
+    return descend(problem, best, settled)
 
 
 def compute_tangents(

@@ -19,11 +19,13 @@ from zlmreport.language import Words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, average_evidence, tell_nobody
+from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
+from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
 from zlmreport.model.diagnosis.report import list_in_words
+from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
@@ -230,7 +232,7 @@ def _compute_share_decided(
         own = max(_FEWEST_SETS, round(share * draws.sets))
         readings = question.simulate_readings(design, contest.space.parts, rival, own, random)
         evidence, nameless = average_evidence(
-            [contest.trials(each, [], readings, question.known) for each in noises]
+            [Trials(contest, each, [], readings, question.known) for each in noises]
         )
         lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
         right += share * float(np.mean(lead > 0))

@@ -1,0 +1,77 @@
+"""What is irregular from target to target, taken target by target.
+
+Readings of other targets share nothing of it, so its covariance falls apart into small blocks, and what is
+done with it costs no more for each of a hundred targets than for each of ten (M. A. Woodbury).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray
+
+
+class FactorsByTarget:
+    """The factors Z of parts that readings of other targets do not share, m targets and p parts."""
+
+    def __init__(self, factors: Sequence[FloatArray], readings: int) -> None:
+        """Take factors of shape (N, m): a column is zero at all readings of other targets."""
+        target = np.argmax(factors[0] != 0, axis=1) if factors else np.zeros(readings, dtype=np.int64)
+        self._target, self._order = target, np.argsort(target, kind="stable")
+        self._starts = np.flatnonzero(np.diff(target[self._order], prepend=-1))
+        self._values = np.array([each.sum(axis=1) for each in factors]).reshape(-1, readings)
+
+    def sums(self, columns: FloatArray) -> FloatArray:
+        """Return Zᵀ times columns over the readings, (N, k), shape (m, p, k)."""
+        products = self._values[:, :, np.newaxis] * columns
+        return np.add.reduceat(products[:, self._order], self._starts, axis=1).transpose(1, 0, 2)
+
+    def among(self) -> FloatArray:
+        """Return ZᵀZ, shape (m, p, p)."""
+        return self.sums(self._values.T)
+
+    def spread(self, sizes: FloatArray) -> FloatArray:
+        """Return Z times sizes, (m, p, k), shape (N, k)."""
+        return np.asarray(np.sum(self._values.T[:, :, np.newaxis] * sizes[self._target], axis=1))
+
+
+class ProductsByTarget:
+    """Products of columns over the readings under any sizes of what targets have of their own."""
+
+    def __init__(self, factors: FactorsByTarget, columns: FloatArray) -> None:
+        """Take columns in, shape (N, w)."""
+        self._gram, self._among, self._sums = columns.T @ columns, factors.among(), factors.sums(columns)
+
+    def under(self, ratios: FloatArray) -> tuple[FloatArray, float]:
+        """Return the products under V = 1 + Σ φ·Z·Zᵀ, shape (w, w), and ln|V|.
+
+        `ratios`, (p,): φ.
+        """
+        active = np.flatnonzero(ratios)
+        if not len(active):
+            return self._gram, 0.0
+        roots = np.sqrt(ratios[active])[:, np.newaxis]
+        inner = np.eye(len(active)) + roots * self._among[:, active[:, np.newaxis], active] * roots.T
+        factors = np.linalg.cholesky(inner)
+        turned = np.linalg.solve(factors, roots * self._sums[:, active]).reshape(-1, len(self._gram))
+        logarithms = np.log(np.diagonal(factors, axis1=1, axis2=2))
+        return self._gram - turned.T @ turned, 2.0 * float(logarithms.sum())
+
+
+class RootByTarget:
+    """The symmetric root R of (1 + Σ φ·Z·Zᵀ)⁻¹."""
+
+    def __init__(self, factors: FactorsByTarget, ratios: FloatArray) -> None:
+        """Take φ of each part, shape (p,)."""
+        roots = np.sqrt(ratios)[:, np.newaxis]
+        values, vectors = np.linalg.eigh(roots * factors.among() * roots.T)
+        lengths = np.sqrt(1.0 + np.maximum(values, 0.0))
+        turned = roots * vectors
+        self._factors = factors
+        self._kernel = (turned / (lengths * (1.0 + lengths))[:, np.newaxis]) @ turned.transpose(0, 2, 1)
+
+    def __call__(self, columns: FloatArray) -> FloatArray:
+        """Return R times columns over the readings, shape (N, k)."""
+        return columns - self._factors.spread(self._kernel @ self._factors.sums(columns))
