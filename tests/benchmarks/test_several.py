@@ -8,12 +8,24 @@ from functools import cache
 import numpy as np
 import pytest
 
-from hidden_effects.several import Drawn, Outcome, drawn_axis, is_where_told, report
+from hidden_effects.judge import INSTALLED
+from hidden_effects.several import (
+    DOWN_TO_NOISE,
+    Drawn,
+    Outcome,
+    drawn_axis,
+    followed,
+    is_where_told,
+    report,
+)
+from hidden_effects.trial import EFFECTS
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MILLIMETRE, Unit
+from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.effects.axis_model import AxisModel, Term
 
 
 @cache
@@ -40,6 +52,23 @@ def test_an_axis_has_two_to_four_causes_of_the_size_that_is_stated() -> None:
         assert 2 <= len(drawn.causes) <= 4
         assert drawn.stranger is None
         assert np.std(drawn.observed.deviation) > 1.2 * drawn.sigma
+
+
+@pytest.mark.long
+def test_many_names_that_one_curve_replaces_are_not_told() -> None:
+    drawn = drawn_axis(9022, with_stranger=True)  # a smooth curve along the axis, and three causes
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert {each.identifier for each in found.together} <= set(drawn.causes)
+    assert found.remainder is not None
+    assert is_where_told(found.remainder, drawn)
+
+
+@pytest.mark.long
+def test_four_causes_are_built_down_to_the_noise_each_by_its_name() -> None:
+    # A wave in time and a passing warmth, which a single curve in time nearly describes.
+    outcome = followed(drawn_axis(8003, with_stranger=False))
+    assert sorted(outcome.built) == sorted(outcome.drawn.causes)
+    assert outcome.left < DOWN_TO_NOISE
 
 
 def test_a_stranger_stands_beside_the_causes() -> None:

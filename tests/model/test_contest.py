@@ -341,3 +341,11 @@ def test_a_curve_of_the_reversal_without_a_name_has_no_lost_motion_in_it() -> No
         # Each has a mean square of one at the readings.
         shared = gap.T @ contest.columns.values(each.columns)
         assert np.abs(shared).max() < 0.01 * len(DESIGN.direction) ** 0.5
+
+
+def test_noise_that_readings_share_is_the_rarer_the_larger_it_is_but_not_that_of_positions() -> None:
+    costs = {part.source: part.costs[: part.noise_levels] for part in CONTEST.parts if part.source}
+    assert set(costs.pop(NoiseSource.POSITION)) == {0.0}
+    assert set(costs) == {NoiseSource.DIRECTION, NoiseSource.RUN, NoiseSource.TIME}
+    for each in costs.values():
+        np.testing.assert_allclose(np.diff(each), 1.0)

@@ -347,7 +347,10 @@ def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
 
 def _name_effects(search: SetSearch, found: EffectSet, before: Iterable[Effect]) -> Iterator[NamedEffect]:
     """Yield the effects of a set that were not there before, the one to add first first."""
-    known, leading = [(each.identifier, each.settings) for each in before], set[str]()
+    before = tuple(before)
+    known = [(each.identifier, each.settings) for each in before]
+    # What others take the place of does not come back in the place of one of them.
+    leading = {each.identifier for each in before}
     for number in _put_in_order(search.contest, found):
         effect = found.members[number].effect
         if (effect.identifier, effect.settings) not in known:

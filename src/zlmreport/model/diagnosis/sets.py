@@ -53,8 +53,8 @@ _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
 #: names may do what one curve without a name does at less cost.
 _SURE, _FEW = 6.0, 2
-#: Names in the place of which one curve is less to believe than they are.
-_SEVERAL = 2
+#: So many names in the place of which one curve would do are not believed.
+_SEVERAL = 3
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
 #: How many levels of each part are thought of, whether forms are, families with their searched parameters,
