@@ -22,8 +22,8 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.blocks import find_root_of
-from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import _WORTHS, Contest
+from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.likelihood import Amplitudes

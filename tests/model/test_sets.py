@@ -7,9 +7,9 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
+from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs

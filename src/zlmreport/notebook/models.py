@@ -22,12 +22,8 @@ from zlmreport.model.diagnosis.asking import AskedLength, list_lengths_asked
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import (
-    Diagnosis as FoundDiagnosis,
-    ErrorNumbers,
-    compute_error_numbers,
-    diagnose,
-)
+from zlmreport.model.diagnosis.diagnosis import Diagnosis as FoundDiagnosis, diagnose
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.report import report, report_error, report_model, write_verdict_statement
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, choose_terms

@@ -10,7 +10,7 @@ import numpy as np
 from plugins.effects.installed import EFFECTS
 from zlmreport.document.figures.model_diagram import ModelDiagram
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.diagnosis.diagnosis import compute_error_numbers
+from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design

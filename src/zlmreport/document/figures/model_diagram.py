@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design, place_at_positions
 from zlmreport.model.effects.effect import Shape

@@ -16,7 +16,7 @@ from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.measurement.units import write_behind
-from zlmreport.model.diagnosis.diagnosis import Candidate
+from zlmreport.model.diagnosis.candidate import Candidate
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.effect import Dimension, find_unit_of
 

@@ -34,7 +34,8 @@ from zlmreport.document.writer import NOTHING
 from zlmreport.language import Language, Words, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
-from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, Verdict
+from zlmreport.model.diagnosis.candidate import Candidate
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import select_serious_candidates, write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure

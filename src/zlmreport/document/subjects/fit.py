@@ -25,7 +25,7 @@ from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import DEGREE, Unit, with_unit
 from zlmreport.model.compensation.basis import find_too_fine, find_waves_of
-from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Wave, list_one_way, list_waves, list_what_moves_with_time
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, find_unit_of

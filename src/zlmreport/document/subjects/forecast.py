@@ -17,7 +17,7 @@ from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
-from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, Verdict, compute_error_numbers
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import fit

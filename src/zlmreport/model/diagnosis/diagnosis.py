@@ -2,40 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import IntArray
-from zlmreport.measurement.units import write_behind
-from zlmreport.model.diagnosis.candidates import NotTestable, list_effects_to_try
+from zlmreport.model.diagnosis.candidate import Candidate, list_candidates
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
+from zlmreport.model.diagnosis.effects_to_try import NotTestable, list_effects_to_try
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_gaps
-from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, StandIn, find, fit_with_member
+from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, find, fit_with_member
 from zlmreport.model.diagnosis.remainder import Remainder, find_irregular_remainder, make_remainder_of_run
 from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
 from zlmreport.model.diagnosis.residuals import Failure, find_residuals_of
 from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.diagnosis.visibility import Visibility
-from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of, is_of_another_axis
-from zlmreport.model.effects.sizes import ask_of, find_usual_range
+from zlmreport.model.effects.effect import Effect, is_of_another_axis
 from zlmreport.model.fitting.blunders import Outliers, find_outliers
 from zlmreport.model.fitting.distributions import f_tail
-from zlmreport.model.fitting.estimate import Estimate
-from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validate, fit
+from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.observations import Observations, thin
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.repeats import estimate_lasting_floor, estimate_noise_floor, find_repeats
+from zlmreport.model.fitting.repeats import estimate_lasting_floor, find_repeats
 
-#: Share of the misfit from which on an effect explains it, and does not only contribute.
-EXPLAINS = 0.75
 #: Readings that are compared at most, and what each takes: 8 s and 0.45 GB at least were measured for 2,100.
 _MOST_READINGS = 20_000
 _MINUTES_EACH, _GIGABYTES_EACH = 8 / 60 / 2100, 0.45 / 2100
@@ -48,16 +42,8 @@ _LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
 
-#: Share by which a value must differ from what the job says to contradict it.
-_CONTRADICTS = 0.01
 
-_EXPLAINS = Words("explains {share} % of what the noise leaves open")
-_CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
 _LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
-_NO_FLOOR = Words("takes the error from {before} to {after}")
-_IN_UNIT = Words("{value}{unit}")
-_JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
-_AND = Words("{first}; {second}")
 
 
 class Verdict(StrEnum):
@@ -71,45 +57,6 @@ class Verdict(StrEnum):
     ADEQUATE = "adequate"
     MISSING = "missing"
     UNEXPLAINED = "unexplained"
-
-
-@dataclass(frozen=True, slots=True)
-class ErrorNumbers:
-    """How far readings and model are apart."""
-
-    rms: float  #: √(RSS/(N − q)), m or rad.
-    noise_rms: float | None  #: The noise floor σ_f, m or rad; None without repeats.
-    chi2_per_dof: float | None  #: RSS/((N − q)·σ_f²); None without a noise floor.
-    cross_validated_rms: float | None  #: Of runs predicted from the others, m or rad; None with a single run.
-
-
-@dataclass(frozen=True, slots=True)
-class Candidate:
-    """An effect that the model may lack."""
-
-    effect: Effect  #: In the form that fits best.
-    p_value: float  #: Chance of so high a likelihood ratio without the effect, its own search allowed for.
-    p_value_is_extrapolated: bool  #: Whether it lies beyond what was simulated.
-    #: That it is there, beside the others of its set and what has no name, and none of its equals instead.
-    probability: float
-    evidence: float  #: 2·ln of the odds for it against nothing in its place.
-    error: ErrorNumbers  #: After adding it alone.
-    estimates: tuple[Estimate, ...]  #: Its own parameters after adding it alone.
-    #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
-    share: float | None
-    explains: Words  #: The same in words.
-    equals: tuple[str, ...]  #: Effects that the readings cannot tell from it.
-    #: The measurement that would tell them; None where there is nothing to tell apart.
-    discriminate_by: Words | None
-    is_plausible: bool = True  #: Whether physics allows it.
-    is_large: bool = False  #: Whether a parameter lies beyond what is usual.
-    #: What is asked of one that does, or is said of one that the job contradicts; None of any other.
-    question: Words | None = None
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name it."""
-        return self.effect.identifier
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,7 +206,7 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
 def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     """Return what a diagnosis says of what was found; faults of the data come first."""
     observed, fitted, finding = asked.observed, held.fit, held.finding
-    complete, candidates = held.complete, tuple(_list_candidates(finding, held.error))
+    complete, candidates = held.complete, tuple(list_candidates(finding, held.error))
     # What the readings do not determine beside the job's model is no candidate.
     known = {each.identifier for each in candidates}
     leading = (each.leading.member.effect for each in finding.named)
@@ -358,135 +305,6 @@ def _choose_next(fitted: Fit, waiting: Iterable[NamedEffect]) -> tuple[NamedEffe
             return each, after
         found = found or (each, after)
     return found
-
-
-def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
-    """Return how far a fitted model is from the readings."""
-    floor = estimate_noise_floor(fitted.design, fitted.deviation)
-    return ErrorNumbers(
-        fitted.rms,
-        floor,
-        (fitted.rms / floor) ** 2 if floor else None,
-        cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
-    )
-
-
-def _list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
-    """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
-    seen: set[str] = set()
-    for each in finding.named:
-        group = (each.leading, *each.equals)
-        for one in group:
-            if one.identifier not in seen:
-                seen.add(one.identifier)
-                rest = [other for other in group if other is not one]
-                yield from _make_candidate(finding.fit, one, rest, before)
-    for each in finding.named:
-        for other in each.behind:
-            if other.identifier not in seen:
-                seen.add(other.identifier)
-                yield from _make_candidate(finding.fit, other, (), before)
-    for other in finding.others:
-        yield from _make_candidate(finding.fit, other, (), before)
-
-
-def _make_candidate(
-    base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
-) -> Iterator[Candidate]:
-    """Yield an effect as a candidate, if the readings determine it beside the job's model."""
-    try:
-        after = fit_with_member(base, rival.member)
-    except ModelError:
-        return
-    share = _share(base, after, before.noise_rms)
-    estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
-    question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
-    contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
-    values = {each.parameter.name: each.value for each in estimates}
-    yield Candidate(
-        effect=rival.member.effect,
-        p_value=rival.p_value.value,
-        p_value_is_extrapolated=rival.p_value.is_extrapolated,
-        probability=rival.probability,
-        evidence=rival.evidence,
-        error=compute_error_numbers(after),
-        estimates=estimates,
-        share=share,
-        explains=_say_explains(base, after, share),
-        equals=tuple(each.identifier for each in equals),
-        discriminate_by=say_what_discriminates(rival.member.effect, [each.member.effect for each in equals]),
-        is_plausible=rival.member.effect.forbids(base.design, values) is None,
-        is_large=question is not None,
-        question=question or contradiction,
-    )
-
-
-def _say_question(estimate: Estimate, design: Design) -> Words | None:
-    """Return what is asked of a parameter that is beyond doubt far from usual; None of any other."""
-    if design.time_is_counted and estimate.parameter.dimension is Dimension.TIME:
-        return None
-    low, high = find_usual_range(estimate.parameter, design.axis.kind)
-    reach = estimate.expanded_uncertainty
-    if estimate.value + reach >= low and estimate.value - reach <= high:
-        return None
-    return ask_of(estimate.parameter, estimate.value, design.axis)
-
-
-def _say_contradiction(estimate: Estimate, design: Design) -> Words | None:
-    """Return that the readings contradict a value that follows from the job; None if they do not."""
-    if estimate.expected is None or estimate.is_given:
-        return None
-    off = abs(estimate.value - estimate.expected)
-    if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
-        return None
-    kind = design.axis.kind
-    unit = find_unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
-    fitted, stated = (
-        _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
-        for value in (estimate.value, estimate.expected)
-    )
-    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=estimate.parameter.description)
-
-
-def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:
-    """Return the measurements that would tell an effect from its equals, as the effects' pages name them."""
-    found: dict[str, Words] = {}
-    for other in equals:
-        words = _say_what_tells_apart(effect, other) or _say_what_tells_apart(other, effect)
-        if words is not None:
-            found.setdefault(other.identifier, words)
-    if not found:
-        return None
-    phrases = list({words.en: words for words in found.values()}.values())
-    together = phrases[0]
-    for words in phrases[1:]:
-        together = _AND.given(first=together, second=words)
-    return together
-
-
-def _say_what_tells_apart(one: Effect, other: Effect) -> Words | None:
-    return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
-
-
-def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
-    """Return the share of the misfit beyond the noise floor that an effect explains."""
-    if floor is None:
-        return None
-    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
-    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
-    return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
-
-
-def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
-    axis = before.design.axis
-    if share is None:
-        return _NO_FLOOR.given(
-            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
-        )
-    percent = number_words(100 * share, 0)
-    if share >= EXPLAINS:
-        return _EXPLAINS.given(share=percent)
-    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
 
 
 def _list_not_excluded(

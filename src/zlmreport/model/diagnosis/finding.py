@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
+from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import (
     LEVEL,

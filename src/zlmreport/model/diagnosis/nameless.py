@@ -3,8 +3,8 @@
 Beside every set of named effects something may act that nobody knows. It is no polynomial that swallows what
 has a name, but a random curve: its many coefficients are not fitted but averaged over, and only its amplitude
 is chosen, with a few correlation lengths (C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for
-Machine Learning, 2006, chapter 2). Small amplitudes of irregular shares are noise, which costs little; what is
-larger has to earn its place like an effect.
+Machine Learning, 2006, chapter 2). Small amplitudes of irregular shares are noise, which costs little; what
+is larger has to earn its place like an effect.
 """
 
 from __future__ import annotations

@@ -13,7 +13,9 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.diagnosis.candidate import Candidate
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import Remainder

@@ -18,7 +18,8 @@ from typing import TypeAlias
 import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
-from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.amplitudes import AmplitudeSearch, move_amplitude
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
@@ -49,7 +50,6 @@ _LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER = 4, 2
 _GAIN, _CLEAR_GAIN = 0.01, 0.5
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
 _MOST_ALONE, _NEAR = 5, 40.0
-_ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
 #: names may do what one curve without a name does at less cost.
 _SURE, _FEW = 6.0, 2
@@ -75,11 +75,10 @@ class SetSearch:
         self._ends: dict[tuple[bool, _State], EffectSet] = {}
         # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
         self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
-        # What was tried already: best amplitudes near others, sets with one effect more, and with one less.
-        self._near: dict[tuple[Amplitudes, Amplitudes, frozenset[bytes]], Amplitudes] = {}
+        # What was tried already: sets with one effect more, and with one less.
         self._more: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
         self._fewer: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
-        self._costs = SetCosts(contest)
+        self._costs, self._amplitudes = SetCosts(contest), AmplitudeSearch(contest)
         self._with_forms = True  # whether forms without a name are thought of
 
     def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
@@ -318,7 +317,11 @@ class SetSearch:
 
     def _with(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         """Return a set with its best amplitudes near others."""
-        return self._scored(members, self._amplitudes([each.columns for each in members], amplitudes))
+        return self._scored(members, self._find_amplitudes(members, amplitudes))
+
+    def _find_amplitudes(self, members: Sequence[SetMember], start: Amplitudes) -> Amplitudes:
+        """Return the best amplitudes beside members near others, of the levels that are thought of."""
+        return self._amplitudes.find_near(start, [each.columns for each in members], self._levels)
 
     def _scored(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         columns = [each.columns for each in members]
@@ -328,58 +331,6 @@ class SetSearch:
         if key not in self._best or score < self._best[key].score:
             self._best[key] = found
         return found
-
-    def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
-        """Return the best amplitudes of all parts near others, one after another."""
-        key = self._levels, start, frozenset(each.tobytes() for each in columns)
-        if key not in self._near:
-            self._near[key] = self._find_amplitudes(columns, start)
-        return self._near[key]
-
-    def _find_amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
-        contest = self.contest
-        now = tuple(min(level, most - 1) for level, most in zip(start, self._levels, strict=True))
-        best = contest.criterion(now, columns)
-        irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
-        smooth = [number for number in range(len(contest.parts)) if number not in irregular]
-        for turn in range(_ROUNDS_OF_AMPLITUDES):
-            before = best
-            silent = [number for number in smooth if not now[number] and self._levels[number] > 1]
-            for numbers in [silent, *self._alike(now, smooth)]:
-                if not numbers:
-                    continue
-                tried = [
-                    each[: self._levels[number]]
-                    for number, each in zip(numbers, contest.by_level(now, columns, numbers), strict=True)
-                ]
-                leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
-                if tried[leading].min() < best - _NOTHING:
-                    best = float(tried[leading].min())
-                    now = _move_amplitude(now, numbers[leading], int(np.argmin(tried[leading])))
-            for number in irregular:
-                level, noise = now[number], contest.parts[number].noise_levels
-                others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
-                for other in sorted(others - {level}):
-                    if 0 <= other < self._levels[number]:
-                        criterion = contest.criterion(_move_amplitude(now, number, other), columns)
-                        if criterion < best - _NOTHING:
-                            best, now = criterion, _move_amplitude(now, number, other)
-            if best > before - _SETTLED:
-                break
-        return now
-
-    def _alike(self, now: Amplitudes, smooth: Sequence[int]) -> Iterator[list[int]]:
-        """Yield the parts that are something by themselves, and together with those of other lengths.
-
-        A curve of one length that is as large as the other would be keeps that one away.
-        """
-        parts = self.contest.parts
-        for number in smooth:
-            if now[number]:
-                alike = [each for each in smooth if parts[each].shape == parts[number].shape]
-                yield [number]
-                if len(alike) > 1:
-                    yield alike
 
     def _climb(self, start: EffectSet, *, is_thorough: bool = True) -> EffectSet:
         """Return the best set that moves lead to, one after another.
@@ -551,7 +502,7 @@ class SetSearch:
             for number, part in enumerate(contest.parts):
                 if amplitudes[number] >= part.noise_levels:
                     tried += [
-                        _move_amplitude(amplitudes, number, level) for level in (0, amplitudes[number] - 1)
+                        move_amplitude(amplitudes, number, level) for level in (0, amplitudes[number] - 1)
                     ]
             for each in tried:
                 criterion = contest.criterion(each, columns)
@@ -568,10 +519,10 @@ class SetSearch:
 
     def _refine_last(self, glanced: EffectSet) -> EffectSet:
         members = list(glanced.members)
-        amplitudes = self._amplitudes(glanced.columns, glanced.amplitudes)
+        amplitudes = self._find_amplitudes(members, glanced.amplitudes)
         members, has_moved = jump_along_grids(self.contest, members, amplitudes)
         if has_moved:
-            amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
+            amplitudes = self._find_amplitudes(members, amplitudes)
         members[-1] = refine_member(self.contest, members, len(members) - 1, amplitudes)
         return self._scored(members, amplitudes)
 
@@ -580,10 +531,6 @@ class SetSearch:
         members, amplitudes = list(now.members), now.amplitudes
         for number in range(len(members)):
             members[number] = refine_member(self.contest, members, number, amplitudes)
-        amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
+        amplitudes = self._find_amplitudes(members, amplitudes)
         members, _ = jump_along_grids(self.contest, members, amplitudes)
         return self._scored(members, amplitudes)
-
-
-def _move_amplitude(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
-    return (*amplitudes[:number], level, *amplitudes[number + 1 :])

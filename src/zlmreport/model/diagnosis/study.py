@@ -24,7 +24,8 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, compute_error_numbers, diagnose
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_effect, choose_terms
 from zlmreport.model.effects.design import transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape

@@ -9,8 +9,8 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.likelihood import Reduced
 from zlmreport.model.diagnosis.null_distribution import NullDistribution, simulate_null

@@ -18,7 +18,7 @@ from zlmreport.language import same
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
 from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape

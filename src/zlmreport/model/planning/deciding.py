@@ -16,8 +16,9 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.candidate import Candidate
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis
+from zlmreport.model.diagnosis.diagnosis import Diagnosis
 from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term

@@ -18,8 +18,8 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.likelihood import Amplitudes

@@ -1,0 +1,180 @@
+"""Effects that a model may lack, each a candidate: what it explains, how sure it is, what is asked of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.language.numbers import number_words, write_significant
+from zlmreport.measurement.units import write_behind
+from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
+from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
+from zlmreport.model.effects.sizes import ask_of, find_usual_range
+from zlmreport.model.fitting.estimate import Estimate
+from zlmreport.model.fitting.fit import Fit
+
+#: Share of the misfit from which on an effect explains it, and does not only contribute.
+EXPLAINS = 0.75
+#: Share by which a value must differ from what the job says to contradict it.
+_CONTRADICTS = 0.01
+
+_EXPLAINS = Words("explains {share} % of what the noise leaves open")
+_CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
+_NO_FLOOR = Words("takes the error from {before} to {after}")
+_IN_UNIT = Words("{value}{unit}")
+_JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
+_AND = Words("{first}; {second}")
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An effect that the model may lack."""
+
+    effect: Effect  #: In the form that fits best.
+    p_value: float  #: Chance of so high a likelihood ratio without the effect, its own search allowed for.
+    p_value_is_extrapolated: bool  #: Whether it lies beyond what was simulated.
+    #: That it is there, beside the others of its set and what has no name, and none of its equals instead.
+    probability: float
+    evidence: float  #: 2·ln of the odds for it against nothing in its place.
+    error: ErrorNumbers  #: After adding it alone.
+    estimates: tuple[Estimate, ...]  #: Its own parameters after adding it alone.
+    #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
+    share: float | None
+    explains: Words  #: The same in words.
+    equals: tuple[str, ...]  #: Effects that the readings cannot tell from it.
+    #: The measurement that would tell them; None where there is nothing to tell apart.
+    discriminate_by: Words | None
+    is_plausible: bool = True  #: Whether physics allows it.
+    is_large: bool = False  #: Whether a parameter lies beyond what is usual.
+    #: What is asked of one that does, or is said of one that the job contradicts; None of any other.
+    question: Words | None = None
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.effect.identifier
+
+
+def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
+    """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
+    seen: set[str] = set()
+    for each in finding.named:
+        group = (each.leading, *each.equals)
+        for one in group:
+            if one.identifier not in seen:
+                seen.add(one.identifier)
+                rest = [other for other in group if other is not one]
+                yield from _make_candidate(finding.fit, one, rest, before)
+    for each in finding.named:
+        for other in each.behind:
+            if other.identifier not in seen:
+                seen.add(other.identifier)
+                yield from _make_candidate(finding.fit, other, (), before)
+    for other in finding.others:
+        yield from _make_candidate(finding.fit, other, (), before)
+
+
+def _make_candidate(
+    base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
+) -> Iterator[Candidate]:
+    """Yield an effect as a candidate, if the readings determine it beside the job's model."""
+    try:
+        after = fit_with_member(base, rival.member)
+    except ModelError:
+        return
+    share = _share(base, after, before.noise_rms)
+    estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
+    question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
+    contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
+    values = {each.parameter.name: each.value for each in estimates}
+    yield Candidate(
+        effect=rival.member.effect,
+        p_value=rival.p_value.value,
+        p_value_is_extrapolated=rival.p_value.is_extrapolated,
+        probability=rival.probability,
+        evidence=rival.evidence,
+        error=compute_error_numbers(after),
+        estimates=estimates,
+        share=share,
+        explains=_say_explains(base, after, share),
+        equals=tuple(each.identifier for each in equals),
+        discriminate_by=say_what_discriminates(rival.member.effect, [each.member.effect for each in equals]),
+        is_plausible=rival.member.effect.forbids(base.design, values) is None,
+        is_large=question is not None,
+        question=question or contradiction,
+    )
+
+
+def _say_question(estimate: Estimate, design: Design) -> Words | None:
+    """Return what is asked of a parameter that is beyond doubt far from usual; None of any other."""
+    if design.time_is_counted and estimate.parameter.dimension is Dimension.TIME:
+        return None
+    low, high = find_usual_range(estimate.parameter, design.axis.kind)
+    reach = estimate.expanded_uncertainty
+    if estimate.value + reach >= low and estimate.value - reach <= high:
+        return None
+    return ask_of(estimate.parameter, estimate.value, design.axis)
+
+
+def _say_contradiction(estimate: Estimate, design: Design) -> Words | None:
+    """Return that the readings contradict a value that follows from the job; None if they do not."""
+    if estimate.expected is None or estimate.is_given:
+        return None
+    off = abs(estimate.value - estimate.expected)
+    if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
+        return None
+    kind = design.axis.kind
+    unit = find_unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
+    fitted, stated = (
+        _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
+        for value in (estimate.value, estimate.expected)
+    )
+    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=estimate.parameter.description)
+
+
+def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:
+    """Return the measurements that would tell an effect from its equals, as the effects' pages name them."""
+    found: dict[str, Words] = {}
+    for other in equals:
+        words = _say_what_tells_apart(effect, other) or _say_what_tells_apart(other, effect)
+        if words is not None:
+            found.setdefault(other.identifier, words)
+    if not found:
+        return None
+    phrases = list({words.en: words for words in found.values()}.values())
+    together = phrases[0]
+    for words in phrases[1:]:
+        together = _AND.given(first=together, second=words)
+    return together
+
+
+def _say_what_tells_apart(one: Effect, other: Effect) -> Words | None:
+    return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
+
+
+def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
+    """Return the share of the misfit beyond the noise floor that an effect explains."""
+    if floor is None:
+        return None
+    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
+    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
+    return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
+
+
+def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
+    axis = before.design.axis
+    if share is None:
+        return _NO_FLOOR.given(
+            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
+        )
+    percent = number_words(100 * share, 0)
+    if share >= EXPLAINS:
+        return _EXPLAINS.given(share=percent)
+    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
