@@ -389,7 +389,12 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
         and (each is rivals[0] or each.identifier not in taken)
     ]
     leading = min(near, key=lambda each: (_count_assumptions(each.member.effect, design), -each.evidence))
-    behind = [each for each in rivals if each is not leading]
+    # What contains it and explains no more is no other cause: its further terms do nothing.
+    behind = [
+        each
+        for each in rivals
+        if each is not leading and leading.identifier not in each.member.effect.contains
+    ]
     is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in behind]
     names = {each.identifier for each in found.members}
     return NamedEffect(
