@@ -40,7 +40,6 @@ def sheet() -> bytes:
     return certificate("pdf-typst", layout="sheet")
 
 
-@pytest.mark.long
 def test_no_file_that_holds_shows_two_readers_two_things(sheet: bytes) -> None:
     drawn = list(attacked(sheet, seed=20261120, inputs=25))
     assert [told for _, _, told in drawn if told] == []

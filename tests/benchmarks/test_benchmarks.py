@@ -73,7 +73,6 @@ def test_documents_of_very_different_length_are_not_compared(monkeypatch: pytest
         alike.pages_of_same_document({}, short, long)
 
 
-@pytest.mark.long
 def test_the_coverage_of_stated_uncertainties_is_counted_for_each_budget() -> None:
     done = run("coverage", "--trials", "2", "--simulated", "50", "nmtba")
     assert done.returncode == 0, done.stderr

@@ -10,7 +10,6 @@ import pytest
 from machines_hidden import Case, run, simulated
 
 
-@pytest.mark.long
 def test_a_hidden_lag_is_named_and_measured_within_its_uncertainty() -> None:
     found = run(Case("both senses", "servo-mismatch", 2.0, seed=0))
     assert (found.outcome, found.named) == ("right", ["servo-mismatch"])
@@ -27,7 +26,6 @@ def test_no_two_cases_share_their_noise() -> None:
     )
 
 
-@pytest.mark.long
 def test_what_one_of_two_could_do_as_well_is_named_by_neither() -> None:
     """In one sense two lateral plays are nearly unequal scales: whichever the readings favour by a hair."""
     found = run(Case("one sense", "scale-mismatch", 1.0, seed=2))
@@ -42,7 +40,6 @@ def test_an_ideal_observer_is_asked_where_nothing_was_named() -> None:
     assert run(Case("both senses", "reversal-spikes", 2.0, 4)).ideal == "truth"
 
 
-@pytest.mark.long
 def test_beside_a_stranger_what_the_model_has_is_estimated_within_its_uncertainty() -> None:
     found = run(Case("beside a stranger", "servo-mismatch", 1.0, 0))
     assert (found.outcome, found.ideal) == ("nameless", None)

@@ -15,7 +15,6 @@ def test_a_fault_of_a_linear_axis_is_seen_in_its_readings(name: str) -> None:
     assert 0.5 < np.std(LINEAR[name](design)) < 500
 
 
-@pytest.mark.long
 def test_a_model_is_built_of_what_is_there() -> None:
     (name,) = (each for each in ROTARY if each.startswith("rotary: gear mesh"))
     told = build_model(ROTARY[name], 1, is_rotary=True)

@@ -38,14 +38,12 @@ def _draw_beside() -> Drawn:
     return drawn_axis(2, with_stranger=True)
 
 
-@pytest.mark.long
 def test_the_same_number_draws_the_same_axis() -> None:
     one, other = (drawn_axis(3, with_stranger=True) for _ in range(2))
     assert one.causes == other.causes
     np.testing.assert_array_equal(one.observed.deviation, other.observed.deviation)
 
 
-@pytest.mark.long
 def test_an_axis_has_two_to_four_causes_of_the_size_that_is_stated() -> None:
     for number in range(6):
         drawn = drawn_axis(number, with_stranger=False)

@@ -60,7 +60,6 @@ def test_what_people_read_is_what_was_approved(shop: Shop, arguments: list[str])
     assert text == approved.read_text(encoding="utf-8")
 
 
-@pytest.mark.long
 def test_the_loop_from_a_model_that_does_not_fit_to_one_that_does(shop: Shop) -> None:
     before = told(shop.run("model", "diagnose", "job.yaml", "--json"))
     assert before["verdict"] == "missing"
@@ -96,7 +95,6 @@ def test_a_diagnosis_has_the_keys_of_its_schema(shop: Shop) -> None:
     }
 
 
-@pytest.mark.long
 def test_a_job_without_a_model_is_diagnosed(shop: Shop) -> None:
     change(shop, (f"model:\n  effects:\n    - offset\n    - scale-error\n{LAST}", ""))
     keep(shop, readings=2 * 21)
@@ -178,7 +176,6 @@ def test_the_main_job_says_that_its_model_lacks_something(shop: Shop) -> None:
     assert "see: zlmreport model diagnose job.yaml\n" in run.output
 
 
-@pytest.mark.long
 def test_the_main_job_shows_the_share_that_is_done(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(type(sys.stderr), "isatty", lambda _: True, raising=False)
     keep(shop, readings=2 * 21)
@@ -188,7 +185,6 @@ def test_the_main_job_shows_the_share_that_is_done(shop: Shop, monkeypatch: pyte
     assert not shop.run("job.yaml", "--format", "json", "--quiet").messages
 
 
-@pytest.mark.long
 def test_a_check_says_that_an_adequate_model_is_one(shop: Shop) -> None:
     change(shop, (LAST, f"{LAST}    - screw-pitch\n"))
     run = shop.run("check", "job.yaml")

@@ -48,7 +48,6 @@ def test_the_job_has_the_effects_then_and_keeps_its_comments(shop: Shop) -> None
     assert sorted(added) == ["- screw-pitch"]
 
 
-@pytest.mark.long
 def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     begin(shop)
     before = (shop.folder / "job.yaml").read_bytes()
@@ -59,7 +58,6 @@ def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     assert (shop.folder / "job.yaml").read_bytes() == before
 
 
-@pytest.mark.long
 def test_a_model_that_lacks_nothing_is_left_as_it_is(shop: Shop) -> None:
     shop.run("model", "add", "job.yaml", "screw-pitch")
     before = (shop.folder / "job.yaml").read_bytes()
@@ -74,7 +72,6 @@ def test_only_a_build_is_made_on_trial(shop: Shop) -> None:
     assert "--dry-run belongs to build, not to fit" in run.messages
 
 
-@pytest.mark.long
 def test_a_notebook_builds_as_the_command_does(shop: Shop) -> None:
     axis = {"name": "X", "kind": "linear", "travel": [0, 600], "screw_pitch": 10}
     model = z.fit(z.read(shop.folder / "x-axis.csv", axis=axis), ["offset", "scale-error", "backlash"])

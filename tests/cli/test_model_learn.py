@@ -92,7 +92,6 @@ def test_a_file_that_says_something_else_is_refused(
     assert message in run.messages
 
 
-@pytest.mark.long
 def test_what_is_no_file_is_named_and_waited_for_by_nobody(shop: Shop) -> None:
     os.mkfifo(shop.folder / "earlier" / "pipe.yaml")
     (shop.folder / "earlier" / "folder.yaml").mkdir()

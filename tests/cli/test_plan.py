@@ -302,7 +302,6 @@ def test_job_without_a_file_of_its_own_cannot_be_planned(folder: Path, capsys: C
     assert "cannot be read" in capsys.readouterr().err
 
 
-@pytest.mark.long
 def test_job_that_decides_is_printed_or_written(folder: Path, capsys: Capture) -> None:
     cool = ("plan: {}", "plan: {temperature_change: 0.01}")
     (folder / "job.yaml").write_text(job_text(cool), encoding="utf-8")

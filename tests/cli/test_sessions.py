@@ -23,7 +23,6 @@ def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     return Shop(tmp_path, capsys)
 
 
-@pytest.mark.long
 def test_what_one_test_leaves_open_a_second_decides_and_the_effect_is_added(shop: Shop) -> None:
     alone = shop.run("model", "diagnose", "cool.yaml", "--json").summary["candidates"][0]
     assert {alone["effect"], *alone["indistinguishable_from"]} == {"scale-error", "scale-expansion"}

@@ -41,7 +41,6 @@ def test_files_go_beside_the_description_unless_told_otherwise(folder: Path) -> 
     assert (folder / "spec.csv").exists()
 
 
-@pytest.mark.long
 @pytest.mark.usefixtures("folder")
 def test_the_job_is_one_that_runs(capsys: pytest.CaptureFixture[str]) -> None:
     main(["simulate", "spec.yaml"])

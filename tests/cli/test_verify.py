@@ -43,7 +43,6 @@ def with_value(pdf: bytes, value: float) -> bytes:
     return with_results(pdf, lambda results: results["evaluations"][0]["parameters"][0].update(value=value))
 
 
-@pytest.mark.long
 def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes, run: Run) -> None:
     code, output, messages = run(report)
     assert (code, messages) == (0, "")
@@ -97,7 +96,6 @@ def test_each_place_that_an_altered_reading_changes_is_told(report: bytes, run: 
     assert "differs  nmtba 200.0 mean_fwd: 3 is stated, and 5.5 recomputed" in output
 
 
-@pytest.mark.long
 def test_machines_read_every_finding(report: bytes, run: Run) -> None:
     code, output, _ = run(with_value(report, 7.25), "--json")
     found = json.loads(output)

@@ -6,8 +6,6 @@ import ast
 import re
 from pathlib import Path
 
-import pytest
-
 from documents.pages import ROOT
 
 #: What reads a clock, as it is called.
@@ -25,7 +23,6 @@ def _reads_a_clock(module: Path) -> bool:
     return False
 
 
-@pytest.mark.long
 def test_who_reads_a_clock_is_listed_and_nobody_else() -> None:
     modules = [*ROOT.glob("src/**/*.py"), *ROOT.glob("plugins/zlmreport_*/**/*.py")]
     reading = {path.relative_to(ROOT).as_posix() for path in modules if _reads_a_clock(path)}

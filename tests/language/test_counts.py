@@ -109,7 +109,6 @@ def test_a_page_has_words_for_a_single_reading() -> None:
     assert GRAPH_TEXTS["chosenOne"].in_language(Language.ENGLISH) == "1 reading chosen"
 
 
-@pytest.mark.long
 def test_every_phrase_that_counts_has_words_for_one() -> None:
     counted = {each.english for each in tool().phrases() if not each.plural and _COUNTED.search(each.english)}
     assert {each for each in counted if not each.startswith(_NEVER_OF_ONE)} == set()

@@ -197,7 +197,6 @@ def test_a_circle_on_another_path_is_refused():
         confirm_circles(machine, tables, [circle(LAG)], [circle(LAG, radius=0.1)], PLACE)
 
 
-@pytest.mark.long
 def test_the_command_confirms_a_circle_and_its_exit_code_says_so(folder, capsys):
     command = [
         "machine", "compensate", folder / "machine.yaml", "--controller", "siemens-840d-cec", "--moves",

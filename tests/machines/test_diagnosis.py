@@ -81,7 +81,6 @@ def test_a_healthy_machine_raises_few_alarms():
     assert alarms <= 2
 
 
-@pytest.mark.long
 def test_two_causes_are_found_beside_each_other():
     both = added(lagging(0.0, 0.4e-3), unequal_scales(20 * MICRO, 0.0))
     found = diagnosed(circle(both, seed=2, repeats=2))
@@ -89,7 +88,6 @@ def test_two_causes_are_found_beside_each_other():
     assert found.remainder is None
 
 
-@pytest.mark.long
 def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     found = diagnosed(circle(out_of_square(20 * MICRO), seed=2, senses=(1,)))
     values = collect_diagnosis(found, (), ())
@@ -111,7 +109,6 @@ def test_what_tied_effects_do_is_no_noise(senses):
     assert values["error"]["noise_rms"] == pytest.approx(values["candidates"][0]["rms_after"], rel=0.35)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 def test_five_lobes_are_nobodys(seed):
     plain = circle(nothing, seed=seed)
@@ -134,7 +131,6 @@ def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name(
     assert found.study is found.complete
 
 
-@pytest.mark.long
 def test_beside_curves_without_a_name_parameters_lie_within_their_uncertainty():
     """The curves are drawn as they are taken to be: of 40 values some 38 lie within."""
     random = np.random.default_rng(5)
@@ -161,7 +157,6 @@ def test_the_correlation_length_of_irregular_geometry_is_found(length):
     assert np.degrees(found.likeliest.length) == pytest.approx(length)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("decay", [11.0, 19.0])
 def test_an_oscillation_between_two_values_of_the_grid_is_named(decay):
     """What is many times the noise shows decay and length to a part of a step of the grid."""
@@ -175,7 +170,6 @@ def test_an_oscillation_between_two_values_of_the_grid_is_named(decay):
         assert abs(values[name].value - true) < 1.5 * values[name].expanded_uncertainty
 
 
-@pytest.mark.long
 def test_the_axes_uncertainty_is_no_missing_effect():
     """Scales known to ± 40 µm/m cannot show that they differ by 15 µm/m."""
     curves = [straight_curve("EXX", 0.5), straight_curve("EYY", 0.5)]
@@ -188,7 +182,6 @@ def test_the_axes_uncertainty_is_no_missing_effect():
     assert diagnosed(seen, machine=bare_machine(unsure)).verdict is Verdict.ADEQUATE
 
 
-@pytest.mark.long
 def test_two_feeds_tell_cross_talk_from_squareness():
     def bending(path):
         acceleration = -(path.du**2 + path.dv**2) * path.u / (path.u**2 + path.v**2)
@@ -200,7 +193,6 @@ def test_two_feeds_tell_cross_talk_from_squareness():
     assert found.found[:1] == ("dynamic-cross-talk",)
 
 
-@pytest.mark.long
 def test_the_steps_of_a_build_fall():
     both = added(lagging(0.0, 0.4e-3), unequal_scales(20 * MICRO, 0.0))
     values = build_values(diagnosed(circle(both, seed=2, repeats=2)))
@@ -240,7 +232,6 @@ def test_lags_that_do_not_close_over_three_planes_are_nobodys():
     assert found.found == ()
 
 
-@pytest.mark.long
 def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
     few = diagnosed(circle(out_of_square(60 * MICRO), seed=3, count=24))
     assert few.found == ("squareness",)
@@ -250,7 +241,6 @@ def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
     assert diagnosed(whole.keep(kept)).found == ("squareness",)
 
 
-@pytest.mark.long
 def test_a_model_without_anything_begins_with_where_the_bar_stands():
     found = diagnosed(circle(lagging(0.0, 0.3e-3), seed=1), effects=())
     assert set(found.found) == {"radius", "centre-offset", "servo-mismatch"}

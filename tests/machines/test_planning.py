@@ -6,7 +6,6 @@ from machines.test_diagnosis import CATALOGUE, diagnosed
 from zlmreport.machines.planning import plan_next_run, plan_values
 
 
-@pytest.mark.long
 def test_the_other_sense_decides_between_squareness_and_servo_mismatch():
     found = plan_values(
         plan_next_run(diagnosed(circle(out_of_square(20 * MICRO), seed=2, senses=(1,))), CATALOGUE)

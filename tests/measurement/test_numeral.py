@@ -77,7 +77,6 @@ def test_every_finite_number_is_read_as_it_was_written(value: float, sign: Decim
     assert parse_number(repr(value).replace(".", sign), sign) == value
 
 
-@pytest.mark.long
 @given(st.text(), st.sampled_from(DecimalSign))
 def test_any_text_is_a_finite_number_or_refused(text: str, sign: DecimalSign) -> None:
     with contextlib.suppress(ValueError):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations, pendulum_test
 from zlmreport.model.diagnosis.diagnosis import diagnose
@@ -66,7 +65,6 @@ def test_first_readings_of_many_blocks_are_evidence() -> None:
     assert not len(find_outliers(PENDULUM, readings).readings)
 
 
-@pytest.mark.long
 def test_what_the_model_explains_is_no_blunder() -> None:
     """The zero jumps within a block: the two readings before it decide when it was."""
     block = np.flatnonzero(PENDULUM.target == 10)

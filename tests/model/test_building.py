@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from model.axis_tests import EFFECTS, model_of
 from model.hidden_effect import example_diagnosis
 from zlmreport.model.diagnosis.building import build, name_steps
@@ -34,7 +32,6 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
     assert name_steps(found.steps) == ("+ scale-kink or backlash", "+ first-run")
 
 
-@pytest.mark.long
 def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None:
     example = example_diagnosis()
     asked: list[tuple[str, ...]] = []

@@ -86,7 +86,6 @@ def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None
     assert effect in {found.candidates[0].identifier, *found.candidates[0].equals}
 
 
-@pytest.mark.long
 def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -> None:
     """What a given value makes of the readings is no part of what the comparison is about."""
     free = _diagnosis(0.0)
@@ -109,7 +108,6 @@ def screw() -> Diagnosis:
     return _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 
 
-@pytest.mark.long
 def test_adding_the_effect_takes_the_error_to_the_noise() -> None:
     first, floor = screw().candidates[0], screw().error.noise_rms
     assert floor is not None
@@ -147,7 +145,6 @@ def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -
     assert quiet.remainder is None
 
 
-@pytest.mark.long
 def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     place = DESIGN.position
     shape = (
@@ -159,7 +156,6 @@ def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     assert found.remainder.rms > 0.5 * SIGMA
 
 
-@pytest.mark.long
 def test_what_is_left_without_a_name_is_described_by_its_shape() -> None:
     smooth = np.exp(-0.5 * ((DESIGN.time / DESIGN.duration - 0.6) / 0.06) ** 2)
     found = _diagnosis(5e-6 * smooth)
@@ -195,7 +191,6 @@ def test_effects_with_the_same_columns_are_named_together_with_what_tells_them_a
     assert "beam" in first.discriminate_by.en
 
 
-@pytest.mark.long
 def test_what_cannot_be_tried_is_said_and_named_where_it_would_look_alike() -> None:
     bare = replace(DESIGN, conditions={})
     found = _diagnosis(hidden(DESIGN, "thermal-growth", [300.0], size=2.0), design=bare)
@@ -205,7 +200,6 @@ def test_what_cannot_be_tried_is_said_and_named_where_it_would_look_alike() -> N
     assert {"scale-expansion", "screw-expansion"} <= set(found.not_excluded)
 
 
-@pytest.mark.long
 def test_effects_of_another_kind_of_axis_are_not_named_as_alike() -> None:
     found = _diagnosis(hidden(DESIGN, "periodic", [0.31], size=2.0))
     assert found.candidates[0].identifier == "periodic"
@@ -226,7 +220,6 @@ def test_of_two_that_explain_as_much_the_one_that_assumes_less_leads() -> None:
     assert first.evidence < second.evidence
 
 
-@pytest.mark.long
 def test_readings_that_stand_off_one_after_another_are_not_set_aside() -> None:
     block = np.zeros(len(DESIGN.position))
     block[60:66] = 9e-6
@@ -242,7 +235,6 @@ def test_drift_that_the_linear_method_hides_in_the_scatter_is_found() -> None:
     assert "lack-of-fit" not in {each.test.value for each in found.failures}
 
 
-@pytest.mark.long
 def test_a_broken_reading_is_set_aside_and_does_not_hide_the_effect() -> None:
     added = hidden(DESIGN, "screw-pitch", [0.01], size=1.5)
     added[[40, 130]] += [25e-6, -25e-6]
@@ -268,7 +260,6 @@ def test_the_unit_of_the_deviations_changes_no_verdict() -> None:
     assert found[1].candidates[0].evidence == pytest.approx(found[0].candidates[0].evidence, rel=1e-6)
 
 
-@pytest.mark.long
 def test_a_pendulum_test_hides_warm_up_and_the_diagnosis_says_so() -> None:
     shares = {}
     for name, design in (("linear", DESIGN), ("pendulum", pendulum_test())):
@@ -375,7 +366,6 @@ def test_what_is_large_leads_and_is_asked_for(
     assert asked in leading.question.in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_a_rising_line_is_no_cosine_error() -> None:
     rising = 20e-6 * DESIGN.position + noise(DESIGN)
     found = diagnose(model_of("offset"), observations(DESIGN, rising), INSTALLED)

@@ -56,7 +56,6 @@ def test_order_of_the_rows_shows_swapped_directions() -> None:
     assert _kinds(_swapped(), _TRUE) == [(FaultKind.SWAPPED_DIRECTION, 3)]
 
 
-@pytest.mark.long
 def test_swapped_directions_are_a_fault_and_no_cause() -> None:
     found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
     assert found.verdict is Verdict.UNEXPLAINED
@@ -142,7 +141,6 @@ def _swapped() -> Design:
     return replace(_DESIGN, direction=np.where(_THIRD, -_DESIGN.direction, _DESIGN.direction))
 
 
-@pytest.mark.long
 def test_effect_of_reversed_shape_is_no_slip_of_a_run() -> None:
     """A slope that follows the air the wrong way round: runs differ, and no turned sign is to blame."""
     design = linear_test(11, 3)
@@ -198,14 +196,12 @@ def test_repeats_that_no_machine_has_are_asked_for_their_unit() -> None:
     assert "millimetres" in fault.statement.in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_a_fault_that_the_rows_show_is_out_of_the_contest() -> None:
     found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
     assert found.faults[0].comes_first
     assert (found.together, found.candidates) == ((), ())
 
 
-@pytest.mark.long
 def test_a_run_that_stands_off_from_all_others_is_no_noise() -> None:
     design = linear_test()
     sigma = 0.7e-6

@@ -82,7 +82,6 @@ def test_two_searched_effects_are_found_together() -> None:
     assert _value(fitted, "time_constant") == pytest.approx(500.0, rel=1e-2)
 
 
-@pytest.mark.long
 def test_standard_uncertainties_of_searched_parameters_are_those_of_repeated_tests() -> None:
     model = USUAL.with_effect(EFFECTS["periodic"])
     truth = known(DESIGN) + hidden(DESIGN, "periodic", [WAVE], size=3.0)
@@ -100,7 +99,6 @@ def test_standard_uncertainties_of_searched_parameters_are_those_of_repeated_tes
     assert stated == pytest.approx(spread, rel=0.35)
 
 
-@pytest.mark.long
 def test_expanded_uncertainty_of_the_deviation_holds_where_nobody_measured() -> None:
     between = replace(
         DESIGN,

@@ -27,7 +27,6 @@ def belt() -> Diagnosis:
     return _diagnosed(-600e-6 * _DESIGN.direction)
 
 
-@pytest.mark.long
 def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
     assert belt.verdict is Verdict.MISSING
     assert [each.identifier for each in belt.together] == ["backlash"]
@@ -37,7 +36,6 @@ def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
     assert belt.leaves_noise
 
 
-@pytest.mark.long
 def test_what_is_large_is_asked_for(belt: Diagnosis) -> None:
     first = belt.candidates[0]
     assert first.is_large
@@ -63,7 +61,6 @@ def test_of_two_with_the_same_column_the_one_leads_whose_sign_is_possible() -> N
     assert found.candidates[0].equals == ()
 
 
-@pytest.mark.long
 def test_an_air_that_was_corrected_twice_is_named() -> None:
     lively = 293.15 + 6.0 * np.sin(_DESIGN.time / 250.0)
     design = replace(_DESIGN, conditions={**_DESIGN.conditions, "air_temperature": lively})

@@ -47,7 +47,6 @@ def test_pitch_error_is_named_however_little_the_readings_scatter(design: Design
     assert _named(found) == (Verdict.MISSING, "screw-pitch")
 
 
-@pytest.mark.long
 def test_expansion_of_the_scale_keeps_its_name_on_a_quiet_machine() -> None:
     found = _diagnosed(_LINEAR, hidden(_LINEAR, "scale-expansion") + noise(_LINEAR, sigma=1e-9))
     assert _named(found) == (Verdict.MISSING, "scale-expansion")

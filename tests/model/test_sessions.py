@@ -53,7 +53,6 @@ def test_two_temperatures_decide_what_one_leaves_open(hidden: str) -> None:
     assert together.probability > 0.95  # odds of 20 to 1
 
 
-@pytest.mark.long
 def test_two_tests_at_one_temperature_decide_nothing() -> None:
     cool, again = (_session(2.0, seed, "scale-expansion") for seed in (1, 2))
     leading = _diagnosed(hold_together(cool, [("again.yaml", again)])).candidates[0]

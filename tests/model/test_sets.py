@@ -42,14 +42,12 @@ def _hiding(*effects: tuple[str, list[float]], design: Design = DESIGN, size: fl
     return np.asarray(np.sum(parts, axis=0) + 4e-6 + noise(design))
 
 
-@pytest.mark.long
 def test_three_causes_are_found_from_an_empty_model() -> None:
     found = _found(_hiding(("backlash", []), ("screw-pitch", [0.01]), ("thermal-drift", [300.0])))
     assert _names(found) == {"backlash", "screw-pitch", "thermal-drift"}
     assert found.unnamed == ()
 
 
-@pytest.mark.long
 def test_causes_are_found_beside_a_bump_that_nobody_knows() -> None:
     bump = 6 * SIGMA * np.exp(-4 * np.log(2) * ((DESIGN.position - 0.42) / 0.12) ** 2)
     found = _found(_hiding(("backlash", []), ("thermal-drift", [300.0])) + bump)
@@ -76,7 +74,6 @@ def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
     assert _names(found) == {"backlash-bow", "time-periodic"}
 
 
-@pytest.mark.long
 def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
     stretch = 4 * SIGMA * ((DESIGN.position > 0.32) & (DESIGN.position < 0.58))
     found = _found(_hiding(("backlash", [])) + stretch)
@@ -158,7 +155,6 @@ def test_of_the_forms_of_an_effect_one_is_chosen() -> None:
     assert member.effect.settings.model_dump()["harmonics"] in {(1,), (1, 2)}
 
 
-@pytest.mark.long
 def test_a_search_gives_the_same_set_whatever_the_unit() -> None:
     deviation = _hiding(("backlash", []), ("thermal-drift", [300.0]))
     one, other = (_found(each) for each in (deviation, deviation / 7))  # smaller is as usual
@@ -221,7 +217,6 @@ def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
     assert search.rivals(found, search.without(found, 0), 40.0) == []
 
 
-@pytest.mark.long
 def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
     names = ("worn-zone", "backlash", "backlash-bow", "backlash-gradient", "one-way-step")
     step, wave = EFFECTS["lost-motion-step"], EFFECTS["lost-motion-wave"]

@@ -34,7 +34,6 @@ def said(**changes: object) -> str:
     return write_verdict_statement(replace(example_diagnosis(), **changes)).in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_the_missing_effect_is_named() -> None:
     assert said() == "Missing effect: screw-pitch, which explains the rest."
 

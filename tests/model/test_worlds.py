@@ -29,7 +29,6 @@ def _said(diagnosis: Diagnosis) -> str:
     return write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:
     found = diagnosed(model_of("offset"), _DESIGN, known(_DESIGN) + noise(_DESIGN))
     assert {each.identifier for each in found.together} == {"polynomial", "backlash"}
@@ -53,7 +52,6 @@ def test_slope_is_seen_beside_lost_motion_that_is_a_hundred_times_as_large() -> 
     assert found.leaves_noise
 
 
-@pytest.mark.long
 def test_screw_worn_on_one_flank_is_told_with_its_lost_motion_and_its_slope() -> None:
     design = replace(linear_test(21, 3), conditions={})
     first, last = design.span
@@ -74,7 +72,6 @@ def test_lost_motion_is_told_beside_a_kink_in_one_direction() -> None:
     assert {each.identifier for each in found.steps} == {"one-way-kink", "backlash", "scale-error"}
 
 
-@pytest.mark.long
 def test_noise_that_lasts_over_a_few_readings_is_noise() -> None:
     readings = known(_DESIGN) + lasting_noise(_DESIGN, 0.6)
     assert diagnosed(USUAL, _DESIGN, readings).verdict is Verdict.ADEQUATE
@@ -98,7 +95,6 @@ def test_air_that_was_corrected_twice_is_named_and_asked_for() -> None:
     assert "corrected twice" in leading.question.in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_zero_that_moved_in_a_night_is_a_step_of_the_zero() -> None:
     design = with_night(_DESIGN, run=2)
     found = diagnosed(USUAL, design, known(design) + noise(design) + 3e-6 * (design.run > 2))
@@ -106,7 +102,6 @@ def test_zero_that_moved_in_a_night_is_a_step_of_the_zero() -> None:
     assert any("22 h" in each.in_language(Language.ENGLISH) for each in found.remarks)
 
 
-@pytest.mark.long
 def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> None:
     wave = 3e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.012)
     said = _said(diagnosed(USUAL, _DESIGN, known(_DESIGN) + wave + noise(_DESIGN)))
@@ -114,7 +109,6 @@ def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> 
     assert "12.0 mm fits, the job says 10.0 mm" in said
 
 
-@pytest.mark.long
 def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:
     readings = 1e-3 * (straight(_DESIGN) + noise(_DESIGN))
     said = _said(diagnosed(model_of("offset"), _DESIGN, readings))

@@ -260,7 +260,6 @@ def test_a_single_run_one_way_is_compensated(side: list[list[float]]) -> None:
     assert "<table" in made._repr_html_()
 
 
-@pytest.mark.long
 def test_results_models_and_compensations_can_be_pickled(tmp_path: Path) -> None:
     found = data()
     stated = z.certificate(small_job(tmp_path)).results[0]
@@ -300,7 +299,6 @@ def test_a_plan_that_makes_no_sense_is_refused() -> None:
         z.plan(axis={"name": "X", "travel": [0, "far"]})
 
 
-@pytest.mark.long
 def test_a_diagnosis_says_what_a_pitch_that_nobody_stated_would_decide() -> None:
     asks = z.fit(simulated(), ["offset"]).diagnose().asks
     assert any(each.startswith("Screw pitch (mm)") and "screw-pitch" in each for each in asks)
@@ -357,7 +355,6 @@ def test_residuals_are_readings_less_model() -> None:
     assert np.sort(together).tolist() == pytest.approx(np.sort(found.to_frame()["deviation"]).tolist())
 
 
-@pytest.mark.long
 def test_what_is_missing_is_found_and_added() -> None:
     model = z.fit(simulated(seed=2), ["offset"])
     diagnosis = model.diagnose()
@@ -410,7 +407,6 @@ def test_a_graph_that_there_is_not_is_answered_with_those_there_are() -> None:
         z.evaluate(data(), "iso230-2:2014").plot(graph="x")
 
 
-@pytest.mark.long
 def test_each_result_shows_itself_in_a_notebook() -> None:
     model = z.fit(simulated(), ["offset"])
     result = z.evaluate(data(), "nmtba", tolerances={"P": 9})
@@ -420,7 +416,6 @@ def test_each_result_shows_itself_in_a_notebook() -> None:
         assert "nan" not in page
 
 
-@pytest.mark.long
 def test_a_diagnosis_says_in_a_notebook_what_it_says_elsewhere() -> None:
     diagnosis = z.fit(simulated(), ["offset"]).diagnose()
     page = diagnosis._repr_html_()

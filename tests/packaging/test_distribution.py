@@ -166,7 +166,6 @@ def test_every_library_that_is_imported_comes_with_the_dependencies(project: Pat
     assert not lacking, f"imported, but no dependency in {project.name}'s pyproject.toml: {lacking}"
 
 
-@pytest.mark.long
 def test_every_library_that_development_imports_comes_with_the_group_test() -> None:
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     available = declared["project"]["dependencies"] + declared["dependency-groups"]["test"]

@@ -45,7 +45,6 @@ def test_a_job_that_is_named_from_its_own_folder(
     assert holds(verified, Path("job.yaml"))
 
 
-@pytest.mark.long
 def test_files_of_one_name_in_several_folders(tmp_path: Path, verified: Verify) -> None:
     job = lay_out(tmp_path)
     (tmp_path / "jobs/shared").mkdir()

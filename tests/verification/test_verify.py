@@ -286,7 +286,6 @@ def test_an_attachment_that_is_taken_out_is_found(issued: bytes, verified: Verif
     assert "is not attached" in finding(found, subject).detail
 
 
-@pytest.mark.long
 def test_an_attachment_that_is_added_is_found(issued: bytes, verified: Verify) -> None:
     found = verified(altered(issued, lambda writer: writer.add_attachment("more.txt", b"more")))
     assert finding(found, "more.txt").detail == "is no file of this certificate"

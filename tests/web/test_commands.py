@@ -81,7 +81,6 @@ def test_a_sheet_that_is_looked_at_lies_in_a_folder_of_its_own_until_the_workben
     assert not list(temporary.iterdir())
 
 
-@pytest.mark.long
 def test_a_table_is_refused_in_the_words_of_the_command_until_the_job_says_what_was_active(
     browser: TestClient,
 ) -> None:

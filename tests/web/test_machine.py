@@ -125,7 +125,6 @@ def test_the_diagnosis_says_first_what_to_do_next() -> None:
     assert german["candidates"][0]["name"] == "Unterschied der Schleppabstände"
 
 
-@pytest.mark.long
 def test_with_one_sense_nothing_is_named_and_the_next_run_comes_first(machine: Path) -> None:
     readings = machine.with_name("circle-xy.csv")
     lines = readings.read_text("utf-8").splitlines(keepends=True)

@@ -273,7 +273,6 @@ def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job
     assert 'lang="en"' in browser.get("/", headers={"Accept-Language": "pl"}).text
 
 
-@pytest.mark.long
 def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
     """The name is that of pages, the axis that of the logged column."""
     diagnosis = study.diagnosis(registry().effects)
@@ -288,7 +287,6 @@ def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study:
     assert failure["readings"] == []
 
 
-@pytest.mark.long
 def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Study) -> None:
     diagnosis = study.diagnosis(registry().effects)
     off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
@@ -297,7 +295,6 @@ def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Stu
     assert found["failures"][0]["readings"] == [7, 9]
 
 
-@pytest.mark.long
 def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None:
     fault = DataFault(
         FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")

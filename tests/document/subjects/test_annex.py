@@ -96,7 +96,6 @@ def test_a_job_without_a_model_has_no_annex(tmp_path: Path) -> None:
     assert document.diagnosis is None
 
 
-@pytest.mark.long
 def test_the_plugins_of_the_effects_are_named(tmp_path: Path) -> None:
     assert "backlash" in composed(job(written(tmp_path))).plugins
 

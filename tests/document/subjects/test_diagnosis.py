@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
 from model.hidden_effect import example_diagnosis, example_history
 from zlmreport.document.subjects.diagnosis import DiagnosisRows, make_failure_row
 from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
@@ -16,7 +14,6 @@ from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 
 
-@pytest.mark.long
 def test_rows_say_the_verdict_and_name_the_candidates_best_first() -> None:
     diagnosis = example_diagnosis()
     rows = DiagnosisRows.of(diagnosis, ENGLISH, {"screw-pitch": Words(en="Pitch", de="Steigung")})

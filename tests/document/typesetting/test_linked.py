@@ -49,7 +49,6 @@ def test_the_policy_names_the_only_script() -> None:
     assert f"script-src 'sha256-{digest}'" in policy.replace("&#39;", "'").replace("&#43;", "+")
 
 
-@pytest.mark.long
 def test_the_page_is_xml_as_well_and_its_values_are_there() -> None:
     tree = ET.fromstring(page())
     (values,) = [each for each in tree.iter("script") if each.get("type") == "application/json"]

@@ -72,7 +72,6 @@ def test_coefficients_and_covariance_give_the_deviation_anywhere() -> None:
     assert u == pytest.approx(predicted.standard_uncertainty, rel=1e-6)
 
 
-@pytest.mark.long
 def test_expanded_uncertainty_holds_where_nobody_measured() -> None:
     holds = []
     for seed in range(40):
@@ -83,7 +82,6 @@ def test_expanded_uncertainty_holds_where_nobody_measured() -> None:
     assert 0.87 <= np.mean(holds) <= 1.0
 
 
-@pytest.mark.long
 def test_expanded_uncertainty_holds_where_every_run_is_displaced() -> None:
     holds = []
     for seed in range(40):

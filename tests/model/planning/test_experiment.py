@@ -46,7 +46,6 @@ def _said(experiment: Experiment) -> str:
     return experiment.statement.in_language(Language.ENGLISH)
 
 
-@pytest.mark.long
 def test_targets_on_whole_pitches_are_changed_to_tell_a_wave_of_the_pitch() -> None:
     found = _experiment("screw-pitch,scale-kink", ON_WHOLE_PITCHES, ROOM_AT_THE_ENDS)
     assert found.plan is not None
@@ -66,7 +65,6 @@ def test_constant_temperature_is_changed_to_tell_expansion_from_a_wrong_scale() 
     assert found.minutes == pytest.approx(found.plan.duration / 60)
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("truth", ["scale-error", "scale-expansion"])
 def test_who_follows_the_advice_learns_the_truth(truth: str) -> None:
     found = _experiment("scale-error,scale-expansion", COOL)
@@ -120,7 +118,6 @@ def test_an_effect_that_the_job_leaves_untestable_is_said_with_what_is_missing()
     assert "encoder-interpolation: the job does not state axis.signal_period." in _said(found)
 
 
-@pytest.mark.long
 def test_experiment_stays_within_the_travel() -> None:
     for names in ("scale-error,scale-expansion", "backlash,reversal-relaxation"):
         plan = _experiment(names, COOL).plan

@@ -115,7 +115,6 @@ def _experiment() -> Experiment:
     return plan_next_experiment(_question(), PLAN, EXPECTED, INSTALLED, 1)
 
 
-@pytest.mark.long
 def test_a_method_that_knows_no_pause_is_followed_by_a_warmer_session() -> None:
     found = _experiment()
     assert found.plan is not None

@@ -103,7 +103,6 @@ def test_smallest_coefficient_falls_as_temperatures_change_more() -> None:
     assert other[1] == pytest.approx(one[1] / 4, rel=1e-3)
 
 
-@pytest.mark.long
 def test_more_runs_find_smaller_effects() -> None:
     few = sight_of(plan_of_test(("plan: {}", "plan: {runs: 3}")), "backlash-bow").visibility
     many = sight_of(plan_of_test(("plan: {}", "plan: {runs: 12}")), "backlash-bow").visibility

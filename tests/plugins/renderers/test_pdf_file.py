@@ -136,7 +136,6 @@ print([entry for entry in opened if not entry[1].startswith((sys.base_prefix, sy
 """
 
 
-@pytest.mark.long
 def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_out(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
