@@ -20,3 +20,22 @@ def test_a_model_is_built_of_what_is_there() -> None:
     told = build_model(ROTARY[name], 1, is_rotary=True)
     assert set(told.built.model.identifiers) == {"offset", "gear-mesh", "backlash"}
     assert told.built.last.error.rms < 1.15 * told.sigma
+
+
+@pytest.mark.parametrize(
+    ("fault", "causes"),
+    [
+        ("belt", {"backlash", "scale-error"}),
+        ("screw worn over half its length", {"lost-motion-step", "scale-error", "backlash"}),
+        ("axis that warms up", {"scale-error", "backlash", "thermal-drift"}),
+        # The second joint is found where the first stands, which moves; the slope is no cosine error.
+        ("two joints", {"scale-joint", "scale-joint-2", "scale-error", "backlash"}),
+        ("pitch of 3", {"screw-pitch", "worn-zone", "backlash"}),
+    ],
+)
+def test_a_fault_of_an_axis_is_built_by_its_names_down_to_the_noise(fault: str, causes: set[str]) -> None:
+    (name,) = (each for each in LINEAR if each.startswith(fault))
+    told = build_model(LINEAR[name], 1, is_rotary=False)
+    assert set(told.built.model.identifiers) == {"offset", *causes}
+    assert told.built.last.error.rms < 1.15 * told.sigma
+    assert told.built.last.remainder is None

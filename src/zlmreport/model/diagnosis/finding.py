@@ -28,7 +28,7 @@ from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
-from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit, fit
@@ -388,7 +388,14 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
         and others < list_names(whole.named)
         and (each is rivals[0] or each.identifier not in taken)
     ]
-    leading = min(near, key=lambda each: (_count_assumptions(each.member.effect, design), -each.evidence))
+    leading = min(
+        near,
+        key=lambda each: (
+            _count_assumptions(each.member.effect, design),
+            each is not rivals[0],
+            -each.evidence,
+        ),
+    )
     # What contains it and explains no more is no other cause: its further terms do nothing.
     behind = [
         each
@@ -454,4 +461,8 @@ def fit_with_member(fitted: Fit, member: SetMember) -> Fit:
         for term in model.terms
     )
     assumptions = replace(fitted.assumptions, weights=fitted.noise.weights)
-    return fit(model, fitted.design, fitted.deviation, assumptions, start)
+    try:
+        return fit(model, fitted.design, fitted.deviation, assumptions, start)
+    except ModelError:
+        # The first of two joints may stand where the second belongs; both are searched then.
+        return fit(model, fitted.design, fitted.deviation, assumptions)
