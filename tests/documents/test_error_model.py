@@ -7,7 +7,15 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.model.diagnosis import diagnosis, families, finding, nameless, null_distribution, set_costs
+from zlmreport.model.diagnosis import (
+    candidate,
+    diagnosis,
+    families,
+    finding,
+    nameless,
+    null_distribution,
+    set_costs,
+)
 from zlmreport.model.fitting import blunders, noise, repeats
 
 _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
@@ -23,13 +31,14 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
         (r"Each effect pays (\d+) units of 2·ln for being one of some thirty", families.PRICE),
         (r"for being one of some thirty, each form and each curve (\d+)", nameless.PRICE),
         (r"in one place within odds of 20 to 1 \((\d+) units\)", finding.TOLD_APART),
+        (r"something without a name instead, and lacks less than (\d+) units", finding.TOLD_APART),
         (r"Of those within (\d+) units the one stands first", finding.MENTION),
         (r"A value beyond what is usual costs (\d+) units", set_costs.UNUSUAL),
         (
             r"a hundredth of the misfit, and ([\d.]+) % of what the model explains",
             100 * finding._INEXACT_MODEL,
         ),
-        (r"beyond the noise floor by at least (\d+) %", 100 * diagnosis.EXPLAINS),
+        (r"beyond the noise floor by at least (\d+) %", 100 * candidate.EXPLAINS),
     ],
 )
 def test_a_number_on_the_page_is_that_of_the_code(sentence: str, value: float) -> None:
