@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,8 @@ from zlmreport.model.effects.effect import Effect, Parameter
 
 #: A deviation of which a smaller share is left is imitated entirely.
 _INVISIBLE = 1e-6
+#: Steps of a search between the values of a grid.
+_ROUNDS = 30
 
 
 def drawn_effect(
@@ -83,11 +85,14 @@ class Imitation:
         R², for the best of the values of its searched parameters from which a search begins.
     parameters
         How many it takes: visible columns, and searched parameters.
+    theta : (s,) array
+        These values.
     """
 
     effect: Effect
     share: float
     parameters: int
+    theta: FloatArray
 
 
 def imitations(
@@ -98,23 +103,57 @@ def imitations(
     An effect that would need a parameter of the wrong sign describes nothing.
     """
     visible = beyond(base, deviation[:, np.newaxis])[:, 0]
-    squares = float(visible @ visible)
     found = []
     for form in (form for effect in effects for form in effect.forms()):
         if form.untestable(design) is not None:
             continue
         grid = form.grid(design)
-        share, parameters = 0.0, 0
+        share, best, parameters = 0.0, grid[0], 0
         for theta in grid:
-            columns = beyond(base, form.columns(design, theta))
-            gamma, _, rank, _ = np.linalg.lstsq(columns, visible, rcond=_INVISIBLE)
-            left = visible - columns @ gamma
-            if _has_possible_signs(form, gamma):
-                share = max(share, 1.0 - float(left @ left) / squares)
-            parameters = max(parameters, int(rank))
+            own, rank = _share_of(visible, form, beyond(base, form.columns(design, theta)))
+            if own > share:
+                share, best = own, theta
+            parameters = max(parameters, rank)
         searched = len(form.searched) if len(grid) > 1 else 0
-        found.append(Imitation(form, share, parameters + searched))
+        found.append(Imitation(form, share, parameters + searched, best))
     return tuple(found)
+
+
+def _share_of(visible: FloatArray, form: Effect, columns: FloatArray) -> tuple[float, int]:
+    """Return which share of the squares of a deviation columns describe, and how many of them are seen."""
+    gamma, _, rank, _ = np.linalg.lstsq(columns, visible, rcond=_INVISIBLE)
+    left = visible - columns @ gamma
+    is_possible = _has_possible_signs(form, gamma)
+    return (1.0 - float(left @ left) / float(visible @ visible) if is_possible else 0.0), int(rank)
+
+
+def _find_gap_at(value: float, values: FloatArray) -> float:
+    """Return the distance of a value of a grid from the next."""
+    place = int(np.clip(np.searchsorted(values, value), 1, len(values) - 1))
+    return float(values[place] - values[place - 1])
+
+
+def refined(imitation: Imitation, deviation: FloatArray, design: Design, base: FloatArray) -> Imitation:
+    """Return an imitation with its searched parameters between the values from which a search begins."""
+    form, grid = imitation.effect, imitation.effect.grid(design)
+    visible = beyond(base, deviation[:, np.newaxis])[:, 0]
+    share, theta = imitation.share, imitation.theta
+    columns = [
+        place for place, each in enumerate(form.searched) if each.is_refined and np.ptp(grid[:, place])
+    ]
+    steps = {place: _find_gap_at(theta[place], np.unique(grid[:, place])) / 2 for place in columns}
+    for _ in range(_ROUNDS if columns else 0):
+        near = [
+            theta + sign * step * (np.arange(len(theta)) == place)
+            for place, step in steps.items()
+            for sign in (-1, 1)
+        ]
+        shares = [_share_of(visible, form, beyond(base, form.columns(design, each)))[0] for each in near]
+        if max(shares) > share:
+            share, theta = max(shares), near[int(np.argmax(shares))]
+        else:
+            steps = {place: step / 2 for place, step in steps.items()}
+    return replace(imitation, share=share, theta=theta)
 
 
 def _has_possible_signs(effect: Effect, gamma: FloatArray) -> bool:

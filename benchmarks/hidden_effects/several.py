@@ -5,7 +5,8 @@ stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 t
 axis by axis: a cause counts as found if it stands in the model at the end. What is said is wrong where
 neither a name nor one of those that are named as its equals has a cause of its own; where a stranger changes
 the gap between the directions, lost motion is the mean of that gap. A stranger counts as placed if it is
-larger where what is left without a name is told to lie than elsewhere.
+larger where what is left without a name is told to lie than elsewhere. Strangers that one or two installed
+effects describe as well are no strangers to an observer who knows all of these: they stand in brackets.
 """
 
 from __future__ import annotations
@@ -19,10 +20,10 @@ import numpy as np
 
 from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.hidden import drawn_effect
-from hidden_effects.ideal import kind_of, told_apart
+from hidden_effects.ideal import kind_of, tells_stranger, told_apart
 from hidden_effects.judge import INSTALLED
 from hidden_effects.sizes import base_columns
-from hidden_effects.strangers import STRANGERS
+from hidden_effects.strangers import NUMBERS_OF, STRANGERS
 from hidden_effects.trial import EFFECTS, OF_A_GAUGE, drawn_stranger, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
@@ -63,6 +64,7 @@ class Drawn:
     beside: FloatArray | None = (
         None  #: (N,): What the stranger adds to each reading, less its mean, m or rad.
     )
+    is_stranger_told: bool = False  #: Whether an ideal observer tells it from each one or two effects.
 
     @property
     def in_stranger(self) -> tuple[str, ...]:
@@ -165,6 +167,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
         observed,
         sigma,
         beside,
+        beside is not None and _tells_stranger(stranger, beside, causes, design, sigma),
     )
 
 
@@ -176,6 +179,17 @@ def _told_apart(
         kind = kind_of(STRANGERS[stranger], design, np.random.default_rng(_SEED))
         beside = np.column_stack([beside, kind])
     return told_apart(causes, design, sigma, INSTALLED, beside)
+
+
+def _tells_stranger(
+    name: str, beside: FloatArray, causes: Sequence[Term], design: Design, sigma: float
+) -> bool:
+    kind = kind_of(STRANGERS[name], design, np.random.default_rng(_SEED))
+    parameters = NUMBERS_OF.get(name, kind.shape[1])
+    base = base_columns([EFFECTS["offset"]], design)
+    return tells_stranger(
+        beside, parameters, causes=causes, design=design, sigma=sigma, effects=INSTALLED, base=base
+    )
 
 
 def followed(drawn: Drawn) -> Outcome:
@@ -218,8 +232,11 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
     for each in outcomes:
         of = each.drawn
         place = "–" if of.stranger is None else "yes" if each.is_placed else "no"
+        stranger = of.stranger or "–"
+        if of.stranger and not of.is_stranger_told:
+            stranger = f"({stranger})"
         yield (
-            f"| {MICROMETRE.from_si(of.sigma):.2g} | {_marked(of)} | {of.stranger or '–'} | "
+            f"| {MICROMETRE.from_si(of.sigma):.2g} | {_marked(of)} | {stranger} | "
             f"{len(each.found)} of {len(of.causes)} | {_list_others(each)} | {each.left:.2f} | "
             f"{'yes' if each.remainder else 'no'} | {place} |"
         )
@@ -256,6 +273,19 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
         f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
         f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} of "
         f"all stand in the model or are named as equals of what stands there."
+        f"{_sum_up_strangers([each for each in outcomes if each.drawn.is_stranger_told])}"
+    )
+
+
+def _sum_up_strangers(outcomes: Sequence[Outcome]) -> str:
+    """Return what is said of strangers that an ideal observer tells from one or two installed effects."""
+    if not outcomes:
+        return ""
+    return (
+        f"\n{len(outcomes)} strangers are told by that observer from each one or two installed effects: "
+        f"beside these {sum(len(each.wrong) for each in outcomes)} names are wrong, something is left "
+        f"without a name in {sum(each.remainder for each in outcomes)}, where the stranger is in "
+        f"{sum(each.is_placed for each in outcomes)}."
     )
 
 

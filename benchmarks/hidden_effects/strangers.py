@@ -135,3 +135,17 @@ STRANGERS: Mapping[str, Stranger] = {
     "runs apart": _runs_apart,
     "slopes of runs apart": _slopes_of_runs,
 }
+#: How many numbers decide a shape, its size among them; the other kinds are random curves or numbers.
+NUMBERS_OF: Mapping[str, int] = {
+    "bump in position": 3,
+    "plateau in position": 3,
+    "saw teeth in position": 3,
+    "chirp in position": 4,
+    "wave that grows": 3,
+    "reversal with a kink": 2,
+    "stretch in one direction only": 3,
+    "passing disturbance": 3,
+    "drift that begins late": 3,
+    "slope that jumps": 2,
+    "bow with warmth": 2,
+}
