@@ -86,7 +86,7 @@ def test_a_part_of_the_model_is_drawn_as_finely_as_the_whole(browser: TestClient
         assert (x[0], x[-1]) == (200, 201.5)
         assert len(x) >= 480
         at = place_at_positions(fitted.design, 1e-3 * x, Approach(curve["direction"]))
-        assert curve["y"] == pytest.approx(1e6 * fitted.value_at(at), abs=2e-6)
+        assert curve["y"] == pytest.approx(1e6 * fitted.compute_value_at(at), abs=2e-6)
 
 
 @pytest.mark.parametrize(

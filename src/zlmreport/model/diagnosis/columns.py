@@ -193,7 +193,7 @@ class Columns:
     def _sum(self, contrasts: FloatArray) -> FloatArray:
         """Return products of contrasts, (N, k), with the irregular factors, shape (k, r)."""
         # Contrasts are at right angles to the model: the factors themselves do for their contrasts.
-        sums = self._factors.sums(self.space.single.transposed(contrasts))
+        sums = self._factors.sum_by_target(self.space.single.apply_transposed(contrasts))
         return sums.transpose(2, 1, 0).reshape(contrasts.shape[1], len(self._gram))
 
     def _within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:

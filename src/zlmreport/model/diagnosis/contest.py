@@ -173,7 +173,7 @@ class Contest(Likelihood):
         """Return families of one width, their blocks below one another."""
         own = [self.families[each] for each in members]
         sizes = np.array([len(each.blocks) for each in own])
-        squares = [self.expected.square(each.identifier) for each in own]
+        squares = [self.expected.find_square(each.identifier) for each in own]
         return Group(
             np.array(members),
             np.concatenate([each.blocks for each in own]),

@@ -165,7 +165,7 @@ class _Held:
     def judged(self) -> Outliers:
         """Return the readings that stand off from what the complete model says of all of them."""
         design = self.observed.design
-        return find_outliers(design, self.observed.deviation - self.complete.value_at(design))
+        return find_outliers(design, self.observed.deviation - self.complete.compute_value_at(design))
 
 
 def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:

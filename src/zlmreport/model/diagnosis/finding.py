@@ -180,7 +180,7 @@ class _Stated:
 
     @property
     def base(self) -> FloatArray:
-        return self.fitted.base(without=self.may_go)
+        return self.fitted.compute_base(without=self.may_go)
 
     def contest(self, memory: float) -> Contest:
         """Return the contest of all, if readings are forgotten after a time."""

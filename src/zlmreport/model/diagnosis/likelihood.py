@@ -114,7 +114,7 @@ class Likelihood:
         for part, level in zip(self.parts, amplitudes, strict=True):
             if level:
                 own = noise.get(part.source) if part.source else None
-                contrasts = self.space.single.coloured(self.columns.values(part.columns))
+                contrasts = self.space.single.undo_whitening(self.columns.values(part.columns))
                 yield np.sqrt(part.levels[level]) * (contrasts if own is None else own)
 
     def as_noise(self, amplitudes: Amplitudes) -> Amplitudes:

@@ -115,7 +115,7 @@ def _simulate(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
     for array in (design.position, design.direction, design.run, design.time, np.array(amplitudes)):
         content.update(np.ascontiguousarray(array).tobytes())
     random = np.random.default_rng(int.from_bytes(content.digest()[:16], "big"))
-    found = space.single.coloured(random.standard_normal((len(design.position), TRIALS)))
+    found = space.single.undo_whitening(random.standard_normal((len(design.position), TRIALS)))
     for factor in contest.factors(amplitudes):
         found += factor @ random.standard_normal((factor.shape[1], TRIALS))
     return found

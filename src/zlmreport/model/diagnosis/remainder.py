@@ -116,7 +116,9 @@ def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArra
     """Return what leaves of a curve only that which neither the model nor a set can do as well."""
     design = fitted.design
     columns = [each.effect.columns(design, each.theta) for each in found.named]
-    basis, strengths, _ = np.linalg.svd(_scale_to_one_length([fitted.base(), *columns]), full_matrices=False)
+    basis, strengths, _ = np.linalg.svd(
+        _scale_to_one_length([fitted.compute_base(), *columns]), full_matrices=False
+    )
     known = basis[:, strengths > _DEPENDENT * strengths.max(initial=0.0)]
     return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
 
@@ -194,11 +196,11 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
             course = _COURSES.get(form.carrier, Course.PLACE)
             shape = _describe_shape(member, contest.design)
-            yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), course, shape, member)
+            yield _Share(space.single.undo_whitening(of_set[:, own] @ solved[own]), course, shape, member)
     active = [(part, level) for part, level in zip(contest.parts, found.amplitudes, strict=True) if level]
     for (part, level), factor in zip(active, factors, strict=True):
         if level >= part.noise_levels:
-            explained = space.single.coloured(factor @ (factor.T @ left))
+            explained = space.single.undo_whitening(factor @ (factor.T @ left))
             yield _Share(explained, part.course, part.shape, None)
 
 
@@ -209,7 +211,7 @@ def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Se
     if best is None:
         return None
     columns = best.effect.columns(contest.design, best.theta)
-    columns = contest.space.single.coloured(contest.space.of(columns))
+    columns = contest.space.single.undo_whitening(contest.space.of(columns))
     gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
     left = float(np.sum((whole - columns @ gamma) ** 2))
     return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None

@@ -134,7 +134,7 @@ class Residuals:
 def find_residuals_of(fit: Fit, noise: Noise) -> Residuals:
     """Return the residuals of a fit under a noise: one that holds no more than noise may."""
     whiten = make_whitener(list_noise_parts(fit.design), noise)
-    columns = whiten(fit.base())
+    columns = whiten(fit.compute_base())
     lengths = np.linalg.norm(columns, axis=0)
     vectors, singular, _ = np.linalg.svd(columns / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
     base = vectors[:, singular > _DEPENDENT * singular.max(initial=0.0)]

@@ -50,7 +50,7 @@ class SetCosts:
         for each in members:
             own = slice(first, first + len(each.columns))
             first = own.stop
-            square = contest.expected.square(each.identifier)
+            square = contest.expected.find_square(each.identifier)
             cost += each.family.price + each.spread
             root = _find_root_of_inverse(variance * inverse[own, own])
             for explained, rank in self._by_size(each, solved[own], root):

@@ -96,7 +96,7 @@ def _try_some(thetas: FloatArray) -> FloatArray:
 def _compute_lengths(contest: Contest, reduced: Reduced, family: Family, theta: FloatArray) -> _Lengths:
     columns = family.effect.columns(contest.design, theta)
     contrasts = contest.space.of(columns)
-    seen = contest.space.single.coloured(contrasts)
+    seen = contest.space.single.undo_whitening(contrasts)
     moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
     squares = contest.squares_beside(reduced, contest.columns.hold(contrasts))
     return _Lengths(

@@ -190,7 +190,7 @@ def make_question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) ->
     return Question(
         axis=base.design.axis,
         model=base.model,
-        base=base.base,
+        base=base.compute_base,
         rivals=tuple(rivals),
         sigma=best.noise.sigma,
         degrees=best.degrees,
