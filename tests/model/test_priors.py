@@ -55,7 +55,7 @@ def test_an_amplitude_that_was_seldom_costs_what_its_probability_says() -> None:
     place = [part.source for part in plain.parts].index(NoiseSource.POSITION)
     for level, probability in enumerate(stated[1]):
         amplitudes = tuple(level * (number == place) for number in range(len(plain.parts)))
-        rise = knowing.criterion(amplitudes, []) - plain.criterion(amplitudes, [])
+        rise = knowing.compute_criterion(amplitudes, []) - plain.compute_criterion(amplitudes, [])
         assert rise == pytest.approx(-2 * np.log(4 * probability), abs=1e-9)
 
 

@@ -51,7 +51,7 @@ def _remainder(
     search = SetSearch(
         Contest.of(design, fitted.compute_base(), (), deviation, forms=list_unnamed_forms(design))
     )
-    return find_remainder_of(search, search.found(), fitted)
+    return find_remainder_of(search, search.find_best(), fitted)
 
 
 def _formula(left: Remainder) -> FormulaKeys:

@@ -136,7 +136,7 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     return Remainder(
         rms=float(np.linalg.norm(found.values)) / len(found.values) ** 0.5,
         share=min(1.0, float(np.sum(found.values**2)) / squares),
-        where=found.where(design),
+        where=found.say_where(design),
         low=float(own.min()),
         high=float(own.max()),
         unit=_SECOND,
@@ -174,9 +174,9 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
 def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
     """Yield what each thing without a name explains, on the average over what the readings allow."""
     contest = search.contest
-    space, values = contest.space, contest.columns.values
+    space, values = contest.space, contest.columns.select_columns
     of_set = np.concatenate([np.empty((len(space.scale), 0)), *map(values, found.columns)], axis=1)
-    factors = [space.of(each) for each in contest.factors(found.amplitudes)]
+    factors = [space.of(each) for each in contest.list_factors(found.amplitudes)]
     together = np.concatenate([np.empty((len(space.scale), 0)), *factors], axis=1)
     inner = np.linalg.cholesky(np.eye(together.shape[1]) + together.T @ together)
     root = np.linalg.solve(inner, together.T)
@@ -207,7 +207,7 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
 def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
     """Return the form that follows a curve best; None if none follows most of it."""
     contest = search.contest
-    best = search.best_unnamed(bare)
+    best = search.find_best_unnamed(bare)
     if best is None:
         return None
     columns = best.effect.columns(contest.design, best.theta)
@@ -219,14 +219,14 @@ def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Se
 
 def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:
     assert isinstance(form.effect, UnnamedForm)  # noqa: S101 - no other effect has no name
-    return form.effect.proposed(form.theta, design)
+    return form.effect.propose_formula(form.theta, design)
 
 
 def _describe_shape(member: SetMember, design: Design) -> Words:
     """Return a form in words."""
     form = member.effect
     assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
-    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.named(member.theta)
+    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.list_searched_values(member.theta)
     words = form.form.shape.given(
         **{word: say(named[name]) for word, name in (("width", "w"), ("period", "L")) if name in named}
     )
@@ -245,8 +245,8 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member:
-        low, high = form.extent(main.member.theta)
-        place = form.named(main.member.theta).get("c", low)
+        low, high = form.find_extent(main.member.theta)
+        place = form.list_searched_values(main.member.theta).get("c", low)
         is_local = form.form in LOCAL
         words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
         return words, low, high, unit
