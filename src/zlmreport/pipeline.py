@@ -370,17 +370,17 @@ def fit_model(
 
     study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
     with showing("diagnosing") as told:
-        diagnosis = study.diagnosis(registry.effects, told)
+        diagnosis = study.diagnose(registry.effects, told)
     with showing("simulating plans") as told:
         experiment = plan_experiment_of_tie(study, diagnosis, registry.effects, told)
-    history = study.history(Fitted(diagnosis.fit, diagnosis.error))
+    history = study.fit_history(Fitted(diagnosis.fit, diagnosis.error))
     return Modelled(
         history,
         diagnosis,
         make_forecasts(choose_standards(job, registry), study, history)
         if job.axis.measurand.is_position
         else (),
-        study.titles(registry.effects),
+        study.list_titles(registry.effects),
         study,
         experiment,
     )

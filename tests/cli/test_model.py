@@ -38,7 +38,7 @@ def effects(shop: Shop) -> list[str]:
 def diagnosed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let commands take the diagnosis of the example from the shelf: what they make of it counts here."""
     diagnosis = example_diagnosis()
-    monkeypatch.setattr(Study, "diagnosis", lambda *_: diagnosis)
+    monkeypatch.setattr(Study, "diagnose", lambda *_: diagnosis)
 
 
 @pytest.mark.usefixtures("diagnosed")

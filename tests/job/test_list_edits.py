@@ -210,8 +210,8 @@ def test_values_are_found_where_they_stand(layout: Layout) -> None:
 
 def test_keys_and_values_come_in_turn() -> None:
     written = Written.of("a: 1\nb: [x, {c: 2}]\n")
-    found = written.root.entry("b")
+    found = written.root.find_entry("b")
     assert found is not None
     assert written.text[found[1].start : found[1].end] == "[x, {c: 2}]"
-    assert found[1].entry("c") is None
+    assert found[1].find_entry("c") is None
     assert isinstance(node("{c: 2}"), Keys)

@@ -55,9 +55,9 @@ def example() -> Study:
 
 @cache
 def example_history() -> tuple[Fitted, ...]:
-    return example().history()
+    return example().fit_history()
 
 
 @cache
 def example_diagnosis() -> Diagnosis:
-    return example().diagnosis(registry().effects)
+    return example().diagnose(registry().effects)

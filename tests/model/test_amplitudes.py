@@ -40,12 +40,12 @@ def test_a_model_without_waves_has_none() -> None:
 
 def test_a_wave_with_a_given_parameter_is_left_out(tmp_path) -> None:
     path = written(tmp_path, ("    - backlash\n", "    - screw-pitch: {sine: 2.0}\n"))
-    assert list_waves(study(path).fitted().fit) == ()
+    assert list_waves(study(path).fit_whole().fit) == ()
 
 
 def test_a_wave_beside_a_given_parameter_is_found(tmp_path) -> None:
     path = written(tmp_path, ("    - backlash\n", "    - backlash: {lost_motion: -4.0}\n    - screw-pitch\n"))
-    first = list_waves(study(path).fitted().fit)[0]
+    first = list_waves(study(path).fit_whole().fit)[0]
     assert first.harmonic.amplitude == pytest.approx(math.hypot(2.1, 0.9) * 1e-6, rel=0.1)
 
 

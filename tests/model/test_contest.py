@@ -54,7 +54,7 @@ AMPLITUDES: Amplitudes = tuple(
 
 
 def _covariance(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
-    factors = list(contest.factors(amplitudes))
+    factors = list(contest.list_factors(amplitudes))
     return np.asarray(np.eye(len(BASE)) + sum(each @ each.T for each in factors))
 
 
@@ -83,7 +83,9 @@ def test_the_criterion_of_a_set_is_that_of_a_plain_restricted_likelihood(
     covariance = _covariance(CONTEST, amplitudes)
     members = [CONTEST.families[_family(CONTEST, name)].blocks[0] for name in names]
     costs = sum(part.costs[level] for part, level in zip(CONTEST.parts, amplitudes, strict=True))
-    rise = CONTEST.criterion(amplitudes, members) - CONTEST.criterion(CONTEST.quiet, []) - costs
+    rise = (
+        CONTEST.compute_criterion(amplitudes, members) - CONTEST.compute_criterion(CONTEST.quiet, []) - costs
+    )
     plain = _restricted(covariance, beside) - _restricted(np.eye(len(BASE)), BASE[:, :0])
     assert rise == pytest.approx(plain, abs=1e-6)
 
@@ -106,12 +108,14 @@ def test_all_levels_of_a_part_are_looked_at_as_each_by_itself() -> None:
             moved = [
                 (*AMPLITUDES[:number], level, *AMPLITUDES[number + 1 :]) for level in range(len(part.levels))
             ]
-            assert found == pytest.approx([CONTEST.criterion(each, members) for each in moved], abs=1e-6)
+            assert found == pytest.approx(
+                [CONTEST.compute_criterion(each, members) for each in moved], abs=1e-6
+            )
 
 
 def test_columns_that_depend_on_each_other_count_once() -> None:
     block = CONTEST.families[0].blocks[0]
-    once, twice = (CONTEST.criterion(AMPLITUDES, each) for each in ([block], [block, block]))
+    once, twice = (CONTEST.compute_criterion(AMPLITUDES, each) for each in ([block], [block, block]))
     assert twice == pytest.approx(once, abs=1e-6)
 
 
@@ -230,17 +234,17 @@ def test_single_readings_that_resemble_those_before_them_are_made_independent() 
     single = describe_single_readings(DESIGN, weights, memory)
     apart = np.abs(DESIGN.time[:, np.newaxis] - DESIGN.time)
     covariance = np.sqrt(np.outer(weights, weights)) * np.exp(-apart / memory)
-    root = single.whitened(np.eye(len(BASE)))
+    root = single.whiten(np.eye(len(BASE)))
     np.testing.assert_allclose(root @ covariance @ root.T, np.eye(len(BASE)), atol=1e-9)
-    np.testing.assert_allclose(single.coloured(root), np.eye(len(BASE)), atol=1e-9)
-    np.testing.assert_allclose(single.transposed(np.eye(len(BASE))), root.T, atol=1e-12)
+    np.testing.assert_allclose(single.undo_whitening(root), np.eye(len(BASE)), atol=1e-9)
+    np.testing.assert_allclose(single.apply_transposed(np.eye(len(BASE))), root.T, atol=1e-12)
     expected = np.linalg.slogdet(covariance)[1] - np.log(weights).sum()
     assert single.log_determinant == pytest.approx(expected, abs=1e-9)
 
 
 def test_amplitudes_are_read_from_the_noise_of_a_fit() -> None:
     ratios = {NoiseSource.POSITION: 0.11, NoiseSource.TIME: 0.02}
-    found = CONTEST.ratios_of(CONTEST.nearest(ratios))
+    found = CONTEST.list_noise_ratios(CONTEST.find_nearest_amplitudes(ratios))
     assert found[NoiseSource.POSITION] == 0.1
     assert found[NoiseSource.TIME] == 0.03
 
@@ -262,7 +266,7 @@ class TestNullDistribution:
         assert usual["periodic"] > usual["backlash-bow"] + 4
 
     def test_the_threshold_is_exceeded_by_chance_as_often_as_is_stated(self) -> None:
-        excess = self.null.excess(Scores(self.null.ratios, self.null.nameless_ratios))
+        excess = self.null.compute_excess(Scores(self.null.ratios, self.null.nameless_ratios))
         assert np.mean(excess > self.null.threshold) == pytest.approx(0.05, abs=0.01)
 
     def test_the_same_test_gives_the_same_digits(self) -> None:
@@ -272,19 +276,19 @@ class TestNullDistribution:
 
     def test_a_p_value_is_counted_where_it_can_be(self) -> None:
         ratio = float(np.quantile(self.null.ratios[0], 0.9))
-        found = self.null.p_value_of_effect(0, ratio)
+        found = self.null.compute_p_value_of_effect(0, ratio)
         assert not found.is_extrapolated
         assert found.value == pytest.approx(0.1, abs=2 / TRIALS)
 
     def test_beyond_the_trials_a_p_value_is_extrapolated_and_says_so(self) -> None:
-        found = self.null.p_value_of_effect(0, 60.0)
+        found = self.null.compute_p_value_of_effect(0, 60.0)
         assert found.is_extrapolated
         assert 0 < found.value < 1e-6
 
     def test_false_alarms_are_as_rare_as_is_stated(self) -> None:
         fresh = SIGMA * np.random.default_rng(99).standard_normal((len(BASE), 400))
         trials = Trials(CONTEST, CONTEST.quiet, [], fresh)
-        alarms = self.null.excess(Scores(trials.ratios, trials.nameless)) > self.null.threshold
+        alarms = self.null.compute_excess(Scores(trials.ratios, trials.nameless)) > self.null.threshold
         # 400 tests know 5 % to 1.1 %, and 400 trials the threshold to as much.
         assert np.mean(alarms) == pytest.approx(0.05, abs=0.04)
 
@@ -328,7 +332,7 @@ def test_a_curve_without_a_name_varies_about_nothing() -> None:
     curves = [each for each in contest.parts if each.course is Course.REVERSAL and each.source is None]
     assert curves
     for each in curves:
-        columns = contest.columns.values(each.columns)
+        columns = contest.columns.select_columns(each.columns)
         assert np.abs(gap @ columns).max() < 1e-9 * np.linalg.norm(gap) * np.linalg.norm(columns)
 
 
@@ -339,7 +343,7 @@ def test_a_curve_of_the_reversal_without_a_name_has_no_lost_motion_in_it() -> No
     assert len(curves) == 4
     for each in curves:
         # Each has a mean square of one at the readings.
-        shared = gap.T @ contest.columns.values(each.columns)
+        shared = gap.T @ contest.columns.select_columns(each.columns)
         assert np.abs(shared).max() < 0.01 * len(DESIGN.direction) ** 0.5
 
 

@@ -22,7 +22,7 @@ def test_readings_that_are_missing_stay_missing(tmp_path) -> None:
     text = table.read_text(encoding="utf-8")
     table.write_text(text.replace("37.4799,+,1,-3.12,", "37.4799,+,1,,"), encoding="utf-8")
     holey = study(path)
-    left = correct_by_model(holey.measurements, holey.observed, holey.fitted().fit)
+    left = correct_by_model(holey.measurements, holey.observed, holey.fit_whole().fit)
     assert np.flatnonzero(np.isnan(left.deviation)).tolist() == [1]
 
 
@@ -34,7 +34,7 @@ def test_nothing_is_taken_away_by_a_model_without_effects() -> None:
 def test_a_table_of_positions_leaves_what_moves_with_time(tmp_path) -> None:
     path = written(tmp_path, ("    - offset\n", "    - offset\n    - thermal-drift\n"))
     warm = study(path)
-    fit = warm.fitted().fit
+    fit = warm.fit_whole().fit
     assert list_what_moves_with_time(fit) == ("thermal-drift",)
     whole = correct_by_model(warm.measurements, warm.observed, fit)
     table = compensate_readings(FittedModel(warm.measurements, warm.observed, fit))

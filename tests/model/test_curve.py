@@ -68,7 +68,7 @@ def test_smooth_curve_has_even_positions() -> None:
 
 
 def _values(fitted: Fit, positions: FloatArray) -> FloatArray:
-    return fitted.value_at(place_at_positions(fitted.design, positions, Approach.POSITIVE))
+    return fitted.compute_value_at(place_at_positions(fitted.design, positions, Approach.POSITIVE))
 
 
 def test_effect_alone_is_drawn_as_finely_as_in_a_model() -> None:

@@ -28,7 +28,7 @@ def _model(folder: Path, *changes: tuple[str, str]) -> AxisModel:
 
 def _refused(folder: Path, *changes: tuple[str, str]) -> str:
     with pytest.raises(InputError) as caught:
-        study(written(folder, *changes)).fitted()
+        study(written(folder, *changes)).fit_whole()
     return " ".join(str(each) for each in caught.value.problems)
 
 
@@ -39,21 +39,23 @@ def test_bounds_of_a_job_are_in_si(tmp_path: Path) -> None:
 
 
 def test_an_estimate_within_its_bounds_is_as_without(tmp_path: Path) -> None:
-    free = study(written(tmp_path)).fitted().fit
+    free = study(written(tmp_path)).fit_whole().fit
     bounded = study(written(tmp_path, (SLOPE, "    - scale-error: {slope: {min: -1000, max: 1000}}\n")))
-    np.testing.assert_allclose(bounded.fitted().fit.fitted, free.fitted, rtol=1e-12)
+    np.testing.assert_allclose(bounded.fit_whole().fit.fitted, free.fitted, rtol=1e-12)
 
 
 def test_an_estimate_beyond_its_bound_is_held_there(tmp_path: Path) -> None:
     bounded = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: {min: -3}}\n")))
-    within = bounded.fitted().fit
-    given = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: -3}\n"))).fitted().fit
+    within = bounded.fit_whole().fit
+    given = study(written(tmp_path, (LAST, "    - backlash: {lost_motion: -3}\n"))).fit_whole().fit
     np.testing.assert_allclose(within.fitted, given.fitted, rtol=1e-12)
     (estimate,) = [each for each in within.estimates if each.effect == "backlash"]
     assert (estimate.value, estimate.at_bound, estimate.is_given) == (pytest.approx(-3e-6), "min", False)
     reported = report_model(within)["parameters"][-1]
     assert (reported["given"], reported["at_bound"]) == (False, "min")
-    assert re.search(r"lost_motion +−3 +held at min +µm", "\n".join(fit_lines(bounded.fitted(), bounded.job)))
+    assert re.search(
+        r"lost_motion +−3 +held at min +µm", "\n".join(fit_lines(bounded.fit_whole(), bounded.job))
+    )
 
 
 def test_a_searched_parameter_stays_within_its_bounds() -> None:

@@ -76,7 +76,7 @@ def test_the_root_of_a_fit_makes_readings_independent(left_out: frozenset[NoiseS
     unit = np.eye(len(WEIGHTS))
     covariance = _covariance(np.array([by_source[part.source] for part in PARTS]))
     assert root(unit) @ covariance @ root(unit).T == pytest.approx(unit, abs=1e-10)
-    assert root.transposed(unit) == pytest.approx(root(unit).T, abs=1e-12)
+    assert root.apply_transposed(unit) == pytest.approx(root(unit).T, abs=1e-12)
 
 
 def test_restricted_likelihood_is_that_of_the_textbook() -> None:
@@ -91,7 +91,7 @@ def test_restricted_likelihood_is_that_of_the_textbook() -> None:
         squares = left @ inverse @ left
         determinants = np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(inner)[1]
         expected = (len(base) - base.shape[1]) * np.log(squares) + determinants
-        found, found_squares = space.restricted(space.of(values))(ratios)
+        found, found_squares = space.make_criterion(space.of(values))(ratios)
         assert found_squares == pytest.approx(squares, rel=1e-9)
         differences.append(found - expected)
     assert differences[0] == pytest.approx(differences[1], abs=1e-7)  # a constant of the base model only
@@ -103,7 +103,7 @@ def test_estimate_of_the_noise_is_nowhere_surpassed_on_the_grid() -> None:
     grid = make_ratio_grid(PARTS)
     contrast = space.of(values)
     ratios, _ = estimate_restricted(space, contrast, grid, grid.max(axis=0))
-    criterion = space.restricted(contrast)
+    criterion = space.make_criterion(contrast)
     best = min(criterion(each)[0] for each in grid)
     assert criterion(ratios)[0] <= best
 

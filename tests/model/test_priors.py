@@ -55,7 +55,7 @@ def test_an_amplitude_that_was_seldom_costs_what_its_probability_says() -> None:
     place = [part.source for part in plain.parts].index(NoiseSource.POSITION)
     for level, probability in enumerate(stated[1]):
         amplitudes = tuple(level * (number == place) for number in range(len(plain.parts)))
-        rise = knowing.criterion(amplitudes, []) - plain.criterion(amplitudes, [])
+        rise = knowing.compute_criterion(amplitudes, []) - plain.compute_criterion(amplitudes, [])
         assert rise == pytest.approx(-2 * np.log(4 * probability), abs=1e-9)
 
 
@@ -67,11 +67,11 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
     counts = np.full(len(ratios), 1.0 / len(ratios))  # of the test that knows nothing
     for each in fits:
         parts = list_noise_parts(each.design)
-        space = make_contrasts_of(each.base(), parts, each.noise.weights)
-        criterion, grid = space.restricted(space.of(each.open_deviation)), make_ratio_grid(parts)
+        space = make_contrasts_of(each.compute_base(), parts, each.noise.weights)
+        criterion, grid = space.make_criterion(space.of(each.open_deviation)), make_ratio_grid(parts)
         criteria = np.array([criterion(row)[0] for row in grid])
         sources = [part.source for part in parts]
-        posterior = np.exp(-0.5 * (criteria - criteria.min())) * expected.probabilities(sources, grid)
+        posterior = np.exp(-0.5 * (criteria - criteria.min())) * expected.compute_probabilities(sources, grid)
         column = grid[:, sources.index(NoiseSource.POSITION)]
         counts += [posterior[column == ratio].sum() / posterior.sum() for ratio in ratios]
     np.testing.assert_allclose(probabilities, counts / counts.sum(), atol=2e-3)
@@ -107,13 +107,13 @@ def test_an_effect_of_the_expected_size_has_more_evidence_than_one_of_another() 
     )
     assert known < wrong - 2
     small = PriorExpectation(sizes={"first-run": 2e-6}).in_units_of(1e-6)
-    assert small.square("first-run") == pytest.approx(4.0)
-    assert small.square("backlash") == 1.0
+    assert small.find_square("first-run") == pytest.approx(4.0)
+    assert small.find_square("backlash") == 1.0
 
 
 def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
     parts = [part for part in list_noise_parts(_DESIGN) if part.source is NoiseSource.POSITION]
     expected = PriorExpectation({NoiseSource.POSITION: np.array([[0.01, 0.2, 0.5], [1.0, 2.0, 1.0]])})
-    found = expected.probabilities([part.source for part in parts], make_ratio_grid(parts))
+    found = expected.compute_probabilities([part.source for part in parts], make_ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)

@@ -48,8 +48,10 @@ def _remainder(
     """Return what is left where nothing is installed."""
     deviation = true + noise(design, seed, sigma)
     fitted = fit(model, design, deviation, Assumptions(parts=()))
-    search = SetSearch(Contest.of(design, fitted.base(), (), deviation, forms=list_unnamed_forms(design)))
-    return find_remainder_of(search, search.found(), fitted)
+    search = SetSearch(
+        Contest.of(design, fitted.compute_base(), (), deviation, forms=list_unnamed_forms(design))
+    )
+    return find_remainder_of(search, search.find_best(), fitted)
 
 
 def _formula(left: Remainder) -> FormulaKeys:

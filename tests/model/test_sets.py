@@ -30,7 +30,7 @@ def _contest(
 
 
 def _found(deviation: FloatArray, design: Design = DESIGN) -> EffectSet:
-    return SetSearch(_contest(deviation, design)).found()
+    return SetSearch(_contest(deviation, design)).find_best()
 
 
 def _names(found: EffectSet) -> set[str]:
@@ -63,7 +63,7 @@ def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
     values = np.convolve(random.standard_normal(60), np.hanning(9), "valid")
     curve = np.interp(DESIGN.position, np.linspace(0.0, 1.0, len(values)), values)
     search = SetSearch(_contest(_hiding(("backlash", [])) + 2e-6 * curve))
-    found = search.found()
+    found = search.find_best()
     assert "backlash" in _names(found)
     assert "polynomial" not in _names(found)
     assert search.has_nameless(found)
@@ -87,38 +87,38 @@ def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
 def test_an_effect_for_which_others_may_stand_has_less_evidence_than_the_set_loses_without_it() -> None:
     curve = 3 * SIGMA * np.sin(9.0 * DESIGN.position**2)
     search = SetSearch(_contest(_hiding(("scale-kink", [0.6]), ("backlash", [])) + curve))
-    found = search.found()
-    for own, member in zip(search.own_evidence(found), found.members, strict=True):
+    found = search.find_best()
+    for own, member in zip(search.compute_own_evidence(found), found.members, strict=True):
         if member.family.is_named:
-            assert search.evidence_of(found, {member.identifier}) <= own + 1e-9
-    assert search.evidence_of(found, {"backlash"}) > 6
+            assert search.compute_evidence_of(found, {member.identifier}) <= own + 1e-9
+    assert search.compute_evidence_of(found, {"backlash"}) > 6
 
 
 def test_what_is_left_of_a_set_has_the_same_effects_and_no_others() -> None:
     search = SetSearch(_contest(_hiding(("screw-pitch", [0.01]), ("backlash", []))))
-    found = search.found()
+    found = search.find_best()
     kept = [each for each in found.named if each.identifier == "backlash"]
-    assert _names(search.holding(found, kept)) == {"backlash"}
+    assert _names(search.find_best_holding(found, kept)) == {"backlash"}
 
 
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:
     contest = _contest(_hiding(("screw-pitch", [0.01]), ("backlash", [])))
     search = SetSearch(contest)
-    [start] = search.members_of([(EFFECTS["first-run"], np.empty(0))])
-    assert _names(search.found([start])) == {"screw-pitch", "backlash"}
+    [start] = search.make_members_of([(EFFECTS["first-run"], np.empty(0))])
+    assert _names(search.find_best([start])) == {"screw-pitch", "backlash"}
 
 
 def test_without_any_effect_there_is_nothing_but_noise() -> None:
     search = SetSearch(_contest(4e-6 + noise(DESIGN)))
-    found = search.found()
+    found = search.find_best()
     assert found.members == ()
     assert not search.has_nameless(found)
 
 
 def test_evidence_of_its_own_is_what_the_set_loses_without_an_effect() -> None:
     search = SetSearch(_contest(_hiding(("screw-pitch", [0.01]), ("backlash", []))))
-    found = search.found()
-    for number, evidence in enumerate(search.own_evidence(found)):
+    found = search.find_best()
+    for number, evidence in enumerate(search.compute_own_evidence(found)):
         assert evidence == pytest.approx(search.without(found, number).score - found.score)
         assert evidence > 5
 
@@ -188,7 +188,7 @@ def test_a_name_of_a_value_reaches_as_far_as_the_value_may() -> None:
 
 def test_a_member_that_is_there_costs_what_its_value_had_to_be_searched_for() -> None:
     search = SetSearch(_contest(_hiding(("time-periodic", [290.0]), ("backlash", []))))
-    wave, lost = search.members_of(
+    wave, lost = search.make_members_of(
         [(EFFECTS["time-periodic"], np.array([290.0])), (EFFECTS["backlash"], np.empty(0))]
     )
     assert wave.spread > 2
@@ -204,8 +204,8 @@ def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
 
 def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None:
     search, (first, second) = _with_two_joints(0.5)
-    once, twice = search.members_of([(first, np.array([0.3])), (second, np.array([0.5]))])
-    alone, both = (search.renumbered(search.as_noise(each)) for each in ((twice,), (once, twice)))
+    once, twice = search.make_members_of([(first, np.array([0.3])), (second, np.array([0.5]))])
+    alone, both = (search.renumber(search.as_noise(each)) for each in ((twice,), (once, twice)))
     assert [each.identifier for each in alone.members] == ["scale-joint"]
     assert alone.members[0].theta == pytest.approx([0.5])
     assert [each.identifier for each in both.members] == ["scale-joint", "scale-joint-2"]
@@ -213,8 +213,8 @@ def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None
 
 def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
     search, (first, _) = _with_two_joints(0.5)
-    found = search.as_noise(search.members_of([(first, np.array([0.5]))]))
-    assert search.rivals(found, search.without(found, 0), 40.0) == []
+    found = search.as_noise(search.make_members_of([(first, np.array([0.5]))]))
+    assert search.list_rivals(found, search.without(found, 0), 40.0) == []
 
 
 def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
@@ -224,7 +224,7 @@ def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
     readings = step.columns(design, np.array([0.083])) @ np.array([6.5e-6]) + noise(design, 7)
     readings = readings + wave.columns(design, np.array([0.718])) @ np.array([-2.18e-6, 1.47e-6])
     few = (*(EFFECTS[name] for name in names), step, wave)
-    found = SetSearch(_contest(readings, design, few)).found()
+    found = SetSearch(_contest(readings, design, few)).find_best()
     assert {"lost-motion-step", "lost-motion-wave"} <= _names(found)
     assert "worn-zone" not in _names(found)
 
@@ -237,10 +237,10 @@ def test_two_of_which_neither_explains_anything_alone_are_a_pair() -> None:
     readings = SIGMA * bent / bent.std() + noise(design)
     names = ("backlash", "abbe", "first-run", "scale-error", "thermal-drift")
     contest = _contest(readings, design, tuple(EFFECTS[name] for name in names))
-    best = list_pairs(contest, SetSearch(contest).alone())[0]
+    best = list_pairs(contest, SetSearch(contest).make_bare_set())[0]
     assert _names(best) == {"abbe", "scale-error"}
 
 
 def test_a_single_effect_makes_no_pair() -> None:
     contest = _contest(_hiding(("backlash", [])), effects=(EFFECTS["backlash"],))
-    assert list_pairs(contest, SetSearch(contest).alone()) == []
+    assert list_pairs(contest, SetSearch(contest).make_bare_set()) == []

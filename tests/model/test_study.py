@@ -15,7 +15,7 @@ from zlmreport.model.fitting.estimate import InstrumentError
 def problem(path: Path) -> tuple[int, int, str]:
     """Return line, column and message of what is wrong with a job's model."""
     with pytest.raises(InputError) as caught:
-        study(path).fitted()
+        study(path).fit_whole()
     (only,) = caught.value.problems
     assert only.place.file == str(path)
     return only.place.line, only.place.column, only.message
@@ -27,7 +27,7 @@ def test_the_model_has_the_effects_of_the_job_in_their_order() -> None:
 
 def test_values_of_the_job_are_held_fixed_in_si(tmp_path: Path) -> None:
     path = written(tmp_path, (LAST, "    - backlash: {lost_motion: -4.5}\n"))
-    (estimate,) = [each for each in study(path).fitted().fit.estimates if each.effect == "backlash"]
+    (estimate,) = [each for each in study(path).fit_whole().fit.estimates if each.effect == "backlash"]
     assert (estimate.value, estimate.is_given) == (pytest.approx(-4.5e-6), True)
 
 
@@ -36,7 +36,7 @@ def test_the_instrument_errs_in_the_model_as_in_the_budget(tmp_path: Path) -> No
     instrument = "instrument: {name: Laser, expanded_uncertainty: 3 + 2*L}\nmodel:\n"
     found = study(written(tmp_path, ("model:\n", instrument)))
     assert found.assumptions.instrument == InstrumentError(0.0, pytest.approx(1e-6), pytest.approx(1.5e-6))
-    offset, without = found.fitted().fit.estimates[0], example().fitted().fit.estimates[0]
+    offset, without = found.fit_whole().fit.estimates[0], example().fit_whole().fit.estimates[0]
     assert offset.value == pytest.approx(without.value, abs=1e-15)
     assert offset.standard_uncertainty > without.standard_uncertainty
 
@@ -88,12 +88,12 @@ def test_the_history_ends_with_the_model_that_is_diagnosed() -> None:
 
 def test_the_history_takes_a_fit_that_is_there() -> None:
     whole = example_history()[-1]
-    assert example().history(whole)[-1] is whole
+    assert example().fit_history(whole)[-1] is whole
 
 
 def test_the_error_falls_to_the_noise_when_the_hidden_effect_is_added(tmp_path: Path) -> None:
     path = written(tmp_path, (LAST, f"{LAST}    - screw-pitch\n"))
-    errors = [each.error for each in study(path).history()]
+    errors = [each.error for each in study(path).fit_history()]
     assert [each.rms for each in errors] == sorted((each.rms for each in errors), reverse=True)
     assert errors[-1].noise_rms is not None
     assert errors[-1].rms < 1.2 * errors[-1].noise_rms < 0.4 * errors[-2].rms
@@ -111,7 +111,7 @@ def test_an_effect_that_cannot_be_fitted_is_refused_where_the_job_names_it(tmp_p
 def test_effects_that_collide_are_named(tmp_path: Path) -> None:
     path = written(tmp_path, (LAST, f"{LAST}    - polynomial\n"))
     with pytest.raises(InputError) as caught:
-        study(path).fitted()
+        study(path).fit_whole()
     messages = [each.message for each in caught.value.problems]
     assert [each.place.line for each in caught.value.problems] == [26, 26]
     assert "polynomial contains offset" in messages[0]

@@ -98,6 +98,6 @@ def test_the_smallest_effect_is_found_about_half_of_the_time(effect: str, theta:
     size = _seen(DESIGN, effect).smallest_rms / np.sqrt(np.mean(shape**2))
     readings = [noise(DESIGN, seed) + size * shape for seed in range(SETS)]
     trials = Trials(contest, contest.quiet, [], np.column_stack(readings))
-    found = null.excess(Scores(trials.ratios, trials.nameless)) > null.threshold
+    found = null.compute_excess(Scores(trials.ratios, trials.nameless)) > null.threshold
     # 300 sets know the share to 3 %; at 1.1 times the size it would be 0.2 larger.
     assert np.mean(found) == pytest.approx(0.5, abs=0.12)

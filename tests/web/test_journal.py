@@ -18,7 +18,7 @@ def made(first: int, action: str = "add", subject: str = "offset") -> JournalSte
 
 
 def test_what_is_written_is_read_again(tmp_path: Path) -> None:
-    journal = BenchJournal.beside(tmp_path / "job.yaml")
+    journal = BenchJournal.of(tmp_path / "job.yaml")
     journal.append(made(0))
     journal.append(made(1, subject="Größe"))
     assert journal.path.name == "job.history.jsonl"
@@ -29,14 +29,14 @@ def test_what_is_written_is_read_again(tmp_path: Path) -> None:
 
 
 def test_a_job_that_nobody_clicked_on_has_no_record(tmp_path: Path) -> None:
-    assert BenchJournal.beside(tmp_path / "job.yaml").read_entries() == ()
+    assert BenchJournal.of(tmp_path / "job.yaml").read_entries() == ()
 
 
 @pytest.mark.parametrize(
     "line", ["", "{", "[]", "1", '{"schema": "other/1"}', '{"schema": "zlmreport/workbench-history/1"}']
 )
 def test_a_line_that_is_none_is_passed_over(tmp_path: Path, line: str) -> None:
-    journal = BenchJournal.beside(tmp_path / "job.yaml")
+    journal = BenchJournal.of(tmp_path / "job.yaml")
     journal.append(made(0))
     with journal.path.open("a", encoding="utf-8") as file:
         file.write(f"{line}\n")
@@ -47,7 +47,7 @@ def test_a_line_that_is_none_is_passed_over(tmp_path: Path, line: str) -> None:
 def test_a_record_that_cannot_be_written_is_said(tmp_path: Path) -> None:
     (tmp_path / "job.history.jsonl").mkdir()
     with pytest.raises(AccessError, match="cannot be written"):
-        BenchJournal.beside(tmp_path / "job.yaml").append(made(0))
+        BenchJournal.of(tmp_path / "job.yaml").append(made(0))
 
 
 def test_the_last_step_can_be_undone_and_then_the_one_before() -> None:

@@ -51,7 +51,7 @@ def study() -> Study:
 
 def test_deviation_is_model_and_residual(page: dict[str, Any], study: Study) -> None:
     readings = page["graphs"]["readings"]
-    fitted = 1e6 * study.fitted().fit.fitted
+    fitted = 1e6 * study.fit_whole().fit.fitted
     assert readings["deviation"] == pytest.approx(1e6 * study.measurements.deviation, abs=1e-6)
     assert np.subtract(readings["deviation"], readings["residual"]) == pytest.approx(fitted, abs=2e-6)
 
@@ -78,7 +78,7 @@ def test_the_model_is_drawn_with_its_uncertainty_in_both_directions(page: dict[s
 
 
 def test_a_part_of_the_model_is_drawn_as_finely_as_the_whole(browser: TestClient, study: Study) -> None:
-    fitted = study.fitted().fit
+    fitted = study.fit_whole().fit
     found = browser.get("/api/closer", params={"low": 200, "high": 201.5}).json()
     assert len(found["model"]) == len(Approach)
     for curve in found["model"]:
@@ -86,7 +86,7 @@ def test_a_part_of_the_model_is_drawn_as_finely_as_the_whole(browser: TestClient
         assert (x[0], x[-1]) == (200, 201.5)
         assert len(x) >= 480
         at = place_at_positions(fitted.design, 1e-3 * x, Approach(curve["direction"]))
-        assert curve["y"] == pytest.approx(1e6 * fitted.value_at(at), abs=2e-6)
+        assert curve["y"] == pytest.approx(1e6 * fitted.compute_value_at(at), abs=2e-6)
 
 
 @pytest.mark.parametrize(
@@ -187,7 +187,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
     workbench: Workbench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     bench, begun, go_on, made = workbench.bench, Event(), Event(), []
-    fitted, loaded = Study.fitted, bench.load()
+    fitted, loaded = Study.fit_whole, bench.load()
 
     def slow(study: Study) -> Fitted:
         begun.set()
@@ -195,7 +195,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
         made.append(len(study.model.terms))
         return fitted(study)
 
-    monkeypatch.setattr(Study, "fitted", slow)
+    monkeypatch.setattr(Study, "fit_whole", slow)
     with ThreadPoolExecutor(3) as others:
         try:
             falls = [others.submit(bench.fit_history, loaded) for _ in range(2)]
@@ -210,7 +210,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
 def test_a_fit_that_fails_is_tried_again(workbench: Workbench, monkeypatch: pytest.MonkeyPatch) -> None:
     bench, loaded = workbench.bench, workbench.bench.load()
     with monkeypatch.context() as patch:
-        patch.setattr(Study, "fitted", Mock(side_effect=MemoryError))
+        patch.setattr(Study, "fit_whole", Mock(side_effect=MemoryError))
         with pytest.raises(MemoryError):
             bench.fit_whole(loaded)
     assert bench.fit_whole(loaded).fit.fitted.size
@@ -275,7 +275,7 @@ def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job
 
 def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
     """The name is that of pages, the axis that of the logged column."""
-    diagnosis = study.diagnosis(registry().effects)
+    diagnosis = study.diagnose(registry().effects)
     name = "screw_temperature"
     follows = Failure(ResidualTest.CONDITION, 1e-9, same(name), same("they follow"), condition=name)
     found = collect_diagnosed(
@@ -288,7 +288,7 @@ def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study:
 
 
 def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Study) -> None:
-    diagnosis = study.diagnosis(registry().effects)
+    diagnosis = study.diagnose(registry().effects)
     off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
     flagged = replace(diagnosis, failures=(off,), outliers=np.array([7, 9]))
     found = collect_diagnosed(flagged, study, registry().effects, Language.ENGLISH)
@@ -299,7 +299,7 @@ def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None
     fault = DataFault(
         FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")
     )
-    diagnosis = replace(study.diagnosis(registry().effects), faults=(fault,))
+    diagnosis = replace(study.diagnose(registry().effects), faults=(fault,))
     (found,) = collect_diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
     assert (found["statement"], found["remedy"]) == ("run 3 looks swapped", "correct the file")
     runs = study.measurements.run[found["readings"]]

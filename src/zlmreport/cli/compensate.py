@@ -141,7 +141,7 @@ def _choose_basis(
         from zlmreport.model.diagnosis.study import Study  # noqa: PLC0415 - only for a job with a model
 
         study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
-        fitted = FittedModel(measurements, study.observed, study.fitted().fit)
+        fitted = FittedModel(measurements, study.observed, study.fit_whole().fit)
     if is_of_model and fitted:
         return make_basis_of_model(curve, fitted)
     return make_basis_of_means(curve, measurements, fitted)

@@ -97,7 +97,7 @@ def run(options: Namespace) -> int:
 
 def _fit(session: _Session, options: Namespace) -> _Answer:
     _demand_effects(session)
-    fitted = session.make_study().fitted()
+    fitted = session.make_study().fit_whole()
     points = find_points_of(fitted.fit, options.at)
     lines = (
         *fit_lines(fitted, session.job),
@@ -111,10 +111,10 @@ def _fit(session: _Session, options: Namespace) -> _Answer:
 def _diagnose(session: _Session, _: Namespace) -> _Answer:
     study, effects = session.make_study(), session.registry.effects
     with show_progress("diagnosing") as told:
-        diagnosis = study.diagnosis(effects, told)
+        diagnosis = study.diagnose(effects, told)
     with show_progress("simulating plans") as told:
         experiment = plan_experiment_of_tie(study, diagnosis, effects, told)
-    titles = study.titles(effects)
+    titles = study.list_titles(effects)
     lines = tell_diagnosis(diagnosis, study, session.shown_path, experiment, titles)
 
     def collect_values() -> dict[str, Any]:
@@ -127,7 +127,7 @@ def _diagnose(session: _Session, _: Namespace) -> _Answer:
 def _tell_history(session: _Session, _: Namespace) -> _Answer:
     _demand_effects(session)
     study = session.make_study()
-    history = study.history()
+    history = study.fit_history()
     forecasts = session.make_forecasts(study, history)
     lines = (
         *tell_history(history, forecasts, session.job, session.writer),
@@ -162,7 +162,7 @@ def _remove(session: _Session, options: Namespace) -> _Answer:
 def _build(session: _Session, options: Namespace) -> _Answer:
     """Build the job's model step by step, and write it into the job at the end."""
     with show_progress("building") as told:
-        built = session.make_study().built(session.registry.effects, told)
+        built = session.make_study().build(session.registry.effects, told)
     edit = _edit_of(session, built)
     if edit is not None and not options.dry_run:
         edit.write()
@@ -205,10 +205,10 @@ def _try_change(session: _Session, named: WrittenEffect | None, removed: tuple[s
     edit = edit_effects(
         session.path, session.job, session.registry, add=[named] if named else [], remove=removed
     )
-    before = session.make_study().fitted()
+    before = session.make_study().fit_whole()
     study = session.make_study(edit.job)
     try:
-        history = study.history()
+        history = study.fit_history()
     except InputError as error:  # its places are those of the job as it would be
         place = session.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error
@@ -285,7 +285,7 @@ def _collect_lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson
             if lessons and lessons[0].kind != job.axis.kind:
                 told.append((name, f"left out: its axis is {job.axis.kind}"))
                 continue
-            diagnosis = Study.of(alone, measurements, registry.effects).diagnosis(registry.effects)
+            diagnosis = Study.of(alone, measurements, registry.effects).diagnose(registry.effects)
         except ZlmreportError as error:
             told.append((name, f"left out: {error.problems[0].message}"))
             continue

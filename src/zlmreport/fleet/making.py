@@ -227,7 +227,7 @@ def _find_lesson(certificate: Certificate, job: Job, effects: Sequence[Effect]) 
 
     if job.sessions or job.priors:
         alone = replace(job, sessions=(), priors=None)
-        diagnosis = Study.of(alone, certificate.measurements, effects).diagnosis(effects)
+        diagnosis = Study.of(alone, certificate.measurements, effects).diagnose(effects)
     return Lesson.of(diagnosis.fit).as_json() if diagnosis.verdict is Verdict.ADEQUATE else None
 
 

@@ -204,10 +204,10 @@ def _add_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
     """Return the text with a key more in the innermost of its groups that there is."""
     written = Written.of(text)
     group, rest = written.root, list(names)
-    while len(rest) > 1 and (entry := group.entry(rest[0])) is not None:
+    while len(rest) > 1 and (entry := group.find_entry(rest[0])) is not None:
         group = entry[1]
         rest.pop(0)
-    if group.entry(rest[0]) is not None:
+    if group.find_entry(rest[0]) is not None:
         raise UneditableError
     pair = _write_in_braces(rest, spelt)
     if group.form is ValueForm.BRACES:
@@ -215,6 +215,6 @@ def _add_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
     if group.form is not ValueForm.INDENTED or group.parts[-1].form is ValueForm.ALIAS:
         raise UneditableError
     end = written.line_end(group.parts[-1].end)
-    indent = " " * written.column(group.parts[0].start)
+    indent = " " * written.find_column(group.parts[0].start)
     remark = f" # {unit}" if unit and len(rest) == 1 else ""
     return insert(text, end, f"{written.break_at(end)}{indent}{pair}{remark}")

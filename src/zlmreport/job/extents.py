@@ -38,7 +38,7 @@ class WrittenValue:
     parts: tuple[WrittenValue, ...] = ()  #: Of a list its items, of keys each key and its value in turn.
     text: str = ""  #: Of a single value, quotes resolved.
 
-    def entry(self, name: str) -> tuple[WrittenValue, WrittenValue] | None:
+    def find_entry(self, name: str) -> tuple[WrittenValue, WrittenValue] | None:
         """Return a key and its value, if these are keys and it is among them."""
         if self.form not in {ValueForm.INDENTED, ValueForm.BRACES}:
             return None
@@ -71,11 +71,11 @@ class Written:
         first = next(event for event in events if not isinstance(event, starts))
         return cls(text, _find_extent(first, events, text), tuple(dashes), tuple(colons))
 
-    def dash_of(self, item: WrittenValue) -> int:
+    def find_dash_of(self, item: WrittenValue) -> int:
         """Return where the dash of an item stands."""
         return self._dashes[bisect_right(self._dashes, item.start) - 1]
 
-    def after_colon_of(self, key: WrittenValue) -> int:
+    def find_after_colon_of(self, key: WrittenValue) -> int:
         """Return the character after the colon of a key."""
         return self._colons[bisect_left(self._colons, key.end)] + 1
 
@@ -96,7 +96,7 @@ class Written:
         first = self.line_end(0)
         return self.break_at(first) if 0 < first < len(self.text) else "\n"
 
-    def before_break(self, index: int) -> int:
+    def find_break_before(self, index: int) -> int:
         """Return where the line break begins that ends before an index; the index if none does."""
         before = self.text[:index]
         for mark in ("\r\n", "\n", "\r"):
@@ -104,7 +104,7 @@ class Written:
                 return index - len(mark)
         return index
 
-    def column(self, index: int) -> int:
+    def find_column(self, index: int) -> int:
         """Return the column of a character, from 0."""
         return index - self.line_start(index)
 

@@ -56,7 +56,7 @@ def add_member(written: Written, outer: WrittenValue, listed: Sequence[ListMembe
         return insert(text, end, f", {piece}")
     comma = _find_comma_after(text, end, closing)
     line_end = written.line_end(end if comma is None else comma)
-    own_line = written.break_at(line_end) + " " * written.column(start) + piece
+    own_line = written.break_at(line_end) + " " * written.find_column(start) + piece
     if line_end > closing:  # the bracket closes in the line of the last member
         return insert(text, end, f",{own_line}")
     if comma is None:
@@ -139,8 +139,8 @@ class ListKey:
 
 def find_own_list(written: Written, where: ListKey) -> WrittenValue | None:
     """Return the list that a file holds itself; None if it holds none."""
-    group = written.root.entry(where.group)
-    listed = group[1].entry(where.key) if group else None
+    group = written.root.find_entry(where.group)
+    listed = group[1].find_entry(where.key) if group else None
     is_list = listed is not None and listed[1].form in {ValueForm.LINES, ValueForm.BRACKETS}
     return listed[1] if listed and is_list else None
 
@@ -154,7 +154,7 @@ def add_item(text: str, where: ListKey, item: Node) -> str:
         return add_member(written, listed, find_members(listed.parts), write_as_text(item, quote))
     last = listed.parts[-1]
     end = written.line_end(last.end)
-    indent = " " * written.column(written.dash_of(last))
+    indent = " " * written.find_column(written.find_dash_of(last))
     return insert(text, end, f"{written.break_at(end)}{indent}- {write_as_text(item, quote, in_lines=True)}")
 
 
@@ -176,23 +176,23 @@ def drop_item(text: str, where: ListKey, index: int) -> str:
     if listed.form is ValueForm.BRACKETS:
         return drop_member(written, listed, find_members(listed.parts), index)
     item = listed.parts[index]
-    dash = written.dash_of(item)
+    dash = written.find_dash_of(item)
     start = written.line_start(dash)
     if text[start:dash].strip():  # ``: - item``, after a key that is marked by ``?``
         raise UneditableError
     end = written.line_end(item.end)
     if end == len(text):
-        start = written.before_break(start)
+        start = written.find_break_before(start)
     else:
         end += len(written.break_at(end))
     shortened = text[:start] + text[end:]
     if len(listed.parts) > 1:
         return shortened
-    group = written.root.entry(where.group)
-    own = group[1].entry(where.key) if group else None
+    group = written.root.find_entry(where.group)
+    own = group[1].find_entry(where.key) if group else None
     if own is None or text.startswith("&", listed.start):
         raise UneditableError
-    return insert(shortened, written.after_colon_of(own[0]), " []")
+    return insert(shortened, written.find_after_colon_of(own[0]), " []")
 
 
 def add_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
@@ -202,20 +202,20 @@ def add_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
     quote = _quote_of(text, root.parts[0])
     bracketed = f"[{', '.join(write_as_text(item, quote) for item in items)}]"
     pair = f"{_quote(where.key, quote)}: {bracketed}"
-    group = root.entry(where.group)
+    group = root.find_entry(where.group)
     if group is None:
         if root.form is ValueForm.BRACES:
             pair = f"{_quote(where.group, quote)}: {{{pair}}}"
             return add_member(written, root, find_members(root.parts, 2), pair)
         return _add_last_key(written, where, items, quote)
-    listed = group[1].entry(where.key)
+    listed = group[1].find_entry(where.key)
     if listed is None and group[1].form is ValueForm.BRACES:
         return add_member(written, group[1], find_members(group[1].parts, 2), pair)
     if listed is None and group[1].form is ValueForm.INDENTED:
         return _add_last_key_of(written, group[1], where, items)
     in_braces = ValueForm.BRACES in {root.form, group[1].form}
     key, value = listed or group
-    indent = written.column(key.start) + _INDENT
+    indent = written.find_column(key.start) + _INDENT
     lines = [] if in_braces else _write_lines(items, indent, quote, key="" if listed else where.key)
     return _add_value(written, key, value, bracketed if listed else f"{{{pair}}}", lines)
 
@@ -232,7 +232,7 @@ def _add_value(
         return text[: value.start] + in_line + text[value.end :]
     if spelt:  # an anchor, to which the value belongs
         return insert(text, value.end, f" {in_line}")
-    colon = written.after_colon_of(key)
+    colon = written.find_after_colon_of(key)
     if not lines:
         return insert(text, colon, f" {in_line}")
     end = written.line_end(colon)
@@ -288,7 +288,7 @@ def _add_last_key_of(written: Written, group: WrittenValue, where: ListKey, item
         raise UneditableError
     end = written.line_end(last.end)
     lines = _write_lines(
-        items, written.column(group.parts[0].start), _quote_of(text, group.parts[0]), key=where.key
+        items, written.find_column(group.parts[0].start), _quote_of(text, group.parts[0]), key=where.key
     )
     return insert(text, end, "".join(f"{written.break_at(end)}{line}" for line in lines))
 
@@ -296,7 +296,7 @@ def _add_last_key_of(written: Written, group: WrittenValue, where: ListKey, item
 def _add_last_key(written: Written, where: ListKey, items: Sequence[Node], quote: str) -> str:
     """Return the text with the group of the list after all others."""
     text = written.text
-    column = written.column(written.root.parts[0].start)
+    column = written.find_column(written.root.parts[0].start)
     line_break = written.break_at(len(text))
     block = line_break.join(
         [

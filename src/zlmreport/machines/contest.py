@@ -182,7 +182,7 @@ def contest(
     contenders = []
     for index, (effect, kinds) in enumerate(best):
         value, form = float(named[index, 0]), kinds[0]
-        p_value = chance.p_value_of_effect(index, value)
+        p_value = chance.compute_p_value_of_effect(index, value)
         is_worth_it = value > max(_WORTH_REFINING * float(named[:, 0].max()), 0.0)
         for refined, share in (refine(effect, kind) for kind in kinds if is_worth_it):
             sharp = _weigh_refined(arenas, weight, refined, share - float(np.log(len(effects[index][1]))))
@@ -199,7 +199,7 @@ def contest(
         None if leading is None else nameless[leading].shape,
         -np.inf if leading is None else float(curves[leading, 0]),
         tuple(float(shares[1 + index]) for index in order),
-        chance.p_value(own),
+        chance.compute_p_value(own),
     )
 
 

@@ -196,7 +196,7 @@ class Bench:
             self._fits.move_to_end(key)
         if not is_known:
             try:
-                found.set_result(study.fitted())
+                found.set_result(study.fit_whole())
             except BaseException as error:
                 found.set_exception(error)
                 with self.lock:

@@ -108,7 +108,7 @@ def change(bench: Bench, request: Request) -> None:
         step = ACTIONS[request.action](bench, loaded, request)
         step.edit.write()
         after = bench.fit_whole(bench.load())
-        BenchJournal.beside(bench.path).append(
+        BenchJournal.of(bench.path).append(
             make_entry(
                 request.action,
                 step.subject,
@@ -228,15 +228,11 @@ def _is_value(value: float | str) -> bool:
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(
-        bench, loaded, find_undoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest)
-    )
+    return _put_back(bench, loaded, find_undoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
 
 
 def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(
-        bench, loaded, find_redoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest)
-    )
+    return _put_back(bench, loaded, find_redoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
 
 
 def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:

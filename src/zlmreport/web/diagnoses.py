@@ -225,7 +225,7 @@ def answer(bench: Bench, registry: Registry, told: Told = tell_nobody) -> dict[s
     try:
         loaded = bench.load()
         study = loaded.study
-        diagnosis = study.diagnosis(registry.effects, told)
+        diagnosis = study.diagnose(registry.effects, told)
         experiment = plan_experiment_of_tie(study, diagnosis, registry.effects)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}

@@ -55,7 +55,7 @@ class BenchJournal:
     path: Path  #: Of the record.
 
     @classmethod
-    def beside(cls, job: Path) -> BenchJournal:
+    def of(cls, job: Path) -> BenchJournal:
         """Return the record of a job: ``job.yaml`` has ``job.history.jsonl``."""
         return cls(job.with_suffix(SUFFIX))
 

@@ -43,7 +43,7 @@ def change_machine(bench: MachineBench, request: Request) -> None:
         subject = _ACTIONS[request.action](bench, loaded, request)
         after = _write_rms(bench, bench.load())
         changed = content, demand(bench.path, LARGEST)
-        BenchJournal.beside(bench.path).append(make_entry(request.action, subject, changed, (before, after)))
+        BenchJournal.of(bench.path).append(make_entry(request.action, subject, changed, (before, after)))
 
 
 def _add(bench: MachineBench, loaded: LoadedMachine, request: Request) -> str:
@@ -66,11 +66,11 @@ def _write(
 
 
 def _undo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_undoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest))
+    return _put_back(loaded, find_undoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
 
 
 def _redo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_redoable(BenchJournal.beside(bench.path).read_entries(), loaded.digest))
+    return _put_back(loaded, find_redoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
 
 
 def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:

@@ -71,7 +71,7 @@ class MachineView:
     def list_page(self) -> dict[str, Any]:
         """Return what is shown at once: tests with their graphs, effects, what was done."""
         loaded, machine, names = self.loaded, self.loaded.machine, self.names
-        entries = BenchJournal.beside(self.bench.path).read_entries()
+        entries = BenchJournal.of(self.bench.path).read_entries()
         back = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
         study = self.study
         compared = self.bench.compare(loaded, study)

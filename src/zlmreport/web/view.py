@@ -47,7 +47,7 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
     whole = bench.fit_whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     names = panels.naming
-    entries = BenchJournal.beside(bench.path).read_entries()
+    entries = BenchJournal.of(bench.path).read_entries()
     steps = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,

@@ -377,9 +377,11 @@ def collisions(of: Figure, language: Language = Language.ENGLISH) -> list[str]:
     width, height = measure_figure(of)
     dimensions = [text.box for text in canvas.texts_of(*DIMENSIONS)]
     around = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
-    found = [f"{a} overlaps {b}" for both in (dimensions, around) for a, b in pairs(both) if a.overlaps(b)]
+    found = [
+        f"{a} overlaps {b}" for both in (dimensions, around) for a, b in pairs(both) if a.is_overlapping(b)
+    ]
     values = [replace(box, top=box.top + 2) for box in (text.box for text in canvas.texts_of("tick y"))]
-    found += [f"{a} is close to {b}" for a, b in pairs(values) if a.overlaps(b)]
+    found += [f"{a} is close to {b}" for a, b in pairs(values) if a.is_overlapping(b)]
     for text in canvas.texts:
         box = text.box
         if box.left < 0 or box.bottom < 0 or box.right > width or box.top > height:

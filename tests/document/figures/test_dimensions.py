@@ -63,7 +63,7 @@ def test_the_columns_take_the_width_that_was_foretold() -> None:
 def test_labels_of_brackets_never_overlap(ends: list[tuple[float, float]]) -> None:
     placed = _columns(*(_span(min(pair), max(pair)) for pair in ends))
     boxes = [one.label.box for one in placed]
-    assert not [pair for pair in pairs(boxes) if pair[0].overlaps(pair[1])]
+    assert not [pair for pair in pairs(boxes) if pair[0].is_overlapping(pair[1])]
 
 
 def test_heads_between_ends_that_have_room_point_outwards() -> None:
@@ -98,7 +98,7 @@ def test_arrows_one_upon_the_other_share_their_place() -> None:
 @pytest.mark.parametrize("at", [5.0, 295.0])
 def test_an_arrow_at_the_edge_stays_inside(at: float) -> None:
     (one,) = _beside(_span(50.0, 100.0, at))
-    assert all(REGION.contains(box) for box in one.boxes)
+    assert all(REGION.has_inside(box) for box in one.boxes)
 
 
 def test_a_label_leaves_marks_alone() -> None:
@@ -130,7 +130,7 @@ def test_arrows_never_overlap(spans: list[tuple[float, float, float]]) -> None:
     placed = _beside(*(_span(min(low, high), max(low, high), at) for low, high, at in spans))
     for number, one in enumerate(placed):
         for other in placed[number + 1 :]:
-            assert not any(mine.overlaps(theirs) for mine in one.boxes for theirs in other.boxes)
+            assert not any(mine.is_overlapping(theirs) for mine in one.boxes for theirs in other.boxes)
 
 
 def test_heights_far_apart_stay() -> None:

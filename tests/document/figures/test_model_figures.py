@@ -263,6 +263,6 @@ def test_every_drawn_position_has_the_value_that_the_model_gives_there(length: f
     figure = estimate(ModelDiagram(found.fit, found.error))
     for curve, approach in zip(figure.panels[0].curves, Approach, strict=True):
         asked = place_at_positions(stretched, curve.x / 1e3, approach)
-        np.testing.assert_allclose(curve.y, MICROMETRE * found.fit.value_at(asked), atol=1e-6)
+        np.testing.assert_allclose(curve.y, MICROMETRE * found.fit.compute_value_at(asked), atol=1e-6)
     says_so = "the line shows how far they reach" in figure.title.in_language(Language.ENGLISH)
     assert says_so == (length == 3.0)

@@ -27,7 +27,7 @@ def _cells(table: Table, key: str) -> list[str]:
 
 def test_sections_are_the_same_in_both_languages(tmp_path: Path) -> None:
     effects = f"    - offset\n    - scale-error\n{LAST}"
-    fitted = study(written(tmp_path, (effects, "    - polynomial: {order: 3}\n"))).fitted()
+    fitted = study(written(tmp_path, (effects, "    - polynomial: {order: 3}\n"))).fit_whole()
     english, german = (fit_sections(fitted, each) for each in (ENGLISH, GERMAN))
     keys = ["error", "model", "polynomials"]
     assert [each.key for each in english] == [each.key for each in german] == keys
@@ -67,7 +67,7 @@ def test_each_parameter_has_its_value_and_its_uncertainty() -> None:
 def test_a_value_without_uncertainty_says_how_it_is_known(
     tmp_path: Path, stated: str, english: str, german: str
 ) -> None:
-    fit = study(written(tmp_path, (LAST, f"    - backlash: {{{stated}}}\n"))).fitted().fit
+    fit = study(written(tmp_path, (LAST, f"    - backlash: {{{stated}}}\n"))).fit_whole().fit
     for language, expected in ((ENGLISH, english), (GERMAN, german)):
         (row,) = [each for each in make_parameter_rows(fit, language) if each.effect == "backlash"]
         assert write_in_a_sentence(row, language) == expected

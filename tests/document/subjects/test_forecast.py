@@ -67,7 +67,7 @@ def test_a_model_fixed_in_position_is_taken_away_whole_by_a_table() -> None:
 def test_a_table_leaves_the_repeatability_that_drift_has_made(tmp_path: Path) -> None:
     path = written(tmp_path, ("    - backlash\n", "    - backlash\n    - thermal-drift\n"))
     warm = study(path)
-    history = warm.history()
+    history = warm.fit_history()
     (forecast,) = make_forecasts(pipeline.choose_standards(warm.job, registry()), warm, history)
     repeatability = 2
     assert forecast.quantities[repeatability].symbol == "R"

@@ -205,8 +205,8 @@ def _weigh_cost(
         + _COST_OFF_MIDDLE * is_off_middle
         + _COST_OF_LINE * on_lines
         + _COST_OF_MARK * on_marks
-        + _COST_OF_LEAVING * sum(not region.contains(box) for box in (line, label))
-        + _COST_OF_OVERLAP * sum(box.overlaps(other) for box in (line, label) for other in taken)
+        + _COST_OF_LEAVING * sum(not region.has_inside(box) for box in (line, label))
+        + _COST_OF_OVERLAP * sum(box.is_overlapping(other) for box in (line, label) for other in taken)
     )
 
 

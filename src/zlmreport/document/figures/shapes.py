@@ -133,7 +133,7 @@ class Box:
         left, bottom, right, top = self.left, self.bottom, self.right, self.top
         return (left, bottom), (right, bottom), (right, top), (left, top), (left, bottom)
 
-    def overlaps(self, other: Box) -> bool:
+    def is_overlapping(self, other: Box) -> bool:
         """Return whether the two share more than an edge."""
         return (
             self.left < other.right
@@ -142,7 +142,7 @@ class Box:
             and other.bottom < self.top
         )
 
-    def contains(self, other: Box) -> bool:
+    def has_inside(self, other: Box) -> bool:
         """Return whether the other lies inside."""
         return (
             self.left <= other.left

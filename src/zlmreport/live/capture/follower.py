@@ -194,7 +194,7 @@ class Follower:
         yield from self._follow_way(reading.time)
         yield from self._notice_freeze(before, reading)
         yield from self._finish_at_end(reading, zero)
-        if self._window.is_still and (self._stood_at is None or self._stands_anew(zero)):
+        if self._window.is_still and (self._stood_at is None or self._has_come_to_stand_anew(zero)):
             yield from self._name_standstill(zero)
         elif self._stay is not None and self._stood_at is not None and self._window.is_still:
             self._stay.keep(self._window, reading.time, self._settings.averaged)
@@ -302,7 +302,7 @@ class Follower:
             self._stay = None
         yield from self._ahead.follow(time, self._track, self.progress, self._window.duration)
 
-    def _stands_anew(self, zero: float) -> bool:
+    def _has_come_to_stand_anew(self, zero: float) -> bool:
         """Tell whether the axis, where it stays after a reading, has come to stand a little elsewhere."""
         if self._stay is None or self._stood_at is None:
             return False

@@ -133,13 +133,13 @@ class Programme:
         """Return the time from one visit to a later one, s."""
         return self._times[there] - (self._times[here] if here >= 0 else 0.0)
 
-    def begins_part(self, index: int) -> bool:
+    def is_first_of_part(self, index: int) -> bool:
         """Tell whether a part of the test begins with a visit."""
         return index == 0 or self.visits[index - 1].part != self.visits[index].part
 
     def look_back_to_beginning(self, index: int) -> tuple[int, Sequence[TurningPoint]]:
         """Return how many visits of its part come before one, and the turns from the part's beginning."""
         first = index
-        while not self.begins_part(first):
+        while not self.is_first_of_part(first):
             first -= 1
         return index - first, (TurningPoint(self._corner_before[first], None), *self.list_turns(first, index))

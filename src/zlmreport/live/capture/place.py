@@ -230,7 +230,7 @@ class PlaceInProgram:
         programme, here = self._programme, guess.place
         turns = route.turns[guess.turns :]
         is_seen = route.breaks == guess.breaks
-        jump = (_BEGUN_ANEW if programme.begins_part(index) else _ANYWHERE) - log(candidates)
+        jump = (_BEGUN_ANEW if programme.is_first_of_part(index) else _ANYWHERE) - log(candidates)
         if guess.is_told:
             return max(jump, self._weigh_from_rest(here, index, turns, route))
         if not is_seen:

@@ -269,7 +269,7 @@ def _compute_imitated(fitted: FittedModel) -> FloatArray:
     """Return what each parameter of the model does to the means at the targets, shape (p, 2, m)."""
     measurements = fitted.measurements
     columns = []
-    for column in fitted.fit.base(fitted.observed.design).T:
+    for column in fitted.fit.compute_base(fitted.observed.design).T:
         every = np.full(len(measurements.deviation), np.nan)
         every[fitted.observed.reading] = column
         columns.append(np.nan_to_num(_fill_in_both(_compute_means(measurements.arranged(every)))))

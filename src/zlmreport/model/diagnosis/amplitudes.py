@@ -44,7 +44,7 @@ class AmplitudeSearch:
     def _find_near(self, start: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes) -> Amplitudes:
         contest = self._contest
         now = tuple(min(level, most - 1) for level, most in zip(start, levels, strict=True))
-        best = contest.criterion(now, columns)
+        best = contest.compute_criterion(now, columns)
         irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
         smooth = [number for number in range(len(contest.parts)) if number not in irregular]
         for turn in range(_ROUNDS):
@@ -66,7 +66,7 @@ class AmplitudeSearch:
                 others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
                 for other in sorted(others - {level}):
                     if 0 <= other < levels[number]:
-                        criterion = contest.criterion(move_amplitude(now, number, other), columns)
+                        criterion = contest.compute_criterion(move_amplitude(now, number, other), columns)
                         if criterion < best - _NOTHING:
                             best, now = criterion, move_amplitude(now, number, other)
             if best > before - _SETTLED:

@@ -28,7 +28,7 @@ class _Table:
         self.values, self._filled = core, len(core)
         self._row = np.arange(len(core))  # of each column by its place; −1 of those that nobody asked for
 
-    def rows(self, places: IntArray, fill: Callable[[IntArray], FloatArray]) -> IntArray:
+    def find_rows(self, places: IntArray, fill: Callable[[IntArray], FloatArray]) -> IntArray:
         """Return the rows of some columns; `fill` makes those that are missing."""
         if len(places) and places.max() >= len(self._row):
             more = np.full(int(places.max()) + 1 + len(self._row), -1)
@@ -117,7 +117,7 @@ class Columns:
         self._core, self._kept = core, self._count
         self._plain = _Table(self._values[:core] @ self._values[: self._count].T)
 
-    def values(self, places: IntArray) -> FloatArray:
+    def select_columns(self, places: IntArray) -> FloatArray:
         """Return columns, shape (N, k)."""
         return self._values[places].T
 
@@ -125,26 +125,27 @@ class Columns:
         """Return ln|V| of the irregular shares alone, within the space of contrasts."""
         return self._of(ratios).log_determinant
 
-    def products(self, ratios: tuple[float, ...], one: IntArray, other: IntArray) -> FloatArray:
+    def multiply(self, ratios: tuple[float, ...], one: IntArray, other: IntArray) -> FloatArray:
         """Return products of columns under irregular shares, shape (k, l)."""
         known = self._of(ratios)
         if not (len(one) and len(other)):
             return np.empty((len(one), len(other)))
         if other.max() < self._core:
-            rows = known.near.rows(one, lambda missing: self._with_core(known, missing))
+            rows = known.near.find_rows(one, lambda missing: self._multiply_with_core(known, missing))
             return known.near.values[rows[:, np.newaxis], other]
         if one.max() < self._core:
-            return self.products(ratios, other, one).T
-        return self._between(known, one, other)
+            return self.multiply(ratios, other, one).T
+        return self._multiply_between(known, one, other)
 
-    def products_among(
+    def multiply_among(
         self, ratios: tuple[float, ...], first: IntArray, members: IntArray, last: IntArray
     ) -> FloatArray:
         """Return products of columns of the core, of a set and of the core again, among themselves."""
         known, begin, end = self._of(ratios), len(first), len(first) + len(members)
         together = np.concatenate([first, members, last])
         found = np.empty((len(together), len(together)))
-        rows = known.near.rows(together, lambda missing: self._with_core(known, missing))[:, np.newaxis]
+        rows = known.near.find_rows(together, lambda missing: self._multiply_with_core(known, missing))
+        rows = rows[:, np.newaxis]
         found[:, :begin] = known.near.values[rows, first]
         found[:, end:] = known.near.values[rows, last]
         found[:begin, begin:end] = found[begin:end, :begin].T
@@ -153,68 +154,68 @@ class Columns:
             # The same set is asked about again and again, each time beside other curves without a name.
             key = members.tobytes()
             if key not in known.among:
-                known.among[key] = self._between(known, members, members)
+                known.among[key] = self._multiply_between(known, members, members)
             found[begin:end, begin:end] = known.among[key]
         return found
 
-    def squares_of_core(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
+    def multiply_core_blocks(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
         """Return products of the columns of blocks of the core among themselves, shape (g, k, k)."""
         # The first rows of the table are those of the core.
         return self._of(ratios).near.values[blocks[:, :, np.newaxis], blocks[:, np.newaxis, :]]
 
-    def products_with_kept(self, ratios: tuple[float, ...], one: IntArray, kept: IntArray) -> FloatArray:
+    def multiply_with_kept(self, ratios: tuple[float, ...], one: IntArray, kept: IntArray) -> FloatArray:
         """Return the same products with many of the kept columns."""
         if not len(one):
             return np.empty((0, len(kept)))
         known = self._of(ratios)
-        rows = known.kept.rows(one, lambda missing: self._with_all_kept(known, missing))
+        rows = known.kept.find_rows(one, lambda missing: self._multiply_with_all_kept(known, missing))
         return known.kept.values[rows[:, np.newaxis], kept]
 
-    def products_with(self, ratios: tuple[float, ...], one: IntArray, held: Held) -> FloatArray:
+    def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: Held) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         known = self._of(ratios)
         turned = held.sums[:, known.active] @ known.kernel
         return np.asarray(self._values[one] @ held.contrasts - self._sums[one, known.active] @ turned.T)
 
-    def squares(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
+    def multiply_kept_blocks(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
         """Return products of the columns of each of some kept blocks among themselves, shape (g, k, k)."""
         known, key = self._of(ratios), blocks.tobytes()
         if key not in known.squares:
             flat = blocks.ravel()
-            known.squares[key] = self._within(
-                known, Held(self.values(flat), self._sums[flat]), blocks.shape[1]
+            known.squares[key] = self._multiply_within(
+                known, Held(self.select_columns(flat), self._sums[flat]), blocks.shape[1]
             )
         return known.squares[key]
 
-    def squares_of(self, ratios: tuple[float, ...], held: Held, width: int) -> FloatArray:
+    def multiply_held_blocks(self, ratios: tuple[float, ...], held: Held, width: int) -> FloatArray:
         """Return the same of contrasts that are not in the table, so many in a block."""
-        return self._within(self._of(ratios), held, width)
+        return self._multiply_within(self._of(ratios), held, width)
 
     def _sum(self, contrasts: FloatArray) -> FloatArray:
         """Return products of contrasts, (N, k), with the irregular factors, shape (k, r)."""
         # Contrasts are at right angles to the model: the factors themselves do for their contrasts.
-        sums = self._factors.sums(self.space.single.transposed(contrasts))
+        sums = self._factors.sum_by_target(self.space.single.apply_transposed(contrasts))
         return sums.transpose(2, 1, 0).reshape(contrasts.shape[1], len(self._gram))
 
-    def _within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
+    def _multiply_within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
         rows = np.ascontiguousarray(held.contrasts.T).reshape(-1, width, len(held.contrasts))
         sums = held.sums[:, known.active]
         turned = (sums @ known.kernel).reshape(len(rows), width, -1)
         sums = sums.reshape(turned.shape)
         return np.asarray(rows @ rows.transpose(0, 2, 1) - sums @ turned.transpose(0, 2, 1))
 
-    def _with_core(self, known: _Eliminated, places: IntArray) -> FloatArray:
+    def _multiply_with_core(self, known: _Eliminated, places: IntArray) -> FloatArray:
         core = slice(0, self._core)
         less = (self._sums[places, known.active] @ known.kernel) @ self._sums[core, known.active].T
         return np.asarray(self._values[places] @ self._values[core].T - less)
 
-    def _with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
+    def _multiply_with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
         kept = slice(0, self._kept)
-        rows = self._plain.rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
+        rows = self._plain.find_rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
         less = (self._sums[places, known.active] @ known.kernel) @ self._sums[kept, known.active].T
         return np.asarray(self._plain.values[rows] - less)
 
-    def _between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
+    def _multiply_between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
         less = (self._sums[one, known.active] @ known.kernel) @ self._sums[other, known.active].T
         return np.asarray(self._values[one] @ self._values[other].T - less)
 
@@ -241,5 +242,5 @@ class Columns:
             _Table(np.empty((0, self._core))),
             _Table(np.empty((0, self._kept))),
         )
-        known.near.rows(np.arange(self._core), lambda missing: self._with_core(known, missing))
+        known.near.find_rows(np.arange(self._core), lambda missing: self._multiply_with_core(known, missing))
         return known

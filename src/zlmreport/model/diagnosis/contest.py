@@ -173,7 +173,7 @@ class Contest(Likelihood):
         """Return families of one width, their blocks below one another."""
         own = [self.families[each] for each in members]
         sizes = np.array([len(each.blocks) for each in own])
-        squares = [self.expected.square(each.identifier) for each in own]
+        squares = [self.expected.find_square(each.identifier) for each in own]
         return Group(
             np.array(members),
             np.concatenate([each.blocks for each in own]),
@@ -193,10 +193,10 @@ class Contest(Likelihood):
         `taken`, (p, B): The deviations in the coordinates of the set.
         """
         flat = group.places.ravel()
-        coordinates = reduced.coordinates(
-            self.columns.products_with_kept(reduced.ratios, reduced.places, flat)
+        coordinates = reduced.compute_coordinates(
+            self.columns.multiply_with_kept(reduced.ratios, reduced.places, flat)
         )
-        gram = take_from(self.columns.squares(reduced.ratios, group.places), coordinates)
+        gram = take_from(self.columns.multiply_kept_blocks(reduced.ratios, group.places), coordinates)
         left = response - coordinates.T @ taken
         return solve_blocks(gram, left.reshape(*group.places.shape, -1))
 
@@ -206,16 +206,20 @@ class Contest(Likelihood):
         """Return what every family would add to a set; or only some, by their numbers."""
         place = place_of(amplitudes, members), None if only is None else tuple(only)
         if place not in self._scans:
-            self._scans[place] = self._scan(self.reduced(amplitudes, members), self.group_by_width(place[1]))
+            self._scans[place] = self._scan(
+                self.reduce_set(amplitudes, members), self.group_by_width(place[1])
+            )
         return self._scans[place]
 
     def _scan(self, reduced: Reduced, groups: Iterable[Group]) -> Scan:
         count = len(self.families)
         scan = Scan(np.full(count, np.inf), np.zeros(count, dtype=np.int64), np.zeros(count))
         for group in groups:
-            response = self.columns.products_with_kept(reduced.ratios, self.response, group.places.ravel())
+            response = self.columns.multiply_with_kept(reduced.ratios, self.response, group.places.ravel())
             explained, ranks = self.explain_group(reduced, group, response.T, reduced.taken[:, np.newaxis])
-            added = self.added(reduced.squares, explained[:, 0] * self.squares, ranks, group.squares)
+            added = self.compute_criterion_of_blocks(
+                reduced.squares, explained[:, 0] * self.squares, ranks, group.squares
+            )
             least = np.minimum.reduceat(added, group.starts)
             above = added - np.repeat(least, group.sizes)
             spread = -2.0 * np.log(np.add.reduceat(np.exp(group.log_weights - 0.5 * above), group.starts))
@@ -227,17 +231,17 @@ class Contest(Likelihood):
             scan.best[group.families[owner[::-1]]] = (first - group.starts[owner])[::-1]
         return scan
 
-    def added(
+    def compute_criterion_of_blocks(
         self, squares: FloatArray | float, explained: FloatArray, ranks: FloatArray, square: FloatArray
     ) -> FloatArray:
         """Return the criterion of blocks against none, their coefficients averaged over."""
         priors, costs = self._list_priors(square)
         left = squares - explained * (priors / (1.0 + priors))
         left = np.maximum(left, ROUNDING * self.squares + self.known)
-        gained = self.logarithm(left) - self.logarithm(squares)
+        gained = self.compute_logarithm(left) - self.compute_logarithm(squares)
         return average_likelihoods(gained + ranks * np.log1p(priors) + costs, 0)
 
-    def worth(self, explained: float, rank: int, square: float) -> float:
+    def weigh_block(self, explained: float, rank: int, square: float) -> float:
         """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
         priors, costs = self._list_priors(square)
         return float(average_likelihoods(explained / (1.0 + priors) + rank * np.log1p(priors) + costs, 0))

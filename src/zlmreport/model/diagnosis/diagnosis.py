@@ -125,7 +125,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
     asked = _Asked(model, observed, effects, assumptions, expected, may_go)
     aside = find_outliers(observed.design, observed.deviation)
     held = _hold_data(asked, aside, lambda share: told(0.5 * share))
-    judged = held.judged()
+    judged = held.find_outliers_of_all()
     if not np.array_equal(judged.readings, aside.readings) and not held.is_quiet:
         # What the leading model explains is no blunder, and what it leaves far off is one.
         aside, held = judged, _hold_data(asked, judged, lambda share: told(0.5 + 0.5 * share))
@@ -162,10 +162,10 @@ class _Held:
         """Whether nothing was found."""
         return self.complete is self.fit and self.left is None
 
-    def judged(self) -> Outliers:
+    def find_outliers_of_all(self) -> Outliers:
         """Return the readings that stand off from what the complete model says of all of them."""
         design = self.observed.design
-        return find_outliers(design, self.observed.deviation - self.complete.value_at(design))
+        return find_outliers(design, self.observed.deviation - self.complete.compute_value_at(design))
 
 
 def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:

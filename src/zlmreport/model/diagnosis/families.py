@@ -157,7 +157,7 @@ def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[
             continue
         imitated = 0.0
         for each in as_free:
-            products = columns.values(each.blocks.ravel()).T @ blocks[:, 0]
+            products = columns.select_columns(each.blocks.ravel()).T @ blocks[:, 0]
             squares = np.sum(products**2, axis=1).reshape(each.blocks.shape).sum(axis=1)
             imitated = max(imitated, float(squares.max()) / blocks.shape[2])
         known += imitated > _THE_SAME

@@ -194,7 +194,7 @@ def find_lagging_sensors(
     # A lag turns a log into another: only one with which nothing is left is worth a word.
     enough = _NEARLY_NOISE * readings * floor**2
     moments = len(np.unique(design.time))
-    base, least = fitted.base(), min(float(np.sum(each.residual**2)) for each in rivals)
+    base, least = fitted.compute_base(), min(float(np.sum(each.residual**2)) for each in rivals)
     found: list[tuple[float, str, float]] = []
     for name in design.conditions:
         if not name.endswith("temperature") or moments < _FEWEST_STUCK:

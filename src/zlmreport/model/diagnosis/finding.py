@@ -180,7 +180,7 @@ class _Stated:
 
     @property
     def base(self) -> FloatArray:
-        return self.fitted.base(without=self.may_go)
+        return self.fitted.compute_base(without=self.may_go)
 
     def contest(self, memory: float) -> Contest:
         """Return the contest of all, if readings are forgotten after a time."""
@@ -209,7 +209,7 @@ class _Stated:
             known=self.known,
             expected=self.expected,
         )
-        return SetSearch(contest).alone().score
+        return SetSearch(contest).make_bare_set().score
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,24 +226,24 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     search = SetSearch(contest)
     pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
     start = search.as_noise(
-        search.members_of(
+        search.make_members_of(
             [(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go]
         )
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
     deviations = fitted.open_deviation[:, np.newaxis]
     observed = Trials(contest, start.amplitudes, start.columns, deviations, stated.known)
-    p_value = null.p_value(Scores(observed.ratios, observed.nameless))
-    reduced = contest.reduced(start.amplitudes, start.columns)
+    p_value = null.compute_p_value(Scores(observed.ratios, observed.nameless))
+    reduced = contest.reduce_set(start.amplitudes, start.columns)
     sigma = float(np.sqrt(reduced.squares / contest.space.degrees))
-    noise = Noise(sigma, contest.ratios_of(start.amplitudes), fitted.noise.weights)
+    noise = Noise(sigma, contest.list_noise_ratios(start.amplitudes), fitted.noise.weights)
     visible = judge_visibility(contest, null, reduced, sigma)
     told(0.2)
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
-    found = search.found(start.members, lambda share: told(0.2 + 0.6 * share))
-    found = search.renumbered(_believe_set(search, found))
+    found = search.find_best(start.members, lambda share: told(0.2 + 0.6 * share))
+    found = search.renumber(_believe_set(search, found))
     named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
@@ -301,7 +301,7 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
     needed = NAMED_BESIDE if is_named and is_noise else NAMED
     if 0.0 < lost < needed and is_named:
         # Each must be better than nothing by itself: many that are not make no cause together.
-        rivals = search.rivals(found, rest, lost)
+        rivals = search.list_rivals(found, rest, lost)
         lost += 2.0 * float(
             np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
         )
@@ -319,25 +319,27 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
         if not each.family.is_named:
             continue
         names = {find_installed_name(each.effect)}
-        evidence = search.evidence_of(found, names)
+        evidence = search.compute_evidence_of(found, names)
         if evidence < TOLD_APART:
-            rivals = search.rivals(found, search.without(found, number), TOLD_APART)
+            rivals = search.list_rivals(found, search.without(found, number), TOLD_APART)
             names |= {find_installed_name(rival.members[-1].effect) for rival in rivals}
-            evidence = search.evidence_of(found, names)
+            evidence = search.compute_evidence_of(found, names)
         if evidence >= TOLD_APART:
             kept.append(each)
-    return found if len(kept) == len(found.named) else search.holding(found, kept)
+    return found if len(kept) == len(found.named) else search.find_best_holding(found, kept)
 
 
 def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     """Return the named members of a set, always the one next that takes most of what is left."""
-    values = contest.columns.values
+    values = contest.columns.select_columns
     open_ = [number for number, each in enumerate(found.members) if each.family.is_named]
     chosen: list[int] = []
     while open_:
-        reduced = contest.reduced(contest.quiet, [found.members[each].columns for each in chosen])
+        reduced = contest.reduce_set(contest.quiet, [found.members[each].columns for each in chosen])
         explained = {
-            each: float(contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis])[0])
+            each: float(
+                contest.explain_blocks(reduced, values(found.members[each].columns)[:, np.newaxis])[0]
+            )
             for each in open_
         }
         chosen.append(max(open_, key=explained.__getitem__))
@@ -366,7 +368,7 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
     """
     rest = search.without(found, number)
     member = found.members[number]
-    sets = [found, *search.rivals(found, rest, _BEHIND)]
+    sets = [found, *search.list_rivals(found, rest, _BEHIND)]
     scores = np.array([rest.score, *(each.score for each in sets)])
     weights = np.exp(-0.5 * (scores - scores.min()))
     members = [member, *(each.members[-1] for each in sets[1:])]
@@ -427,7 +429,7 @@ def _count_assumptions(effect: Effect, design: Design) -> int:
 
 def _list_others(search: SetSearch, found: EffectSet) -> Iterator[StandIn]:
     """Yield the effects that explain most beside what has no name, where none has evidence of its own."""
-    tried = search.ahead(found)
+    tried = search.look_ahead(found)
     names = [each.members[-1].identifier for each in tried]
     chances = compute_chances_of(search.contest, found.amplitudes, found.columns, names) if names else {}
     for name, each in zip(names, tried, strict=True):

@@ -150,7 +150,7 @@ class UnnamedForm(FormulaEffect):
         """Return the values that are tried."""
         return self.starts
 
-    def named(self, theta: FloatArray) -> dict[str, float]:
+    def list_searched_values(self, theta: FloatArray) -> dict[str, float]:
         """Return the values of what is searched, by name."""
         return {
             each.name: value
@@ -158,9 +158,9 @@ class UnnamedForm(FormulaEffect):
             if each.name in self.form.searched
         }
 
-    def proposed(self, theta: FloatArray, design: Design) -> FormulaKeys:
+    def propose_formula(self, theta: FloatArray, design: Design) -> FormulaKeys:
         """Return its formula with ranges around the values that were found, named after its place."""
-        named = self.named(theta)
+        named = self.list_searched_values(theta)
         scale = 1.0 if self.carrier in IN_TIME else design.axis.position_unit.per_si
         width = named.get("w", named.get("L", float(np.ptp(self.along)) / 4))
         ranges = {
@@ -176,10 +176,10 @@ class UnnamedForm(FormulaEffect):
             None if marked is None else marked * scale,
         )
 
-    def extent(self, theta: FloatArray) -> tuple[float, float]:
+    def find_extent(self, theta: FloatArray) -> tuple[float, float]:
         """Return where it begins and ends, within what was measured, SI."""
         first, last = float(self.along[0]), float(self.along[-1])
-        named = self.named(theta)
+        named = self.list_searched_values(theta)
         if self.form in (BUMP, PLATEAU):
             half = named["w"] / 2
             return max(first, named["c"] - half), min(last, named["c"] + half)

@@ -45,7 +45,7 @@ class Reduced:
     taken: FloatArray  #: The deviations in the coordinates of V and the set.
     squares: float  #: Their residual sum of squares.
 
-    def coordinates(self, products: FloatArray) -> FloatArray:
+    def compute_coordinates(self, products: FloatArray) -> FloatArray:
         """Return what V and the set take away of columns, from their products with `places`."""
         inner = self.root @ products[: len(self.root)]
         outer = self.set_root @ (products[len(self.root) :] - self.crossed.T @ inner)
@@ -87,14 +87,14 @@ class Likelihood:
         """Every part at nothing."""
         return tuple(0 for _ in self.parts)
 
-    def nearest(self, ratios: Mapping[NoiseSource, float]) -> Amplitudes:
+    def find_nearest_amplitudes(self, ratios: Mapping[NoiseSource, float]) -> Amplitudes:
         """Return the amplitudes that are nearest to φ of the sources of noise, all else at nothing."""
         return tuple(
             int(np.argmin(np.abs(np.array(part.levels) - ratios.get(part.source, 0.0)))) if part.source else 0
             for part in self.parts
         )
 
-    def middling(self) -> Iterator[Amplitudes]:
+    def list_middling_amplitudes(self) -> Iterator[Amplitudes]:
         """Yield amplitudes that noise may have: nothing, of each source a middling one, of all together."""
         middle = [part.noise_levels // 2 if part.source else 0 for part in self.parts]
         yield self.quiet
@@ -103,18 +103,18 @@ class Likelihood:
                 yield (*self.quiet[:number], level, *self.quiet[number + 1 :])
         yield tuple(middle)
 
-    def ratios_of(self, amplitudes: Amplitudes) -> dict[NoiseSource, float]:
+    def list_noise_ratios(self, amplitudes: Amplitudes) -> dict[NoiseSource, float]:
         """Return φ of the sources of noise."""
         pairs = zip(self.parts, amplitudes, strict=True)
         return {part.source: part.levels[level] for part, level in pairs if part.source}
 
-    def factors(self, amplitudes: Amplitudes) -> Iterator[FloatArray]:
+    def list_factors(self, amplitudes: Amplitudes) -> Iterator[FloatArray]:
         """Yield the factors of the parts under amplitudes, for readings as they stand, (N, k) each."""
         noise = {part.source: part.factor for part in self.space.parts}
         for part, level in zip(self.parts, amplitudes, strict=True):
             if level:
                 own = noise.get(part.source) if part.source else None
-                contrasts = self.space.single.coloured(self.columns.values(part.columns))
+                contrasts = self.space.single.undo_whitening(self.columns.select_columns(part.columns))
                 yield np.sqrt(part.levels[level]) * (contrasts if own is None else own)
 
     def as_noise(self, amplitudes: Amplitudes) -> Amplitudes:
@@ -123,7 +123,7 @@ class Likelihood:
             min(level, part.noise_levels - 1) for level, part in zip(amplitudes, self.parts, strict=True)
         )
 
-    def _active(self, amplitudes: Amplitudes) -> _Active:
+    def _find_active(self, amplitudes: Amplitudes) -> _Active:
         """Return the parts under amplitudes; the same ones are asked about with many a set."""
         if amplitudes in self._known:
             return self._known[amplitudes]
@@ -140,17 +140,17 @@ class Likelihood:
         self._known[amplitudes] = found
         return found
 
-    def reduced(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
+    def reduce_set(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         """Return a set of columns under amplitudes."""
         place = place_of(amplitudes, members)
         if place not in self._reduced:
-            self._reduced[place] = self._reduce(amplitudes, members)
+            self._reduced[place] = self._reduce_set(amplitudes, members)
         return self._reduced[place]
 
-    def _reduce(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
-        active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
+    def _reduce_set(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
+        active, own = self._find_active(amplitudes), np.concatenate([self.response[:0], *members])
         count, root = len(active.places), active.roots
-        products = self.columns.products_among(active.ratios, active.places, own, self.response)
+        products = self.columns.multiply_among(active.ratios, active.places, own, self.response)
         inner = root[:, np.newaxis] * products[:count, :count] * root
         factor = np.linalg.cholesky(np.eye(count) + inner)
         own_root = np.linalg.inv(factor) * root
@@ -169,7 +169,7 @@ class Likelihood:
             max(float(left[-1, -1] - taken @ taken), ROUNDING) * self.squares + self.known,
         )
 
-    def criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
+    def compute_criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         """Return −2·ln of the restricted likelihood times the prior odds of the amplitudes."""
         place = place_of(amplitudes, members)
         if place not in self._criteria:
@@ -177,10 +177,10 @@ class Likelihood:
         return self._criteria[place]
 
     def _compute_criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
-        active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
+        active, own = self._find_active(amplitudes), np.concatenate([self.response[:0], *members])
         count, key = len(active.places), active.ratios
         # The pivots of one factor tell all: those of the parts ln|V|, the last what is left of the readings.
-        bordered = self.columns.products_among(key, active.places, own, self.response)
+        bordered = self.columns.multiply_among(key, active.places, own, self.response)
         bordered[:count] *= active.roots[:, np.newaxis]
         bordered[:, :count] *= active.roots
         diagonal = np.arange(len(bordered))
@@ -195,9 +195,11 @@ class Likelihood:
             squares = float(pivots[-1]) ** 2 * self.squares + self.known
             determinant = self.columns.log_determinant(key) + 2.0 * float(np.log(pivots[:count]).sum())
         else:  # columns of the set depend on each other
-            reduced = self.reduced(amplitudes, members)
+            reduced = self.reduce_set(amplitudes, members)
             squares, determinant = reduced.squares, reduced.log_determinant
-        return float(self.logarithm(squares) + determinant + self.space.single.log_determinant + active.costs)
+        return float(
+            self.compute_logarithm(squares) + determinant + self.space.single.log_determinant + active.costs
+        )
 
     def by_level(
         self, amplitudes: Amplitudes, members: Sequence[IntArray], numbers: Sequence[int]
@@ -216,21 +218,21 @@ class Likelihood:
         self, base: Amplitudes, members: Sequence[IntArray], numbers: Sequence[int]
     ) -> list[FloatArray]:
         """Return the same, all these parts being at nothing in `base`."""
-        reduced = self.reduced(base, members)
+        reduced = self.reduce_set(base, members)
         alike: dict[tuple[int, int], list[int]] = {}
         for number in numbers:
             alike.setdefault((self.parts[number].width, len(self.parts[number].levels)), []).append(number)
-        beside = reduced.log_determinant + self.space.single.log_determinant + self._active(base).costs
+        beside = reduced.log_determinant + self.space.single.log_determinant + self._find_active(base).costs
         found: dict[int, FloatArray] = {}
         for group in alike.values():
             flat = np.concatenate([self.parts[number].columns for number in group])
-            response = self.columns.products(reduced.ratios, flat, self.response)
+            response = self.columns.multiply(reduced.ratios, flat, self.response)
             away, spread = self.take_parts(reduced, group, response, reduced.taken[:, np.newaxis])
             left = np.maximum(
                 reduced.squares - away[:, :, 0] * self.squares, ROUNDING * self.squares + self.known
             )
             costs = np.array([self.parts[number].costs for number in group])
-            criteria = self.logarithm(left) + spread + beside + costs - costs[:, :1]
+            criteria = self.compute_logarithm(left) + spread + beside + costs - costs[:, :1]
             found.update(zip(group, criteria, strict=True))
         return [found[number] for number in numbers]
 
@@ -256,12 +258,12 @@ class Likelihood:
             By how much each raises ln|V|.
         """
         blocks = np.stack([self.parts[number].columns for number in numbers])
-        products = self.columns.products(reduced.ratios, reduced.places, blocks.ravel())
-        coordinates = reduced.coordinates(products)
+        products = self.columns.multiply(reduced.ratios, reduced.places, blocks.ravel())
+        coordinates = reduced.compute_coordinates(products)
         shape = (-1, *blocks.shape)
         inner = coordinates[: len(reduced.root)].reshape(shape).transpose(1, 2, 0)
         outer = coordinates[len(reduced.root) :].reshape(shape).transpose(1, 2, 0)
-        gram = self.columns.squares_of_core(reduced.ratios, blocks) - inner @ inner.transpose(0, 2, 1)
+        gram = self.columns.multiply_core_blocks(reduced.ratios, blocks) - inner @ inner.transpose(0, 2, 1)
         strengths, vectors = np.linalg.eigh(gram - outer @ outer.transpose(0, 2, 1))
         left = (response - coordinates.T @ taken).reshape(*blocks.shape, -1)
         levels = np.array([self.parts[number].levels for number in numbers])[:, :, np.newaxis]
@@ -269,28 +271,28 @@ class Likelihood:
         spread = np.log1p(levels * np.maximum(np.linalg.eigvalsh(gram), 0.0)[:, np.newaxis]).sum(axis=2)
         return shares @ (vectors.transpose(0, 2, 1) @ left) ** 2, spread
 
-    def logarithm(self, squares: FloatArray | float) -> FloatArray:
+    def compute_logarithm(self, squares: FloatArray | float) -> FloatArray:
         """Return −2·ln of the likelihood that residual sums of squares have, σ profiled out."""
         return np.asarray(self.space.degrees * np.log(np.maximum(squares, NOTHING)))
 
-    def explained(self, reduced: Reduced, blocks: FloatArray) -> FloatArray:
+    def explain_blocks(self, reduced: Reduced, blocks: FloatArray) -> FloatArray:
         """Return what blocks of contrasts (N, g, k) explain of the squares beside a set, shape (g,)."""
         held = self.columns.hold(blocks.reshape(len(blocks), -1))
         both = np.concatenate([reduced.places, self.response])
-        products = self.columns.products_with(reduced.ratios, both, held)
-        coordinates = reduced.coordinates(products[:-1])
-        own = self.columns.squares_of(reduced.ratios, held, blocks.shape[2])
+        products = self.columns.multiply_with(reduced.ratios, both, held)
+        coordinates = reduced.compute_coordinates(products[:-1])
+        own = self.columns.multiply_held_blocks(reduced.ratios, held, blocks.shape[2])
         left = (products[-1] - reduced.taken @ coordinates) * np.sqrt(self.squares)
         return solve_blocks(take_from(own, coordinates), left.reshape(*own.shape[:2], 1))[0][:, 0]
 
-    def coordinates_of(self, reduced: Reduced, held: Held) -> FloatArray:
+    def compute_coordinates_of(self, reduced: Reduced, held: Held) -> FloatArray:
         """Return contrasts that are not in the table in the coordinates of a set, shape (p, B)."""
-        return reduced.coordinates(self.columns.products_with(reduced.ratios, reduced.places, held))
+        return reduced.compute_coordinates(self.columns.multiply_with(reduced.ratios, reduced.places, held))
 
-    def squares_beside(self, reduced: Reduced, held: Held) -> FloatArray:
+    def compute_squares_beside(self, reduced: Reduced, held: Held) -> FloatArray:
         """Return what V and a set leave of the squares of contrasts that are not in the table, (B,)."""
-        taken = self.coordinates_of(reduced, held)
-        whole = self.columns.squares_of(reduced.ratios, held, 1)[:, 0, 0]
+        taken = self.compute_coordinates_of(reduced, held)
+        whole = self.columns.multiply_held_blocks(reduced.ratios, held, 1)[:, 0, 0]
         return np.asarray(whole - np.sum(taken**2, axis=0))
 
 

@@ -146,7 +146,7 @@ def _compute_noise_costs(noise: NoisePart, expected: PriorExpectation) -> tuple[
     something besides is the rarer the larger it is: else it would follow whatever a curve without a name
     leaves of a cause.
     """
-    costs = expected.costs(noise.source, noise.ratios)
+    costs = expected.compute_costs(noise.source, noise.ratios)
     if noise.source is NoiseSource.POSITION or noise.source in expected.ratios:
         return costs
     return tuple(cost + _RARER * level for level, cost in enumerate(costs))

@@ -55,7 +55,7 @@ class NullDistribution:
     usual_of_nameless: FloatArray
     threshold: float  #: T, the 95 % point of the largest excess over these, of all by_effect.
 
-    def excess(self, scores: Scores) -> FloatArray:
+    def compute_excess(self, scores: Scores) -> FloatArray:
         """Return M, the largest excess of any candidate over what it usually reaches, shape (B,)."""
         together = np.concatenate(
             [
@@ -65,12 +65,12 @@ class NullDistribution:
         )
         return np.asarray(together.max(axis=0, initial=-np.inf), dtype=np.float64)
 
-    def p_value(self, scores: Scores) -> PValue:
+    def compute_p_value(self, scores: Scores) -> PValue:
         """Return the chance of such an excess of any candidate: that of a false alarm."""
-        excess = float(self.excess(scores)[0])
-        return _compute_p_value(excess, self.excess(Scores(self.ratios, self.nameless_ratios)))
+        excess = float(self.compute_excess(scores)[0])
+        return _compute_p_value(excess, self.compute_excess(Scores(self.ratios, self.nameless_ratios)))
 
-    def p_value_of_effect(self, index: int, ratio: float) -> PValue:
+    def compute_p_value_of_effect(self, index: int, ratio: float) -> PValue:
         """Return the chance of such a likelihood ratio of one effect, its own search allowed for."""
         return _compute_p_value(ratio, self.ratios[index])
 
@@ -87,7 +87,7 @@ def simulate_null(
     usual = np.quantile(trials.ratios, 1 - LEVEL, axis=1)
     usual_of_nameless = np.quantile(trials.nameless, 1 - LEVEL, axis=1)
     blank = NullDistribution(trials.ratios, trials.nameless, usual, usual_of_nameless, np.inf)
-    threshold = float(np.quantile(blank.excess(Scores(trials.ratios, trials.nameless)), 1 - LEVEL))
+    threshold = float(np.quantile(blank.compute_excess(Scores(trials.ratios, trials.nameless)), 1 - LEVEL))
     return NullDistribution(trials.ratios, trials.nameless, usual, usual_of_nameless, threshold)
 
 
@@ -101,7 +101,7 @@ def compute_chances_of(
     asked = frozenset(effects)
     names = [each for each in contest.identifiers if each in asked]
     deviations = np.column_stack([contest.deviation, _simulate(contest, amplitudes)])
-    ratios = Trials(contest, amplitudes, members, deviations).ratios_of(names)
+    ratios = Trials(contest, amplitudes, members, deviations).compute_ratios_of(names)
     return {name: _compute_p_value(float(own[0]), own[1:]) for name, own in zip(names, ratios, strict=True)}
 
 
@@ -115,8 +115,8 @@ def _simulate(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
     for array in (design.position, design.direction, design.run, design.time, np.array(amplitudes)):
         content.update(np.ascontiguousarray(array).tobytes())
     random = np.random.default_rng(int.from_bytes(content.digest()[:16], "big"))
-    found = space.single.coloured(random.standard_normal((len(design.position), TRIALS)))
-    for factor in contest.factors(amplitudes):
+    found = space.single.undo_whitening(random.standard_normal((len(design.position), TRIALS)))
+    for factor in contest.list_factors(amplitudes):
         found += factor @ random.standard_normal((factor.shape[1], TRIALS))
     return found
 

@@ -41,8 +41,8 @@ def jump_along_grids(
         is_other = scan.criterion[best] < scan.criterion[own] - _CLEAR_GAIN
         chosen = best if is_other else own
         family, block = contest.families[chosen], int(scan.best[chosen])
-        moved = contest.criterion(amplitudes, [*rest, family.blocks[block]])
-        if is_other or moved < contest.criterion(amplitudes, [*rest, member.columns]) - _JUMP:
+        moved = contest.compute_criterion(amplitudes, [*rest, family.blocks[block]])
+        if is_other or moved < contest.compute_criterion(amplitudes, [*rest, member.columns]) - _JUMP:
             found[number] = SetMember(
                 family, family.thetas[block], family.blocks[block], int(family.ranks[block])
             )
@@ -65,11 +65,13 @@ def refine_member(
     places = [(column, values) for column, values in places if len(values) > 1]
     if not places:
         return member
-    rest = contest.reduced(
+    rest = contest.reduce_set(
         amplitudes, [each.columns for place, each in enumerate(members) if place != number]
     )
     theta = member.theta.copy()
-    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis])[0])
+    most = float(
+        contest.explain_blocks(rest, contest.columns.select_columns(member.columns)[:, np.newaxis])[0]
+    )
     best: tuple[FloatArray, int] | None = None
     steps = {}
     for column, values in places:
@@ -84,7 +86,7 @@ def refine_member(
             )
             if not len(seen):
                 break
-            explained = contest.explained(rest, blocks)
+            explained = contest.explain_blocks(rest, blocks)
             leading = int(np.argmax(explained))
             if explained[leading] > most:
                 most, theta = float(explained[leading]), tried[seen[leading]]
@@ -108,10 +110,10 @@ def _find_tangents(
 ) -> IntArray | None:
     """Return the places of what small shifts of a member's searched parameters change."""
     member = members[number]
-    reduced = contest.reduced(amplitudes, [each.columns for each in members])
+    reduced = contest.reduce_set(amplitudes, [each.columns for each in members])
     solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :]
     first = sum(len(each.columns) for each in members[:number])
-    own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
+    own = contest.columns.select_columns(member.columns) @ solved[first : first + len(member.columns)]
     effect, design = member.effect, contest.design
     gamma = np.linalg.lstsq(contest.space.of(effect.columns(design, member.theta)), own, rcond=1e-9)[0]
     found = []

@@ -116,7 +116,9 @@ def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArra
     """Return what leaves of a curve only that which neither the model nor a set can do as well."""
     design = fitted.design
     columns = [each.effect.columns(design, each.theta) for each in found.named]
-    basis, strengths, _ = np.linalg.svd(_scale_to_one_length([fitted.base(), *columns]), full_matrices=False)
+    basis, strengths, _ = np.linalg.svd(
+        _scale_to_one_length([fitted.compute_base(), *columns]), full_matrices=False
+    )
     known = basis[:, strengths > _DEPENDENT * strengths.max(initial=0.0)]
     return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
 
@@ -134,7 +136,7 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     return Remainder(
         rms=float(np.linalg.norm(found.values)) / len(found.values) ** 0.5,
         share=min(1.0, float(np.sum(found.values**2)) / squares),
-        where=found.where(design),
+        where=found.say_where(design),
         low=float(own.min()),
         high=float(own.max()),
         unit=_SECOND,
@@ -172,9 +174,9 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
 def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
     """Yield what each thing without a name explains, on the average over what the readings allow."""
     contest = search.contest
-    space, values = contest.space, contest.columns.values
+    space, values = contest.space, contest.columns.select_columns
     of_set = np.concatenate([np.empty((len(space.scale), 0)), *map(values, found.columns)], axis=1)
-    factors = [space.of(each) for each in contest.factors(found.amplitudes)]
+    factors = [space.of(each) for each in contest.list_factors(found.amplitudes)]
     together = np.concatenate([np.empty((len(space.scale), 0)), *factors], axis=1)
     inner = np.linalg.cholesky(np.eye(together.shape[1]) + together.T @ together)
     root = np.linalg.solve(inner, together.T)
@@ -194,22 +196,22 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
             course = _COURSES.get(form.carrier, Course.PLACE)
             shape = _describe_shape(member, contest.design)
-            yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), course, shape, member)
+            yield _Share(space.single.undo_whitening(of_set[:, own] @ solved[own]), course, shape, member)
     active = [(part, level) for part, level in zip(contest.parts, found.amplitudes, strict=True) if level]
     for (part, level), factor in zip(active, factors, strict=True):
         if level >= part.noise_levels:
-            explained = space.single.coloured(factor @ (factor.T @ left))
+            explained = space.single.undo_whitening(factor @ (factor.T @ left))
             yield _Share(explained, part.course, part.shape, None)
 
 
 def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
     """Return the form that follows a curve best; None if none follows most of it."""
     contest = search.contest
-    best = search.best_unnamed(bare)
+    best = search.find_best_unnamed(bare)
     if best is None:
         return None
     columns = best.effect.columns(contest.design, best.theta)
-    columns = contest.space.single.coloured(contest.space.of(columns))
+    columns = contest.space.single.undo_whitening(contest.space.of(columns))
     gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
     left = float(np.sum((whole - columns @ gamma) ** 2))
     return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
@@ -217,14 +219,14 @@ def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Se
 
 def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:
     assert isinstance(form.effect, UnnamedForm)  # noqa: S101 - no other effect has no name
-    return form.effect.proposed(form.theta, design)
+    return form.effect.propose_formula(form.theta, design)
 
 
 def _describe_shape(member: SetMember, design: Design) -> Words:
     """Return a form in words."""
     form = member.effect
     assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
-    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.named(member.theta)
+    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.list_searched_values(member.theta)
     words = form.form.shape.given(
         **{word: say(named[name]) for word, name in (("width", "w"), ("period", "L")) if name in named}
     )
@@ -243,8 +245,8 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member:
-        low, high = form.extent(main.member.theta)
-        place = form.named(main.member.theta).get("c", low)
+        low, high = form.find_extent(main.member.theta)
+        place = form.list_searched_values(main.member.theta).get("c", low)
         is_local = form.form in LOCAL
         words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
         return words, low, high, unit

@@ -228,7 +228,10 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
     return {
         "repeatability": unit.from_si(noise.sigma),
         **{f"{end}_repeatability": unit.from_si(size) for end, size in ends},
-        **{source.value.replace(" ", "_"): unit.from_si(noise.amount(source)) for source in noise.ratios},
+        **{
+            source.value.replace(" ", "_"): unit.from_si(noise.compute_amount(source))
+            for source in noise.ratios
+        },
     }
 
 

@@ -93,8 +93,8 @@ def examine_direction(residuals: Residuals) -> Failure | None:
         return None
     sign = design.direction
     along = 2 * (design.position - design.middle) / (design.length or 1.0)
-    gap = residuals.p_value(sign[:, np.newaxis])
-    shape = residuals.p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
+    gap = residuals.compute_p_value(sign[:, np.newaxis])
+    shape = residuals.compute_p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
     statement = _DIRECTION_ALONG if shape < gap else _say_constant_gap(residuals)
     return Failure(ResidualTest.DIRECTION, min(1.0, 2 * min(gap, shape)), _WHOLE_AXIS, statement)
 
@@ -111,7 +111,7 @@ def examine_runs(residuals: Residuals) -> Failure | None:
     run = int(numbers[worst])
     statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
     where, readings = _RUN.given(run=run), read_only_integers(np.flatnonzero(design.cycle == run))
-    return Failure(ResidualTest.RUNS, residuals.p_value(membership), where, statement, readings)
+    return Failure(ResidualTest.RUNS, residuals.compute_p_value(membership), where, statement, readings)
 
 
 def _say_constant_gap(residuals: Residuals) -> Words:
@@ -140,7 +140,7 @@ def examine_conditions(residuals: Residuals) -> Failure | None:
             continue
         change = log - log.mean()
         columns = np.column_stack([change, change * (design.position - design.middle)])
-        p_values[name] = residuals.p_value(columns)
+        p_values[name] = residuals.compute_p_value(columns)
     if not p_values:
         return None
     closest = min(p_values, key=p_values.__getitem__)
@@ -250,11 +250,11 @@ def _find_strongest_wave(
     extent = float(np.ptp(where))
     counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)
     periods = np.concatenate([known, extent / counts])
-    best, p_value = residuals.best_block(_make_waves(where, periods))
+    best, p_value = residuals.find_best_block(_make_waves(where, periods))
     period = float(periods[best])
     if best >= len(known):
         finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
-        best, _ = residuals.best_block(_make_waves(where, finer))
+        best, _ = residuals.find_best_block(_make_waves(where, finer))
         period = float(finer[best])
     amplitude = np.hypot(*_fit_coefficients(residuals, _make_waves(where, np.array([period]))[0]))
     return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))

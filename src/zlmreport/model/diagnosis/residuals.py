@@ -90,7 +90,7 @@ class Residuals:
         """Readings less columns of the model."""
         return int(self.base.shape[0] - self.base.shape[1])
 
-    def blocks(self, columns: FloatArray) -> FloatArray:
+    def make_blocks(self, columns: FloatArray) -> FloatArray:
         """Return blocks of columns, shape (g, N, k), as orthonormal contrasts of independent readings."""
         size, readings, width = columns.shape
         flat = self.whiten(columns.transpose(1, 0, 2).reshape(readings, -1))
@@ -100,9 +100,9 @@ class Residuals:
         vectors, singular, _ = np.linalg.svd(left / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
         return np.asarray(vectors * (singular > _DEPENDENT)[:, np.newaxis, :], dtype=np.float64)
 
-    def p_value(self, columns: FloatArray) -> float:
+    def compute_p_value(self, columns: FloatArray) -> float:
         """Return the chance that columns, shape (N, k), explain so much of the residuals (F-test)."""
-        block = self.blocks(columns[np.newaxis])[0]
+        block = self.make_blocks(columns[np.newaxis])[0]
         rank = int(np.count_nonzero(np.any(block != 0, axis=0)))
         if rank == 0 or self.degrees <= rank:
             return 1.0
@@ -112,14 +112,14 @@ class Residuals:
             return 0.0
         return f_tail((explained / rank) / (left / (self.degrees - rank)), rank, self.degrees - rank)
 
-    def best_block(self, columns: FloatArray) -> tuple[int, float]:
+    def find_best_block(self, columns: FloatArray) -> tuple[int, float]:
         """Return which of many blocks explains most, and the chance that the best explains so much.
 
         The chance is that of the whole search, counted on simulated independent residuals.
 
         `columns`, (g, N, k): The blocks.
         """
-        blocks = self.blocks(columns)
+        blocks = self.make_blocks(columns)
         size, readings, width = blocks.shape
         flat = blocks.transpose(1, 0, 2).reshape(readings, -1)
         random = np.random.default_rng(_SEED).standard_normal((readings, _TRIALS))
@@ -134,7 +134,7 @@ class Residuals:
 def find_residuals_of(fit: Fit, noise: Noise) -> Residuals:
     """Return the residuals of a fit under a noise: one that holds no more than noise may."""
     whiten = make_whitener(list_noise_parts(fit.design), noise)
-    columns = whiten(fit.base())
+    columns = whiten(fit.compute_base())
     lengths = np.linalg.norm(columns, axis=0)
     vectors, singular, _ = np.linalg.svd(columns / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
     base = vectors[:, singular > _DEPENDENT * singular.max(initial=0.0)]

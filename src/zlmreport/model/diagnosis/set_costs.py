@@ -42,7 +42,7 @@ class SetCosts:
         if not members:
             return 0.0
         contest = self._contest
-        reduced = contest.reduced(amplitudes, [each.columns for each in members])
+        reduced = contest.reduce_set(amplitudes, [each.columns for each in members])
         variance = reduced.squares / contest.space.degrees
         solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
@@ -50,13 +50,13 @@ class SetCosts:
         for each in members:
             own = slice(first, first + len(each.columns))
             first = own.stop
-            square = contest.expected.square(each.identifier)
+            square = contest.expected.find_square(each.identifier)
             cost += each.family.price + each.spread
             root = _find_root_of_inverse(variance * inverse[own, own])
             for explained, rank in self._by_size(each, solved[own], root):
-                cost += contest.worth(explained, rank, square)
+                cost += contest.weigh_block(explained, rank, square)
             if each.family.is_named:
-                cost += self._unusual(each, solved[own], variance * inverse[own, own])
+                cost += self._weigh_unusual(each, solved[own], variance * inverse[own, own])
         return cost
 
     def _by_size(
@@ -75,13 +75,13 @@ class SetCosts:
             yield float(values @ values), member.rank
             return
         contrasts = self._contest.space.of(member.effect.columns(self._contest.design, member.theta))
-        powers = root @ (self._contest.columns.values(member.columns).T @ contrasts)
+        powers = root @ (self._contest.columns.select_columns(member.columns).T @ contrasts)
         lengths = np.linalg.norm(powers, axis=0)
         powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
         parts = np.linalg.qr(powers)[0].T @ values
         yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
-    def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
+    def _weigh_unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
         effect, design = member.effect, self._contest.design
         cost = sum(
@@ -101,7 +101,7 @@ class SetCosts:
         place = int(member.columns[0])
         if place not in self._turns:
             contrasts = self._contest.space.of(member.effect.columns(self._contest.design, member.theta))
-            values = self._contest.columns.values(member.columns)
+            values = self._contest.columns.select_columns(member.columns)
             turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
             self._turns[place] = np.asarray(turn, dtype=np.float64)
         return self._turns[place]

@@ -81,41 +81,47 @@ class SetSearch:
         self._costs, self._amplitudes = SetCosts(contest), AmplitudeSearch(contest)
         self._with_forms = True  # whether forms without a name are thought of
 
-    def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
+    def find_best(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
         """Return the set with the most evidence.
 
         `start`: Effects that are in it at first, and may go out.
         """
-        bare = self._named_alone(start, tuple(1 for _ in self._whole), is_thorough=False)
-        ends = [self._named_alone(each, self._noise, is_thorough=False) for each in (start, bare.members)]
+        bare = self._climb_by_names_alone(start, tuple(1 for _ in self._whole), is_thorough=False)
+        ends = [
+            self._climb_by_names_alone(each, self._noise, is_thorough=False) for each in (start, bare.members)
+        ]
         named = min(ends, key=find_score)
         told(0.3)
         released = self._with(named.members, named.amplitudes)
-        if not self._loud(released):
+        if not self._list_loud(released):
             released = self._climb(released)
             is_whole = 0 < len(released.named) <= _FEW and not self._is_coloured(released)
-            if is_whole and min(self.own_evidence(released)) > _SURE:
+            if is_whole and min(self.compute_own_evidence(released)) > _SURE:
                 return released
         told(0.4)
         begun = [self._with(start, self.contest.quiet)]
         if self._is_coloured(released):
-            begun += self._ahead(self.alone(), _LISTED, _LISTED_FOR_ANOTHER, lambda family: family.is_named)
+            begun += self._look_ahead(
+                self.make_bare_set(), _LISTED, _LISTED_FOR_ANOTHER, lambda family: family.is_named
+            )
         beside = min((self._climb(each, is_thorough=False) for each in begun), key=find_score)
         told(0.6)
-        together = self._climb(self._united(beside, named), is_thorough=False)
+        together = self._climb(self._unite(beside, named), is_thorough=False)
         best = self._climb(min((released, beside, together), key=find_score))
         if self._is_coloured(best):  # names alone may lead where there is no way on
             best = min(best, self._climb(beside), key=find_score)
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
-            for near in (named, *self._named_near(best)):
-                whole = self._named_alone(near.members, self._noise, is_thorough=True)
+            for near in (named, *self._list_named_near(best)):
+                whole = self._climb_by_names_alone(near.members, self._noise, is_thorough=True)
                 best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=find_score)
         told(1.0)
         return best
 
-    def _named_alone(self, start: Sequence[SetMember], levels: Amplitudes, *, is_thorough: bool) -> EffectSet:
+    def _climb_by_names_alone(
+        self, start: Sequence[SetMember], levels: Amplitudes, *, is_thorough: bool
+    ) -> EffectSet:
         """Return where a climb ends beside which nothing is without a name.
 
         `levels`: Of each part, those that are thought of.
@@ -125,7 +131,7 @@ class SetSearch:
         self._levels, self._with_forms = self._whole, True
         return found
 
-    def _named_near(self, found: EffectSet) -> list[EffectSet]:
+    def _list_named_near(self, found: EffectSet) -> list[EffectSet]:
         """Return the best sets of names alone that were passed on the way, and lack little.
 
         Where effects that each look needless beside a curve explain all together, a climb passes by them.
@@ -134,7 +140,7 @@ class SetSearch:
         near = [each for each in passed if each.score < found.score + _PROMISING]
         return sorted(near, key=find_score)[:_TRIED]
 
-    def _united(self, found: EffectSet, other: EffectSet) -> EffectSet:
+    def _unite(self, found: EffectSet, other: EffectSet) -> EffectSet:
         """Return a set with the members of another that can stand beside its own."""
         members = found.members
         for each in other.members:
@@ -142,25 +148,25 @@ class SetSearch:
                 members = (*members, each)
         return self._with(members, found.amplitudes)
 
-    def _loud(self, found: EffectSet) -> list[int]:
+    def _list_loud(self, found: EffectSet) -> list[int]:
         """Return the parts without a name that are more than noise in a set."""
         quiet = self.contest.as_noise(found.amplitudes)
         return [number for number, level in enumerate(found.amplitudes) if level != quiet[number]]
 
     def _is_coloured(self, found: EffectSet) -> bool:
         """Return whether more than white noise is left beside a set, beyond doubt."""
-        white = self.contest.criterion(self.contest.quiet, found.columns)
-        return white - self.contest.criterion(found.amplitudes, found.columns) > _SURE
+        white = self.contest.compute_criterion(self.contest.quiet, found.columns)
+        return white - self.contest.compute_criterion(found.amplitudes, found.columns) > _SURE
 
-    def alone(self) -> EffectSet:
+    def make_bare_set(self) -> EffectSet:
         """Return what there is without any effect."""
         return self._with((), self.contest.quiet)
 
     def has_nameless(self, found: EffectSet) -> bool:
         """Whether anything without a name is in a set, beyond what noise may be."""
-        return bool(found.unnamed or self._loud(found))
+        return bool(found.unnamed or self._list_loud(found))
 
-    def evidence_of(self, found: EffectSet, names: AbstractSet[str]) -> float:
+    def compute_evidence_of(self, found: EffectSet, names: AbstractSet[str]) -> float:
         """Return the evidence that the best set without any of some effects lacks, of all looked at.
 
         All else may be another there: other effects, and the size of every curve without a name. It has no
@@ -188,13 +194,13 @@ class SetSearch:
         ]
         return min(fewer, key=find_score, default=None)
 
-    def holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
+    def find_best_holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
         """Return the best set with these named members alone; what has no name as it then is."""
         names = list_names(kept)
         known = [each for (own, _), each in self._best.items() if own == names]
         return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=find_score)
 
-    def own_evidence(self, found: EffectSet) -> list[float]:
+    def compute_own_evidence(self, found: EffectSet) -> list[float]:
         """Return for each member the evidence that the set loses without it, all else following."""
         return [self.without(found, number).score - found.score for number in range(len(found.members))]
 
@@ -214,7 +220,7 @@ class SetSearch:
         if len(known.members) == len(found.members):
             near.append(known)
         if any(each.theta.size for each in found.members):
-            near.append(self._settled(found))
+            near.append(self._settle(found))
         return min(near, key=find_score)
 
     def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
@@ -224,7 +230,7 @@ class SetSearch:
         self._levels = self._whole
         return found
 
-    def members_of(self, effects: Sequence[tuple[Effect, FloatArray]]) -> list[SetMember]:
+    def make_members_of(self, effects: Sequence[tuple[Effect, FloatArray]]) -> list[SetMember]:
         """Return effects of the contest at values of their searched parameters as members of a set.
 
         Each costs what had to be searched for, as if it had been found.
@@ -249,7 +255,7 @@ class SetSearch:
         )
         return SetMember(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
 
-    def renumbered(self, found: EffectSet) -> EffectSet:
+    def renumber(self, found: EffectSet) -> EffectSet:
         """Return a set in which no effect stands for the second time that does not stand there once."""
         members = list(found.members)
         for place, each in enumerate(members):
@@ -271,7 +277,7 @@ class SetSearch:
                     break
         return replace(found, members=tuple(members))
 
-    def rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
+    def list_rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
         """Return the sets in which another effect stands in the place of a member, best first.
 
         `rest`: The set without it.
@@ -286,13 +292,15 @@ class SetSearch:
         tried = [
             each
             for start in (rest, beside)
-            for each in self._ahead(start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING)
+            for each in self._look_ahead(
+                start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING
+            )
         ]
-        near = sorted((*tried, *self._seen_instead(found, rest)), key=find_score, reverse=True)
+        near = sorted((*tried, *self._list_seen_instead(found, rest)), key=find_score, reverse=True)
         best = {each.members[-1].identifier: each for each in near if each.score < found.score + within}
         return sorted(best.values(), key=find_score)
 
-    def _seen_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
+    def _list_seen_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
         """Yield the sets looked at that have one new effect, as their last, and not what `rest` is without.
 
         It may make others of the set needless, too.
@@ -305,27 +313,27 @@ class SetSearch:
                 beside = (member for member in each.members if member is not others[0])
                 yield replace(each, members=(*beside, others[0]))
 
-    def ahead(self, found: EffectSet) -> list[EffectSet]:
+    def look_ahead(self, found: EffectSet) -> list[EffectSet]:
         """Return a set with one more installed effect, each effect once, the most promising first."""
-        tried = self._ahead(found, _LISTED, _TRIED, lambda family: family.is_named)
+        tried = self._look_ahead(found, _LISTED, _TRIED, lambda family: family.is_named)
         return list({each.members[-1].identifier: each for each in reversed(tried)}.values())[::-1]
 
-    def best_unnamed(self, found: EffectSet) -> SetMember | None:
+    def find_best_unnamed(self, found: EffectSet) -> SetMember | None:
         """Return the form without a name that adds most to a set; None if none adds anything."""
-        tried = self._ahead(found, _LISTED, _TRIED, lambda family: not family.is_named)
+        tried = self._look_ahead(found, _LISTED, _TRIED, lambda family: not family.is_named)
         return tried[0].members[-1] if tried else None
 
     def _with(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         """Return a set with its best amplitudes near others."""
-        return self._scored(members, self._find_amplitudes(members, amplitudes))
+        return self._score(members, self._find_amplitudes(members, amplitudes))
 
     def _find_amplitudes(self, members: Sequence[SetMember], start: Amplitudes) -> Amplitudes:
         """Return the best amplitudes beside members near others, of the levels that are thought of."""
         return self._amplitudes.find_near(start, [each.columns for each in members], self._levels)
 
-    def _scored(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
+    def _score(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         columns = [each.columns for each in members]
-        score = self.contest.criterion(amplitudes, columns) + self._costs.compute(members, amplitudes)
+        score = self.contest.compute_criterion(amplitudes, columns) + self._costs.compute(members, amplitudes)
         found = EffectSet(tuple(members), amplitudes, score)
         key = list_names(found.named), list_unnamed(found)
         if key not in self._best or score < self._best[key].score:
@@ -337,40 +345,40 @@ class SetSearch:
 
         `is_thorough`: Whether effects also come in by pairs, and two in the place of one.
         """
-        now, passed = self._shrunk(start), set[tuple[bool, _State]]()
+        now, passed = self._shrink(start), set[tuple[bool, _State]]()
         for _ in range(_MOST_MOVES):
-            state = is_thorough, self._state(now)
+            state = is_thorough, self._make_state(now)
             if state in self._ends:
                 now = self._ends[state]
                 break
             passed.add(state)
-            larger = self._larger(now, _LISTED, _TRIED) if len(now.members) < _MOST_MEMBERS else None
+            larger = self._find_larger(now, _LISTED, _TRIED) if len(now.members) < _MOST_MEMBERS else None
             if larger is not None and larger.score < now.score - _GAIN:
-                now = self._shrunk(larger)
+                now = self._shrink(larger)
                 continue
-            other = self._exchanged(now)
+            other = self._find_by_exchange(now)
             if other is None and is_thorough:
-                other = self._parted(now)
+                other = self._find_by_parting(now)
             if other is None and is_thorough and self._is_coloured(now):
-                other = self._paired(now)
+                other = self._find_by_pairing(now)
             if other is None:
                 # What its searched parameters cost was found beside another set.
-                before, now = now, self._settled(now)
+                before, now = now, self._settle(now)
                 if now.score >= before.score - _GAIN:
                     break
                 other = now
-            now = self._shrunk(other)
+            now = self._shrink(other)
         self._ends.update(dict.fromkeys(passed, now))
         return now
 
-    def _state(self, now: EffectSet) -> _State:
+    def _make_state(self, now: EffectSet) -> _State:
         """Return what a set is, with its searched parameters as far as they matter."""
         members = frozenset(
             (id(each.family), tuple(f"{value:{_AS_FAR}}" for value in each.theta)) for each in now.members
         )
         return self._levels, self._with_forms, members, now.amplitudes
 
-    def _shrunk(self, now: EffectSet) -> EffectSet:
+    def _shrink(self, now: EffectSet) -> EffectSet:
         """Return a set without the members that the others make needless."""
         while now.members:
             fewer = [
@@ -383,11 +391,11 @@ class SetSearch:
             now = best
         return now
 
-    def _larger(self, now: EffectSet, listed: int, tried: int) -> EffectSet | None:
-        ahead = self._ahead(now, listed, tried)
-        return self._settled(ahead[0]) if ahead else None
+    def _find_larger(self, now: EffectSet, listed: int, tried: int) -> EffectSet | None:
+        ahead = self._look_ahead(now, listed, tried)
+        return self._settle(ahead[0]) if ahead else None
 
-    def _exchanged(self, now: EffectSet) -> EffectSet | None:
+    def _find_by_exchange(self, now: EffectSet) -> EffectSet | None:
         """Return a better set in which one effect takes the place of another; None if there is none.
 
         What has searched parameters may stand for two: then a second effect, or itself at other values, comes
@@ -400,14 +408,14 @@ class SetSearch:
             def is_another(family: Family, own: str = member.identifier) -> bool:
                 return family.identifier != own
 
-            for each in self._ahead(rest, _LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER, is_another, limit):
+            for each in self._look_ahead(rest, _LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER, is_another, limit):
                 if each.score < now.score - _CLEAR_GAIN:
-                    settled = self._settled(each)
+                    settled = self._settle(each)
                     if settled.score < now.score - _CLEAR_GAIN:
                         return settled
         return None
 
-    def _parted(self, now: EffectSet) -> EffectSet | None:
+    def _find_by_parting(self, now: EffectSet) -> EffectSet | None:
         """Return a better set in which two effects do what one stands for; None if there is none.
 
         A wave in time with the period of a run does what a bow of the reversal does: only where that is in
@@ -421,20 +429,20 @@ class SetSearch:
             def is_another(family: Family, own: str = member.identifier) -> bool:
                 return family.identifier != own
 
-            for each in self._ahead(rest, _LISTED, _TRIED_FOR_ANOTHER, is_another):
-                larger = self._larger(each, _TRIED, _TRIED_FOR_ANOTHER)
+            for each in self._look_ahead(rest, _LISTED, _TRIED_FOR_ANOTHER, is_another):
+                larger = self._find_larger(each, _TRIED, _TRIED_FOR_ANOTHER)
                 if larger is not None and larger.score < now.score - _CLEAR_GAIN:
                     return larger
         return None
 
-    def _paired(self, now: EffectSet) -> EffectSet | None:
+    def _find_by_pairing(self, now: EffectSet) -> EffectSet | None:
         """Return a better set with two more effects; None if there is none."""
-        for each in self._ahead(now, _LISTED, _LISTED_FOR_ANOTHER):
-            larger = self._larger(each, _TRIED, _TRIED_FOR_ANOTHER)
+        for each in self._look_ahead(now, _LISTED, _LISTED_FOR_ANOTHER):
+            larger = self._find_larger(each, _TRIED, _TRIED_FOR_ANOTHER)
             if larger is not None and larger.score < now.score - _CLEAR_GAIN:
                 return larger
         for each in self._list_pairs(now):
-            larger = self._settled(self._tried(each))
+            larger = self._settle(self._try_out(each))
             if larger.score < now.score - _CLEAR_GAIN:
                 return larger
         return None
@@ -442,10 +450,10 @@ class SetSearch:
     def _list_pairs(self, now: EffectSet) -> list[EffectSet]:
         """Return the most promising sets with two more installed effects, the best first."""
         best = list_pairs(self.contest, now)[:_LISTED]
-        glanced = [self._glanced(each.members, each.amplitudes) for each in best]
+        glanced = [self._glance_at(each.members, each.amplitudes) for each in best]
         return sorted(glanced, key=find_score)[:_TRIED]
 
-    def _ahead(
+    def _look_ahead(
         self,
         now: EffectSet,
         listed: int,
@@ -461,17 +469,17 @@ class SetSearch:
             and somewhat more.
         """
         glanced = []
-        for family, block, spread in self._leading(now, listed, wanted):
+        for family, block, spread in self._list_leading(now, listed, wanted):
             member = make_member(family, block, spread)
             members = (*list_beside(now.members, member.effect), member)
-            glanced.append(self._glanced(members, now.amplitudes))
+            glanced.append(self._glance_at(members, now.amplitudes))
         glanced.sort(key=lambda each: each.score)
         if limit is None and glanced:
             limit = glanced[0].score + _PROMISING + _SHARE_OF_GAIN * max(now.score - glanced[0].score, 0.0)
         promising = [each for each in glanced[:tried] if each.score < (limit or 0.0)]
-        return sorted((self._tried(each) for each in promising), key=lambda each: each.score)
+        return sorted((self._try_out(each) for each in promising), key=lambda each: each.score)
 
-    def _leading(
+    def _list_leading(
         self, now: EffectSet, listed: int, wanted: Callable[[Family], bool]
     ) -> Iterator[tuple[Family, int, float]]:
         """Yield the families that would add most, with and without the nameless parts."""
@@ -492,10 +500,10 @@ class SetSearch:
                     seen.add(choice)
                     yield family, choice[1], float(scan.spread[number])
 
-    def _glanced(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
+    def _glance_at(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         """Return a set with nameless parts lowered where that is better at once."""
         contest, columns = self.contest, [each.columns for each in members]
-        best, now = contest.criterion(amplitudes, columns), amplitudes
+        best, now = contest.compute_criterion(amplitudes, columns), amplitudes
         quiet = contest.as_noise(amplitudes)
         if quiet != amplitudes:
             tried = [quiet]
@@ -505,12 +513,12 @@ class SetSearch:
                         move_amplitude(amplitudes, number, level) for level in (0, amplitudes[number] - 1)
                     ]
             for each in tried:
-                criterion = contest.criterion(each, columns)
+                criterion = contest.compute_criterion(each, columns)
                 if criterion < best:
                     best, now = criterion, each
         return EffectSet(tuple(members), now, best + self._costs.compute(members, now))
 
-    def _tried(self, glanced: EffectSet) -> EffectSet:
+    def _try_out(self, glanced: EffectSet) -> EffectSet:
         """Return a set with one effect more, its parameters between those of the grid."""
         key = self._levels, glanced.amplitudes, tuple(each.key for each in glanced.members)
         if key not in self._more:
@@ -524,13 +532,13 @@ class SetSearch:
         if has_moved:
             amplitudes = self._find_amplitudes(members, amplitudes)
         members[-1] = refine_member(self.contest, members, len(members) - 1, amplitudes)
-        return self._scored(members, amplitudes)
+        return self._score(members, amplitudes)
 
-    def _settled(self, now: EffectSet) -> EffectSet:
+    def _settle(self, now: EffectSet) -> EffectSet:
         """Return a set with all its parameters refined and its amplitudes chosen anew."""
         members, amplitudes = list(now.members), now.amplitudes
         for number in range(len(members)):
             members[number] = refine_member(self.contest, members, number, amplitudes)
         amplitudes = self._find_amplitudes(members, amplitudes)
         members, _ = jump_along_grids(self.contest, members, amplitudes)
-        return self._scored(members, amplitudes)
+        return self._score(members, amplitudes)

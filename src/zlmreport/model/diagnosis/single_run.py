@@ -44,7 +44,7 @@ class SingleRun:
         """What it does, in words."""
         return self.way.value.given(run=self.run)
 
-    def where(self, design: Design) -> Words:
+    def say_where(self, design: Design) -> Words:
         """Return which run it is, with the largest of its values."""
         return _BY.given(run=self.run, size=wording.deviation(design.axis, float(np.abs(self.values).max())))
 

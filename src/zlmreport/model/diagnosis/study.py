@@ -123,48 +123,50 @@ class Study:
             together,
         )
 
-    def fitted(self) -> Fitted:
+    def fit_whole(self) -> Fitted:
         """Return the model fitted to the readings, those that stand off set aside."""
-        return self._fitted(self.model)
+        return self._fit(self.model)
 
-    def diagnosis(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Diagnosis:
+    def diagnose(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
-            tried = self.tried(effects)
-            return diagnose(self.model, self.together, tried, self.assumptions, self._expected(), told=told)
+            tried = self.list_tried(effects)
+            return diagnose(
+                self.model, self.together, tried, self.assumptions, self._find_expectation(), told=told
+            )
         except ModelError as error:
-            raise InputError(self._problems(error)) from error
+            raise InputError(self._list_problems(error)) from error
 
-    def built(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Built:
+    def build(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Built:
         """Return the model that comes of adding, step by step, what has evidence of its own."""
-        tried = self.tried(effects)
+        tried = self.list_tried(effects)
 
         def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
-            expected = self._expected()
+            expected = self._find_expectation()
             return diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
 
         try:
             return build(self.model, diagnosing, told)
         except ModelError as error:
-            raise InputError(self._problems(error)) from error
+            raise InputError(self._list_problems(error)) from error
 
-    def _expected(self) -> PriorExpectation | None:
+    def _find_expectation(self) -> PriorExpectation | None:
         """Return what the job says that earlier tests say."""
         return PriorExpectation.of(self.job.priors, self.job.axis) if self.job.priors else None
 
-    def titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
+    def list_titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
         """Return what installed effects and the formulas of the job are called, by identifier."""
         of_model = (term.effect for term in self.model.terms)
-        return {each.identifier: each.title for each in (*self.tried(effects), *of_model)}
+        return {each.identifier: each.title for each in (*self.list_tried(effects), *of_model)}
 
-    def tried(self, effects: Sequence[Effect]) -> list[Effect]:
+    def list_tried(self, effects: Sequence[Effect]) -> list[Effect]:
         """Return the effects that are tried: those for what was measured, and the formulas of the job."""
         by_identifier: dict[str, Effect] = {}
         kind = self.job.axis.kind
         formulas = (choose_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates)
         return [*(each for each in effects if is_for(each, self.job.axis.measurand)), *formulas]
 
-    def history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
+    def fit_history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …, up to the whole model.
 
         So a history needs no record beside the job, and says of every model what is true of it today.
@@ -172,22 +174,22 @@ class Study:
         `whole`: The fit of the whole model, where it is there already.
         """
         terms = self.model.terms
-        last = whole or self.fitted()
+        last = whole or self.fit_whole()
         # How unequally readings scatter is seen from repeats, whatever the model.
         assumptions = replace(self.assumptions, weights=last.fit.noise.weights)
-        parts = [self._fitted(AxisModel(terms[:count]), assumptions) for count in range(len(terms))]
+        parts = [self._fit(AxisModel(terms[:count]), assumptions) for count in range(len(terms))]
         return (*parts, last)
 
-    def _fitted(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
+    def _fit(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
         every = thin(self.together)
         kept = every.without(find_outliers(every.design, every.deviation).readings)
         try:
             found = fit(model, kept.design, kept.deviation, assumptions or self.assumptions)
         except ModelError as error:
-            raise InputError(self._problems(error)) from error
+            raise InputError(self._list_problems(error)) from error
         return Fitted(found, compute_error_numbers(found))
 
-    def _problems(self, error: ModelError) -> Iterator[Problem]:
+    def _list_problems(self, error: ModelError) -> Iterator[Problem]:
         for sentence in error.sentences:
             yield Problem(self._place_of(sentence.partition(" ")[0]), sentence)
 

@@ -33,9 +33,9 @@ class Trials:
     @cached_property
     def ratios(self) -> FloatArray:
         """LR of each installed effect, its best value and coefficients taken, shape (effects, B)."""
-        return self.ratios_of(self.contest.identifiers)
+        return self.compute_ratios_of(self.contest.identifiers)
 
-    def ratios_of(self, effects: Sequence[str]) -> FloatArray:
+    def compute_ratios_of(self, effects: Sequence[str]) -> FloatArray:
         """Return the same of some effects, by their identifiers."""
         forms = dict(zip(self.contest.identifiers, self.contest.by_effect, strict=True))
         found = self._compute_best([number for name in effects for number in forms[name]])
@@ -64,7 +64,7 @@ class Trials:
     @cached_property
     def criterion(self) -> FloatArray:
         """−2·ln of the restricted likelihood of nothing of this, shape (B,)."""
-        return np.asarray(self.contest.logarithm(self._squares) + self._reduced.log_determinant)
+        return np.asarray(self.contest.compute_logarithm(self._squares) + self._reduced.log_determinant)
 
     @property
     def _sets(self) -> int:
@@ -72,7 +72,7 @@ class Trials:
 
     @cached_property
     def _reduced(self) -> Reduced:
-        return self.contest.reduced(self.amplitudes, self.members)
+        return self.contest.reduce_set(self.amplitudes, self.members)
 
     @cached_property
     def _held(self) -> Held:
@@ -80,14 +80,14 @@ class Trials:
 
     @cached_property
     def _taken(self) -> FloatArray:
-        return self.contest.coordinates_of(self._reduced, self._held)
+        return self.contest.compute_coordinates_of(self._reduced, self._held)
 
     @cached_property
     def _squares(self) -> FloatArray:
         return self._compute_squares(self._reduced)
 
     def _compute_squares(self, reduced: Reduced) -> FloatArray:
-        beside = self.contest.squares_beside(reduced, self._held)
+        beside = self.contest.compute_squares_beside(reduced, self._held)
         return beside + self.contest.space.degrees * self.known**2
 
     def _compute_best(self, numbers: Sequence[int]) -> dict[int, FloatArray]:
@@ -96,7 +96,7 @@ class Trials:
         for group in contest.group_by_width(tuple(numbers)):
             left = np.maximum(self._squares - self._explain(group)[0], NOTHING)
             least = np.minimum.reduceat(left, group.starts, axis=0)
-            fitted = contest.logarithm(least) - contest.logarithm(self._squares)
+            fitted = contest.compute_logarithm(least) - contest.compute_logarithm(self._squares)
             best.update(zip(group.families.tolist(), fitted, strict=True))
         return best
 
@@ -105,7 +105,7 @@ class Trials:
         contest, averages = self.contest, dict[int, FloatArray]()
         for group in contest.group_by_width(tuple(numbers)):
             explained, ranks = self._explain(group)
-            added = contest.added(
+            added = contest.compute_criterion_of_blocks(
                 self._squares, explained, ranks[:, np.newaxis], group.squares[:, np.newaxis]
             )
             added -= 2.0 * group.log_weights[:, np.newaxis]
@@ -117,13 +117,13 @@ class Trials:
         return averages
 
     def _explain(self, group: Group) -> tuple[FloatArray, FloatArray]:
-        response = self.contest.columns.products_with(self._reduced.ratios, group.places.ravel(), self._held)
+        response = self.contest.columns.multiply_with(self._reduced.ratios, group.places.ravel(), self._held)
         return self.contest.explain_group(self._reduced, group, response, self._taken)
 
     def _list_evidence_of_parts(self) -> Iterator[FloatArray]:
         """Yield the evidence of each part without a name, its amplitude averaged over, shape (B,) each."""
         contest = self.contest
-        before = contest.logarithm(self._squares) + self._reduced.log_determinant
+        before = contest.compute_logarithm(self._squares) + self._reduced.log_determinant
         for number, part in enumerate(contest.parts):
             levels = range(part.noise_levels, len(part.levels))
             if not levels:
@@ -137,19 +137,23 @@ class Trials:
     def _compute_at(self, number: int, level: int) -> FloatArray:
         """Return `criterion` with a part at a level."""
         amplitudes = (*self.amplitudes[:number], level, *self.amplitudes[number + 1 :])
-        reduced = self.contest.reduced(amplitudes, self.members)
-        return np.asarray(self.contest.logarithm(self._compute_squares(reduced)) + reduced.log_determinant)
+        reduced = self.contest.reduce_set(amplitudes, self.members)
+        return np.asarray(
+            self.contest.compute_logarithm(self._compute_squares(reduced)) + reduced.log_determinant
+        )
 
     def _compute_by_level(self, number: int) -> FloatArray:
         """Return `criterion` at every level of a part that is not irregular, shape (levels, B)."""
         contest = self.contest
         amplitudes = (*self.amplitudes[:number], 0, *self.amplitudes[number + 1 :])
-        reduced = contest.reduced(amplitudes, self.members)
-        taken = contest.coordinates_of(reduced, self._held)
-        response = contest.columns.products_with(reduced.ratios, contest.parts[number].columns, self._held)
+        reduced = contest.reduce_set(amplitudes, self.members)
+        taken = contest.compute_coordinates_of(reduced, self._held)
+        response = contest.columns.multiply_with(reduced.ratios, contest.parts[number].columns, self._held)
         away, spread = contest.take_parts(reduced, [number], response, taken)
         left = np.maximum(self._compute_squares(reduced) - away[0], NOTHING)
-        return np.asarray(contest.logarithm(left) + spread[0][:, np.newaxis] + reduced.log_determinant)
+        return np.asarray(
+            contest.compute_logarithm(left) + spread[0][:, np.newaxis] + reduced.log_determinant
+        )
 
 
 def average_evidence(trials: Sequence[Trials]) -> tuple[FloatArray, FloatArray]:

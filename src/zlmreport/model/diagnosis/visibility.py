@@ -60,7 +60,7 @@ def plan_visibility(
     contest = Contest.of(design, base, entered.forms)
     null = simulate_null(contest, contest.quiet)
     missing = tuple(Visibility(each.effect, 0.0, np.inf, None, each.reason) for each in entered.not_testable)
-    return (*judge_visibility(contest, null, contest.reduced(contest.quiet, []), sigma), *missing)
+    return (*judge_visibility(contest, null, contest.reduce_set(contest.quiet, []), sigma), *missing)
 
 
 def judge_visibility(
@@ -96,9 +96,9 @@ def _try_some(thetas: FloatArray) -> FloatArray:
 def _compute_lengths(contest: Contest, reduced: Reduced, family: Family, theta: FloatArray) -> _Lengths:
     columns = family.effect.columns(contest.design, theta)
     contrasts = contest.space.of(columns)
-    seen = contest.space.single.coloured(contrasts)
+    seen = contest.space.single.undo_whitening(contrasts)
     moving = float(np.linalg.norm(columns - columns.mean(axis=0)))
-    squares = contest.squares_beside(reduced, contest.columns.hold(contrasts))
+    squares = contest.compute_squares_beside(reduced, contest.columns.hold(contrasts))
     return _Lengths(
         float(np.sqrt(np.mean(columns**2))),
         float(np.linalg.norm(seen)) / (moving or 1.0),

@@ -23,14 +23,14 @@ class FactorsByTarget:
         self._starts = np.flatnonzero(np.diff(target[self._order], prepend=-1))
         self._values = np.array([each.sum(axis=1) for each in factors]).reshape(-1, readings)
 
-    def sums(self, columns: FloatArray) -> FloatArray:
+    def sum_by_target(self, columns: FloatArray) -> FloatArray:
         """Return Zᵀ times columns over the readings, (N, k), shape (m, p, k)."""
         products = self._values[:, :, np.newaxis] * columns
         return np.add.reduceat(products[:, self._order], self._starts, axis=1).transpose(1, 0, 2)
 
-    def among(self) -> FloatArray:
+    def compute_gram(self) -> FloatArray:
         """Return ZᵀZ, shape (m, p, p)."""
-        return self.sums(self._values.T)
+        return self.sum_by_target(self._values.T)
 
     def spread(self, sizes: FloatArray) -> FloatArray:
         """Return Z times sizes, (m, p, k), shape (N, k)."""
@@ -42,9 +42,10 @@ class ProductsByTarget:
 
     def __init__(self, factors: FactorsByTarget, columns: FloatArray) -> None:
         """Take columns in, shape (N, w)."""
-        self._gram, self._among, self._sums = columns.T @ columns, factors.among(), factors.sums(columns)
+        self._gram, self._among = columns.T @ columns, factors.compute_gram()
+        self._sums = factors.sum_by_target(columns)
 
-    def under(self, ratios: FloatArray) -> tuple[FloatArray, float]:
+    def compute_under(self, ratios: FloatArray) -> tuple[FloatArray, float]:
         """Return the products under V = 1 + Σ φ·Z·Zᵀ, shape (w, w), and ln|V|.
 
         `ratios`, (p,): φ.
@@ -66,7 +67,7 @@ class RootByTarget:
     def __init__(self, factors: FactorsByTarget, ratios: FloatArray) -> None:
         """Take φ of each part, shape (p,)."""
         roots = np.sqrt(ratios)[:, np.newaxis]
-        values, vectors = np.linalg.eigh(roots * factors.among() * roots.T)
+        values, vectors = np.linalg.eigh(roots * factors.compute_gram() * roots.T)
         lengths = np.sqrt(1.0 + np.maximum(values, 0.0))
         turned = roots * vectors
         self._factors = factors
@@ -74,4 +75,4 @@ class RootByTarget:
 
     def __call__(self, columns: FloatArray) -> FloatArray:
         """Return R times columns over the readings, shape (N, k)."""
-        return columns - self._factors.spread(self._kernel @ self._factors.sums(columns))
+        return columns - self._factors.spread(self._kernel @ self._factors.sum_by_target(columns))

@@ -41,7 +41,7 @@ class Metric:
     root: FloatArray  #: (a, a): R, of these alone.
     log_determinant: float  #: ln|V| within the space of contrasts.
 
-    def coordinates(self, products: FloatArray) -> FloatArray:
+    def compute_coordinates(self, products: FloatArray) -> FloatArray:
         """Return R·Zᵀa from Zᵀa, shape (r, …)."""
         return np.asarray(self.root @ products[self.active])
 
@@ -63,7 +63,7 @@ class SingleReadings:
         """ln|R|."""
         return 0.0 if self.kept is None else float(np.log1p(-(self.kept**2)).sum())
 
-    def whitened(self, columns: FloatArray) -> FloatArray:
+    def whiten(self, columns: FloatArray) -> FloatArray:
         """Return W times columns over the readings, shape (N, …)."""
         scaled = (columns.T * self.scale).T
         if self.kept is None:
@@ -72,7 +72,7 @@ class SingleReadings:
         found[1:] = ((scaled[1:].T - scaled[:-1].T * self.kept) / np.sqrt(1.0 - self.kept**2)).T
         return found
 
-    def transposed(self, columns: FloatArray) -> FloatArray:
+    def apply_transposed(self, columns: FloatArray) -> FloatArray:
         """Return Wᵀ times columns, shape (N, …)."""
         found = columns.copy()
         if self.kept is not None:
@@ -80,7 +80,7 @@ class SingleReadings:
             found[:-1] -= (found[1:].T * self.kept).T
         return (found.T * self.scale).T
 
-    def coloured(self, columns: FloatArray) -> FloatArray:
+    def undo_whitening(self, columns: FloatArray) -> FloatArray:
         """Return W⁻¹ times columns: what was made independent as it was read."""
         found = columns.copy()
         for later, share in enumerate([] if self.kept is None else self.kept.tolist(), 1):
@@ -129,11 +129,11 @@ class Contrasts:
 
     def of(self, columns: FloatArray) -> FloatArray:
         """Return the contrasts of columns over the readings, shape (N, …)."""
-        flat = self.single.whitened(columns.reshape(len(columns), -1))
+        flat = self.single.whiten(columns.reshape(len(columns), -1))
         flat = flat - self.base @ (self.base.T @ flat)
         return flat.reshape(columns.shape)
 
-    def restricted(
+    def make_criterion(
         self, contrast: FloatArray, known: float = 0.0
     ) -> Callable[[FloatArray], tuple[float, float]]:
         """Return what gives −2 ln(restricted likelihood) and the residual sum of squares for one φ, (parts,).
@@ -145,7 +145,7 @@ class Contrasts:
         """
         total = float(contrast @ contrast)
         is_by_target = np.array([self._is_by_target(part) for part in self.parts], dtype=np.bool_)
-        own = [self.single.whitened(part.factor) for part in self.parts]
+        own = [self.single.whiten(part.factor) for part in self.parts]
         widths = [each.shape[1] for each, apart in zip(own, is_by_target, strict=True) if not apart]
         beside = [each for each, apart in zip(own, is_by_target, strict=True) if not apart]
         readings = contrast[:, np.newaxis] / np.sqrt(max(total, _NOTHING))
@@ -156,7 +156,7 @@ class Contrasts:
         shared = sum(widths)
 
         def criterion(ratios: FloatArray) -> tuple[float, float]:
-            bordered, logarithm = products.under(ratios[is_by_target])
+            bordered, logarithm = products.compute_under(ratios[is_by_target])
             roots = np.ones(len(bordered))
             roots[:shared] = np.sqrt(np.repeat(ratios[~is_by_target], widths))
             bordered = roots[:, np.newaxis] * bordered * roots
@@ -174,7 +174,7 @@ class Contrasts:
         """Return whether readings of other targets share nothing of a part, made independent singly."""
         return self.single.kept is None and part.source in BY_TARGET
 
-    def metric(self, ratios: FloatArray) -> Metric:
+    def make_metric(self, ratios: FloatArray) -> Metric:
         """Return the inner product for one φ, shape (parts,)."""
         spread = np.repeat(ratios, [part.factor.shape[1] for part in self.parts])
         active = np.flatnonzero(spread)
@@ -184,7 +184,7 @@ class Contrasts:
         logarithms = np.log(np.diagonal(factor))
         return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
-    def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
+    def compute_criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
         """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
         return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant
 
@@ -198,7 +198,7 @@ def make_contrasts_of(
     `weights`: w, the variance of each reading over the mean one, shape (N,); or how readings scatter singly.
     """
     single = weights if isinstance(weights, SingleReadings) else SingleReadings(1.0 / np.sqrt(weights))
-    weighted = single.whitened(base)
+    weighted = single.whiten(base)
     lengths = np.linalg.norm(weighted, axis=0)
     left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
     orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
@@ -215,7 +215,7 @@ def estimate_restricted(
     `largest`, (parts,): Ratios that it does not exceed.
     `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
-    criterion = space.restricted(contrasts, known)
+    criterion = space.make_criterion(contrasts, known)
     tried = [criterion(ratios)[0] for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
     for step in _REFINEMENTS:
@@ -271,7 +271,7 @@ class Root:
         """Return W times columns over the readings, shape (N, k)."""
         return self._keep_modes(self.by_target(self.scale[:, np.newaxis] * columns))
 
-    def transposed(self, columns: FloatArray) -> FloatArray:
+    def apply_transposed(self, columns: FloatArray) -> FloatArray:
         """Return Wᵀ times columns, shape (N, k)."""
         return self.scale[:, np.newaxis] * self.by_target(self._keep_modes(columns))
 

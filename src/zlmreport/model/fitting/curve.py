@@ -41,7 +41,7 @@ def lay_curve_positions(
     design = fitted.design
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
     at = partial(place_at_positions, design, approach=approach)
-    return _lay_positions(pairs, at, span or design.span, fitted.value_at)
+    return _lay_positions(pairs, at, span or design.span, fitted.compute_value_at)
 
 
 def shows_reach_only(fitted: Fit, span: tuple[float, float] | None = None) -> bool:

@@ -44,7 +44,7 @@ class InstrumentError:
     #: Shared by all readings of the negative direction, against those of the positive one, m or rad.
     between_directions: float = 0.0
 
-    def factor(self, design: Design) -> FloatArray:
+    def compute_factor(self, design: Design) -> FloatArray:
         """Return F with F·Fᵀ the covariance of the readings of a test, shape (N, 3 and more)."""
         position = design.position
         shared = [
@@ -65,7 +65,7 @@ class VarianceOfVariance:
     #: sequence of (r, p): For each component a matrix S with ∂(jᵀ·Cov·j)/∂(component) = |S·j|².
     slopes: tuple[FloatArray, ...]
 
-    def degrees(self, combination: FloatArray, variance: float) -> float:
+    def compute_degrees(self, combination: FloatArray, variance: float) -> float:
         """Return the effective degrees of freedom of jᵀ·Cov·j, given in units of σ̂².
 
         `combination`, (p,): j.
@@ -93,7 +93,7 @@ def compute_variance_of_variance(space: Contrasts, noise: Noise, weighted: Float
 
 def _compute_information(space: Contrasts, ratios: FloatArray, active: Sequence[int]) -> FloatArray:
     """Return ½·tr(P·V_i·P·V_j) for single readings and the active sources, in units of σ̂⁻⁴."""
-    root = space.metric(ratios).coordinates(np.eye(len(space.gram)))
+    root = space.make_metric(ratios).compute_coordinates(np.eye(len(space.gram)))
     together = root.T @ root
     ends = np.cumsum([part.factor.shape[1] for part in space.parts])
     spans = [slice(int(ends[i]) - space.parts[i].factor.shape[1], int(ends[i])) for i in active]
@@ -209,7 +209,7 @@ class Uncertainties:
         random = self.sigma**2 * scaled
         total = random + np.maximum(np.sum((rows @ self.systematic) ** 2, axis=1), least**2)
         degrees = np.array(
-            [self.variances.degrees(row, part) for row, part in zip(rows, scaled, strict=True)]
+            [self.variances.compute_degrees(row, part) for row, part in zip(rows, scaled, strict=True)]
         )
         # The instrument's share is known from its certificate: Welch and Satterthwaite with one term.
         shares = np.divide(total, random, out=np.ones_like(total), where=random > 0)
@@ -303,7 +303,7 @@ def find_scanned_ends(
         moved = theta.copy()
         moved[column] = other
         thetas = (*solution.thetas[:index], moved, *solution.thetas[index + 1 :])
-        if problem.solution(thetas).squares <= limit:
+        if problem.solve_at(thetas).squares <= limit:
             possible.append(number)
     ends = np.concatenate([values[:1], (values[1:] + values[:-1]) / 2, values[-1:]])
     return float(ends[min(possible)]), float(ends[max(possible) + 1])

@@ -131,7 +131,9 @@ class Fit:
         """√(RSS/(N − q)), unweighted, m or rad."""
         return float(np.sqrt(np.sum(self.residual**2) / self.degrees))
 
-    def base(self, design: Design | None = None, *, without: frozenset[str] = frozenset()) -> FloatArray:
+    def compute_base(
+        self, design: Design | None = None, *, without: frozenset[str] = frozenset()
+    ) -> FloatArray:
         """Return what the model can imitate near its estimate: its columns and tangents, shape (N, p).
 
         On the readings that it was fitted to, or on those of another design.
@@ -145,7 +147,7 @@ class Fit:
         empty = np.empty((len(design.position), 0))
         return np.concatenate([empty, *(own for name, own in columns if name not in without), slopes], axis=1)
 
-    def value_at(self, design: Design) -> FloatArray:
+    def compute_value_at(self, design: Design) -> FloatArray:
         """Return the deviation that the model gives for other readings, m or rad, shape (M,)."""
         return _compute_value(self.model, design, self.solution)
 
@@ -156,7 +158,7 @@ class Fit:
         """
         rows = _compute_jacobian(self.model, design, self.solution, self.places)
         standard, degrees = self.uncertainties.of(rows, self.assumptions.instrument.at_each_position)
-        return Prediction(self.value_at(design), standard, compute_coverage_factors(degrees))
+        return Prediction(self.compute_value_at(design), standard, compute_coverage_factors(degrees))
 
 
 def fit(
@@ -214,14 +216,14 @@ def _fit(
     known = compute_weights(design, deviation) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
     problem = FitProblem(model, design, deviation, make_root(parts, noise))
-    solution = search(problem) if start is None else refine(problem, problem.solution(start))
+    solution = search(problem) if start is None else refine(problem, problem.solve_at(start))
     refuse_collisions(model, _list_columns(model, design, solution))
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
-        base = _compute_jacobian(model, design, solution, problem.places(solution.thetas))
+        base = _compute_jacobian(model, design, solution, problem.list_continuous_parameters(solution.thetas))
         space = make_contrasts_of(base, parts, noise.weights)
         noise = _estimate_noise(space, _open(model, design, deviation, solution), noise.weights)
         problem = FitProblem(model, design, deviation, make_root(parts, noise))
-        solution = refine(problem, problem.solution(solution.thetas))
+        solution = refine(problem, problem.solve_at(solution.thetas))
     return _finish(problem, solution, space, noise, taken)
 
 
@@ -268,15 +270,15 @@ def _finish(
     problem: FitProblem, solution: Solution, space: Contrasts, noise: Noise, assumptions: Assumptions
 ) -> Fit:
     model, design = problem.model, problem.design
-    places = problem.places(solution.thetas)
+    places = problem.list_continuous_parameters(solution.thetas)
     jacobian = _compute_jacobian(model, design, solution, places)
     whitened = problem.whiten(jacobian)
     lengths = np.linalg.norm(whitened, axis=0)
     lengths = np.where(lengths > 0, lengths, 1.0)
     root = np.linalg.pinv(whitened / lengths) / lengths[:, np.newaxis]
     inverse = root @ root.T
-    systematic = root @ problem.whiten(assumptions.instrument.factor(design))
-    weighted = problem.whiten.transposed(whitened) @ inverse
+    systematic = root @ problem.whiten(assumptions.instrument.compute_factor(design))
+    weighted = problem.whiten.apply_transposed(whitened) @ inverse
     variances = compute_variance_of_variance(space, noise, weighted)
     uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)
     return Fit(
@@ -311,7 +313,7 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
         kept = np.flatnonzero(cycle != run)
         independent = make_root((), Noise(1.0, {}, np.ones(len(kept))))
         problem = FitProblem(model, select_readings(design, kept), deviation[kept], independent)
-        start = problem.solution(thetas)
+        start = problem.solve_at(thetas)
         found = refine(problem, start, _SETTLED * start.squares)
         others = select_readings(design, left_out)
         predicted = np.zeros(len(left_out))

@@ -27,7 +27,7 @@ _IMITATED = 1e-14
 def search(problem: FitProblem) -> Solution:
     """Return the best fit on the grids of all terms, refined."""
     first = tuple(term.make_grid(problem.design)[0] for term in problem.model.terms)
-    deviation = problem.equations(first, ())[1]
+    deviation = problem.make_equations(first, ())[1]
     grids = [_Grid.of(problem, first, deviation, terms) for terms in problem.model.linked_terms]
     chosen = _choose_one_by_one(deviation, grids)
     searched = [place for place, grid in enumerate(grids) if len(grid.columns) > 1]
@@ -42,7 +42,7 @@ def search(problem: FitProblem) -> Solution:
         for grid, row in zip(grids, chosen, strict=True)
         for term, theta in zip(grid.terms, grid.thetas[row], strict=True)
     }
-    return refine(problem, problem.solution(tuple(values[term] for term in range(len(first)))))
+    return refine(problem, problem.solve_at(tuple(values[term] for term in range(len(first)))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class _Grid:
             values = dict(zip(terms, own, strict=True))
             thetas = problem.model.link([values.get(term, theta) for term, theta in enumerate(first)])
             rows[b"".join(thetas[term].tobytes() for term in terms)] = thetas
-        equations = [problem.equations(thetas, terms) for thetas in rows.values()]
+        equations = [problem.make_equations(thetas, terms) for thetas in rows.values()]
         return cls(
             terms,
             [tuple(thetas[term] for term in terms) for thetas in rows.values()],

@@ -92,7 +92,7 @@ class Noise:
         least, largest = np.sqrt([self.weights.min(), self.weights.max()]).tolist()
         return self.sigma * least, self.sigma * largest
 
-    def amount(self, source: NoiseSource) -> float:
+    def compute_amount(self, source: NoiseSource) -> float:
         """Return the standard deviation σ·√φ of a source, m or rad."""
         return self.sigma * float(np.sqrt(self.ratios.get(source, 0.0)))
 

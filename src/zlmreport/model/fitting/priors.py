@@ -59,20 +59,20 @@ class PriorExpectation:
         to_si = axis.deviation_unit.to_si
         return cls(ratios, {name: to_si(each.rms) for name, each in keys.effects.items()})
 
-    def probabilities(self, sources: Iterable[NoiseSource], grid: FloatArray) -> FloatArray:
+    def compute_probabilities(self, sources: Iterable[NoiseSource], grid: FloatArray) -> FloatArray:
         """Return the probability of each φ of a grid, shape (f,), the sources independent of each other."""
         found = np.ones(len(grid))
         for column, source in zip(grid.T, sources, strict=True):
             levels = np.unique(column)
-            found *= self._weights(source, levels)[np.searchsorted(levels, column)]
+            found *= self._compute_weights(source, levels)[np.searchsorted(levels, column)]
         return np.asarray(found / found.sum(), dtype=np.float64)
 
-    def costs(self, source: NoiseSource, levels: Sequence[float]) -> tuple[float, ...]:
+    def compute_costs(self, source: NoiseSource, levels: Sequence[float]) -> tuple[float, ...]:
         """Return −2·ln of the probability of each ratio of a source against one of them all as likely."""
-        weights = self._weights(source, np.array(levels))
+        weights = self._compute_weights(source, np.array(levels))
         return tuple((-2.0 * np.log(weights * len(levels) / weights.sum())).tolist())
 
-    def _weights(self, source: NoiseSource, levels: FloatArray) -> FloatArray:
+    def _compute_weights(self, source: NoiseSource, levels: FloatArray) -> FloatArray:
         """Return how probable each ratio of a source is, up to a factor; (k,)."""
         if source not in self.ratios:
             return np.ones(len(levels))
@@ -85,7 +85,7 @@ class PriorExpectation:
         """Return the same with sizes over σ."""
         return replace(self, sizes={name: size / (sigma or 1.0) for name, size in self.sizes.items()})
 
-    def square(self, effect: str) -> float:
+    def find_square(self, effect: str) -> float:
         """Return the mean square of an effect, sizes being in units of σ; 1 where no earlier test had it."""
         return max(self.sizes.get(effect, 1.0) ** 2, _LEAST_SQUARE)
 
@@ -107,9 +107,9 @@ class Lesson:
         """Return what a fitted model teaches."""
         parts, axis = list_noise_parts(fitted.design), fitted.design.axis
         levels = {part.source: part.ratios for part in parts}
-        space = make_contrasts_of(fitted.base(), parts, fitted.noise.weights)
+        space = make_contrasts_of(fitted.compute_base(), parts, fitted.noise.weights)
         contrast = space.of(fitted.open_deviation)
-        criterion = space.restricted(contrast)
+        criterion = space.make_criterion(contrast)
         criteria = np.array([criterion(ratios)[0] for ratios in combine_levels([*levels.values()])])
         sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _list_sizes(fitted)}
         return cls(axis.kind, sizes, levels, np.exp(-0.5 * (criteria - criteria.min())))
@@ -174,7 +174,7 @@ def _learn_population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray
         expected = PriorExpectation(found)
         counts = {source: np.full(len(each[0]), _IMAGINED / len(each[0])) for source, each in found.items()}
         for levels, grid, likelihoods in known:
-            posterior = likelihoods * expected.probabilities(levels, grid)
+            posterior = likelihoods * expected.compute_probabilities(levels, grid)
             posterior /= posterior.sum()
             for column, source in zip(grid.T, levels, strict=True):
                 places = np.searchsorted(found[source][0], column)

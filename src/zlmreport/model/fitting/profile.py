@@ -114,7 +114,7 @@ def _make_rise(
 ) -> Callable[[float], float]:
     """Return the root of the rise of the deviance over the distance of a parameter from its best value."""
     terms, thetas = fitted.model.terms, fitted.solution.thetas
-    least, sigma = problem.solution(thetas).squares, fitted.uncertainties.sigma
+    least, sigma = problem.solve_at(thetas).squares, fitted.uncertainties.sigma
     term = terms[index]
 
     def rise(distance: float) -> float:
@@ -125,7 +125,7 @@ def _make_rise(
         if estimate.parameter in term.effect.searched:
             start[index][term.effect.searched.index(estimate.parameter)] = value
         constrained = replace(problem, model=AxisModel((*terms[:index], held, *terms[index + 1 :])))
-        found = descend(constrained, constrained.solution(tuple(start)), _SETTLED * sigma**2)
+        found = descend(constrained, constrained.solve_at(tuple(start)), _SETTLED * sigma**2)
         thetas = found.thetas
         return float(np.sqrt(max(found.squares - least, 0.0))) / sigma
 

@@ -46,7 +46,7 @@ class ContinuousParameter:
     least: float
     most: float
 
-    def moved(self, thetas: Thetas, shift: float) -> Thetas:
+    def move(self, thetas: Thetas, shift: float) -> Thetas:
         """Return θ with this one shifted, but not beyond the grid."""
         value = min(max(float(thetas[self.term][self.column]) + shift, self.least), self.most)
         return self.at(thetas, value)
@@ -88,26 +88,26 @@ class FitProblem:
         default_factory=dict, init=False, repr=False, compare=False
     )
 
-    def solution(self, thetas: Thetas) -> Solution:
+    def solve_at(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
         thetas = self.model.link(thetas)
-        columns, left = self.equations(thetas, range(len(thetas)))
+        columns, left = self.make_equations(thetas, range(len(thetas)))
         solved = solve(columns, left)
         return Solution(thetas, self.model.collect_coefficients(solved), columns, left - columns @ solved)
 
-    def equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
+    def make_equations(self, thetas: Thetas, terms: Collection[int]) -> tuple[FloatArray, FloatArray]:
         """Return the whitened columns of some terms, and what their given coefficients leave, both whitened.
 
         `terms`: By their places in the model; what is linked to one of them comes along.
         """
-        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
+        own = [self._compute_columns(index, theta) for index, theta in enumerate(thetas)]
         pairs = self.model.add_linked(self.design, thetas, own)
         chosen = [pairs[index] for index in terms]
         left = self.deviation - np.sum([given for _, given in chosen], axis=0)
         whitened = self.whiten(np.column_stack([*(each for each, _ in chosen), left]))
         return whitened[:, :-1], whitened[:, -1]
 
-    def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def _compute_columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the columns of a term whose coefficients are solved, and what the given ones make."""
         key, known = theta.tobytes(), self._last.get(index)
         if known is None or known[0] != key:
@@ -115,7 +115,7 @@ class FitProblem:
             self._last[index] = known
         return known[1]
 
-    def places(self, thetas: Thetas) -> tuple[ContinuousParameter, ...]:
+    def list_continuous_parameters(self, thetas: Thetas) -> tuple[ContinuousParameter, ...]:
         """Return the searched parameters that vary continuously."""
         return tuple(
             _place(index, column, term.make_grid(self.design)[:, column], float(thetas[index][column]))
@@ -140,11 +140,11 @@ def refine(problem: FitProblem, start: Solution, settled: float = 0.0) -> Soluti
 
     `settled`: As for `descend`.
     """
-    best, places = start, problem.places(start.thetas)
+    best, places = start, problem.list_continuous_parameters(start.thetas)
     steps = [place.spacing / 2 for place in places]
     for _ in range(_HALVINGS if places else 0):
         for place, step in zip(places, steps, strict=True):
-            either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
+            either = [problem.solve_at(place.move(best.thetas, shift)) for shift in (step, -step)]
             best = _choose_better(best, min(either, key=_sum_squares))
         steps = [step / 2 for step in steps]
     return descend(problem, best, settled)
@@ -176,7 +176,7 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
 
     A step that changes the sum of squares by less than `settled` is the last.
     """
-    best, places = start, problem.places(start.thetas)
+    best, places = start, problem.list_continuous_parameters(start.thetas)
     damping = _SMALLEST_DAMPING
     spacings = np.array([place.spacing for place in places])
     for _ in range(_STEPS if places else 0):
@@ -196,8 +196,8 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
         tried = best
         thetas = best.thetas
         for place, shift in zip(places, step * spacings, strict=True):
-            thetas = place.moved(thetas, float(shift))
-        tried = problem.solution(thetas)
+            thetas = place.move(thetas, float(shift))
+        tried = problem.solve_at(thetas)
         change = abs(tried.squares - best.squares)
         if tried.squares < best.squares:
             best, damping = tried, max(damping / 10, _SMALLEST_DAMPING)

@@ -93,7 +93,7 @@ def plan_deciding_experiment(
 
     Raises `InputError` if none is named, one twice, or one that there is not.
     """
-    known = {each.identifier: each for each in (study.tried(effects) if study else effects)}
+    known = {each.identifier: each for each in (study.list_tried(effects) if study else effects)}
     model = study.model if study else choose_model_of(job, effects)
     known |= {term.effect.identifier: term.effect for term in model.terms}
     _refuse_names(names, known)
@@ -102,7 +102,7 @@ def plan_deciding_experiment(
         model = model.without(name)
     if study is None:
         return _plan_unmeasured(job, model, chosen, effects, standards)
-    base = replace(study, model=model).fitted().fit
+    base = replace(study, model=model).fit_whole().fit
     fits = [_fit_best_form(base, each) for each in chosen]
     sizes = [0.0 if each is None else _estimate_size(base, each) for each in fits]
     size = max(
@@ -174,7 +174,7 @@ def _plan_of_study(
     plan = find_measured_plan(job, study.measurements)
     seed = make_seed_of(job.keys.certificate.number)
     return plan_next_experiment(
-        question, plan, ExpectedTest(question.sigma, rise), study.tried(effects), seed, told=told
+        question, plan, ExpectedTest(question.sigma, rise), study.list_tried(effects), seed, told=told
     )
 
 
@@ -190,7 +190,7 @@ def make_question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) ->
     return Question(
         axis=base.design.axis,
         model=base.model,
-        base=base.base,
+        base=base.compute_base,
         rivals=tuple(rivals),
         sigma=best.noise.sigma,
         degrees=best.degrees,

@@ -192,7 +192,9 @@ def _judge_at_a_glance(question: Question, expected: ExpectedTest, draws: _Draws
     if len(visible) < len(question.rivals):
         return option
     contest = Contest.of(design, question.compute_columns(design), visible, with_nameless=False)
-    decides, margin = _compute_share_decided(question, contest, [contest.nearest(question.ratios)], draws)
+    decides, margin = _compute_share_decided(
+        question, contest, [contest.find_nearest_amplitudes(question.ratios)], draws
+    )
     return replace(option, decides=decides, margin=margin)
 
 
@@ -208,7 +210,8 @@ def _judge_thoroughly(
     forms = [*own, *(each for each in others if each.identifier not in question.names)]
     contest = Contest.of(design, question.compute_columns(design), forms)
     return replace(
-        option, decides=_compute_share_decided(question, contest, list(contest.middling()), draws)[0]
+        option,
+        decides=_compute_share_decided(question, contest, list(contest.list_middling_amplitudes()), draws)[0],
     )
 
 

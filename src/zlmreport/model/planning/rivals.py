@@ -40,8 +40,8 @@ def list_possible_scatters(after: Fit) -> tuple[PossibleNoise, ...]:
     They lie evenly in what restricted likelihood says of the ratios φ that noise may have.
     """
     parts = list_noise_parts(after.design)
-    space = make_contrasts_of(after.base(), parts, after.noise.weights)
-    criterion, grid = space.restricted(space.of(after.open_deviation)), make_ratio_grid(parts)
+    space = make_contrasts_of(after.compute_base(), parts, after.noise.weights)
+    criterion, grid = space.make_criterion(space.of(after.open_deviation)), make_ratio_grid(parts)
     criteria, squares = np.transpose([criterion(ratios) for ratios in grid])
     likelihoods = np.cumsum(np.exp(-0.5 * (criteria - criteria.min())))
     places = np.searchsorted(likelihoods, likelihoods[-1] * (np.arange(_SCATTERS) + 0.5) / _SCATTERS)
