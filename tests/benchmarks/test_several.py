@@ -62,9 +62,27 @@ def test_many_names_that_one_curve_replaces_are_not_told() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize(
+    ("number", "cause"),
+    [
+        (
+            9006,
+            "encoder-interpolation",
+        ),  # a reversal value that changes in time, in one run to the other sign
+        (9009, "backlash"),  # slopes of runs apart, and a screw that grows with its temperature
+    ],
+)
+def test_what_changes_without_a_name_is_no_slip_in_recording(number: int, cause: str) -> None:
+    drawn = drawn_axis(number, with_stranger=True)
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert found.faults == ()
+    assert cause in {each.identifier for each in found.together}
+
+
+@pytest.mark.long
 def test_four_causes_are_built_down_to_the_noise_each_by_its_name() -> None:
-    # A wave in time and a passing warmth, which a single curve in time nearly describes.
-    outcome = followed(drawn_axis(8003, with_stranger=False))
+    # A step of the zero and a wave in time, which a single curve in time nearly describes.
+    outcome = followed(drawn_axis(9020, with_stranger=False))
     assert sorted(outcome.built) == sorted(outcome.drawn.causes)
     assert outcome.left < DOWN_TO_NOISE
 

@@ -180,6 +180,16 @@ def test_a_lagging_sensor_is_known_by_the_clock_of_each_session() -> None:
     fitted = fit(add_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
     (found,) = find_lagging_sensors(fitted, [fitted], INSTALLED)
     assert found.kind is FaultKind.LAGGING_SENSOR
+    assert find_lagging_sensors(fitted, [fitted], INSTALLED, changes=1e4) == ()
+
+
+def test_what_a_curve_in_time_explains_better_is_no_slip_of_a_run() -> None:
+    fitted = fit(_MODEL, _swapped(), _TRUE)
+    (found,) = run_faults(fitted)
+    assert found.explains
+    # Some 290 in units of 2·ln, on 100 of 107 degrees of freedom.
+    assert [each.explains for each in run_faults(fitted, changes=200.0)] == [True]
+    assert run_faults(fitted, changes=400.0) == ()
 
 
 def test_a_night_between_two_runs_parts_two_sessions() -> None:

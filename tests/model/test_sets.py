@@ -74,6 +74,13 @@ def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
     assert _names(found) == {"backlash-bow", "time-periodic"}
 
 
+def test_what_came_in_first_goes_out_for_what_is_better_without_it() -> None:
+    # Over a run to and fro a slope looks much like a wave in time, which takes in lost motion as well.
+    design = linear_test(15, 4)
+    found = _found(1e-5 * design.position - 1.5e-6 * design.direction + noise(design), design)
+    assert _names(found) == {"backlash", "scale-error"}
+
+
 def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
     stretch = 4 * SIGMA * ((DESIGN.position > 0.32) & (DESIGN.position < 0.58))
     found = _found(_hiding(("backlash", [])) + stretch)

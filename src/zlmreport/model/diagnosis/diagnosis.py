@@ -211,7 +211,8 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     known = {each.identifier for each in candidates}
     leading = (each.leading.member.effect for each in finding.named)
     together = tuple(each for each in leading if each.identifier in known)
-    faults = find_faults_of(observed, fitted, complete, asked.effects, is_something_missing=bool(together))
+    rivals = [complete] if together else []
+    faults = find_faults_of(observed, fitted, rivals, asked.effects, changes=finding.changes)
     if any(each.comes_first for each in faults):
         together, candidates, complete = (), (), fitted
     tests = run_residual_tests(find_residuals_of(fitted, finding.noise))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from zlmreport.job.choices import part_number
@@ -71,6 +71,10 @@ class EffectSet:
     def columns_with_tangents(self) -> list[IntArray]:
         """The same, and what shifts of their searched parameters would change."""
         return [*self.columns, *(each.tangents for each in self.members if each.tangents is not None)]
+
+    def without(self, number: int) -> EffectSet:
+        """Return the set without one of its members, all else and its score as they are."""
+        return replace(self, members=(*self.members[:number], *self.members[number + 1 :]))
 
 
 def make_member(family: Family, block: int, spread: float) -> SetMember:

@@ -98,20 +98,21 @@ class DataFault:
 def find_faults_of(
     observed: Observations,
     before: Fit,
-    complete: Fit,
+    rivals: Sequence[Fit],
     effects: Iterable[Effect],
     *,
-    is_something_missing: bool,
+    changes: float,
 ) -> tuple[DataFault, ...]:
     """Return what looks wrong in the data; a run that two signs betray is named once.
 
-    `before`, `complete`: The job's model, and the same with all effects that a contest found.
+    `before`: The job's model.
+    `rivals`: The same with all effects that a contest found; nothing where it found none.
+    `changes`: Evidence of what changes in time, or from run to run, without a name.
     """
     own = select_of_the_job(observed)
     recorded = find_recorded_faults(own.design, own.deviation)
-    rivals = [complete] if is_something_missing else []
-    by_runs = run_faults(before, rivals)
-    lagging = find_lagging_sensors(before, rivals, effects)
+    by_runs = run_faults(before, rivals, changes)
+    lagging = find_lagging_sensors(before, rivals, effects, changes)
     known = {(each.kind, each.run): each for each in recorded}
     found = [known.pop((each.kind, each.run), each) for each in (*by_runs, *lagging)]
     return (*found, *known.values())
@@ -136,16 +137,15 @@ def find_recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFau
     )
 
 
-def run_faults(
-    fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = -np.inf
-) -> tuple[DataFault, ...]:
+def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) -> tuple[DataFault, ...]:
     """Return slips of single runs that explain what the repeats differ by.
 
     An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
     any effect does, also one that is physically impossible, and surpass every shape without a name.
 
     `rivals`: The same with each of the best effects.
-    `shape_evidence`: Evidence of the best shape without a name.
+    `changes`: Evidence of what changes in time, or from run to run, without a name, on all degrees of freedom
+        of the model.
     """
     design, deviation = fitted.design, fitted.deviation
     runs = np.unique(design.cycle)
@@ -165,7 +165,8 @@ def run_faults(
         least = max(left / whole, _EXACT)
         evidence = -count * float(np.log(least)) - 2 * float(np.log(len(tried)))
         by_rivals = -count * float(np.log(max(by_effects / spread, _EXACT)))
-        ahead = evidence - max(by_rivals, shape_evidence, 0.0)
+        # Repeats have fewer degrees of freedom than all readings: on these the evidence is compared.
+        ahead = evidence - max(by_rivals, changes * count / fitted.degrees, 0.0)
         if evidence > _STRONG and ahead > 0:
             statement, remedy = _OF_RUNS[kind]
             fault = DataFault(
@@ -181,11 +182,12 @@ def _sum_squares_within(fitted: Fit) -> float:
 
 
 def find_lagging_sensors(
-    fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]
+    fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect], changes: float = 0.0
 ) -> tuple[DataFault, ...]:
     """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
 
     `rivals`: The same with each of the best effects; nothing is said where none is better than nothing.
+    `changes`: Evidence of what changes in time, or from run to run, without a name.
     """
     design, readings = fitted.design, len(fitted.deviation)
     floor = estimate_noise_floor(design, fitted.deviation)
@@ -214,7 +216,8 @@ def find_lagging_sensors(
                 found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
     if not found:
         return ()
-    evidence, name, lag = max(found)
+    most, name, lag = max(found)
+    evidence = most - changes
     # The effect that leads was searched over as many time constants: neither pays more than the other.
     if evidence < _AS_GOOD:
         return ()

@@ -47,6 +47,9 @@ MENTION = 2.0
 NAMED, NAMED_BESIDE = 1.4, 4.4
 #: Evidence within which two effects are not told apart: odds of 20 to 1.
 TOLD_APART = 6.0
+#: How many names one curve without a name replaces, and what evidence the set with it may lack, that they are
+#: not told: of many at odds up to 20 to 1, of two where it is a toss-up.
+_REPLACED = ((3, TOLD_APART), (2, MENTION))
 #: What a rival may lack that is told of.
 _BEHIND = 40.0
 #: Share of a column that must be left beside the model: less, where its searched parameters are only known
@@ -102,6 +105,7 @@ class ContestFinding:
     others: tuple[StandIn, ...]  #: Those that explain most where none has evidence of its own, best first.
     makeshift: tuple[str, ...]  #: Effects of the model that others take the place of.
     remainder: Remainder | None  #: What is left without a name; None where it is noise.
+    changes: float  #: Evidence of what changes in time, or from run to run, without a name.
     visible: tuple[Visibility, ...]  #: How much of each effect the plan can see beside the model.
 
 
@@ -241,7 +245,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     told(0.2)
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
-        return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
+        return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, 0.0, visible), None)
     found = search.find_best(start.members, lambda share: told(0.2 + 0.6 * share))
     found = search.renumber(_believe_set(search, found))
     named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
@@ -253,6 +257,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
         others=() if named else tuple(_list_others(search, found)),
         makeshift=tuple(sorted(stated.may_go - {each.identifier for each in found.named})),
         remainder=find_remainder_of(search, found, fitted),
+        changes=search.compute_evidence_of_changes(found),
         visible=visible,
     )
     told(1.0)
@@ -278,7 +283,8 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
     """
     if not search.has_nameless(found):
         # With enough names any curve is described: several that one curve replaces are not told.
-        found = search.find_fewer_beside_curve(found, TOLD_APART) or found
+        for names, within in _REPLACED:
+            found = search.find_fewer_beside_curve(found, names, within) or found
     is_whole = not search.has_nameless(found)
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
@@ -320,11 +326,11 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
             continue
         names = {find_installed_name(each.effect)}
         evidence = search.compute_evidence_of(found, names)
-        if evidence < TOLD_APART:
+        if evidence < NAMED_BESIDE:
             rivals = search.list_rivals(found, search.without(found, number), TOLD_APART)
             names |= {find_installed_name(rival.members[-1].effect) for rival in rivals}
             evidence = search.compute_evidence_of(found, names)
-        if evidence >= TOLD_APART:
+        if evidence >= NAMED_BESIDE:
             kept.append(each)
     return found if len(kept) == len(found.named) else search.find_best_holding(found, kept)
 

@@ -184,10 +184,6 @@ class Contrasts:
         logarithms = np.log(np.diagonal(factor))
         return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
 
-    def compute_criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
-        """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
-        return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant
-
 
 def make_contrasts_of(
     base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray | SingleReadings
