@@ -108,6 +108,15 @@ def same(phrase: str | Said) -> Words:
     return Words("{phrase}", values={"phrase": phrase})
 
 
+#: In French a space stands before the colon.
+_NAMED = Words("{name}: {said}")
+
+
+def named(name: str | Said, said: str | Said) -> Words:
+    """Return a name and what is said of it, parted as each language parts them."""
+    return _NAMED.given(name=name, said=said)
+
+
 def _write_in(value: str | float | Said, language: Language) -> str:
     if isinstance(value, str):
         return value

@@ -23,7 +23,7 @@ from zlmreport.document.figures.bars import draw_budget
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.language.formatting import round_pair, write_percentage
 from zlmreport.measurement.units import MICROMETRE
 
@@ -147,7 +147,7 @@ def say_neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragra
         by_reason.setdefault(reason, []).append(writer.say(wording.name_contributor(name)))
     if by_reason:
         said = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in by_reason.items())
-        yield Paragraph(f"{writer.say(_NEGLIGIBLE)}: {said}.")
+        yield Paragraph(writer.say(named(_NEGLIGIBLE, f"{said}.")))
 
 
 def lay_out_budgets(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
