@@ -31,7 +31,7 @@ from zlmreport.document.subjects.fit import (
     write_in_a_sentence,
 )
 from zlmreport.document.writer import NOTHING
-from zlmreport.language import Language, Words, named, same
+from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.candidate import Candidate
@@ -219,7 +219,13 @@ def lay_out_diagnosis(
         section(
             "failures",
             FAILURES,
-            notice(FAILURES, (f"{each.statement} ({each.where}; {each.p})" for each in rows.failures))
+            notice(
+                FAILURES,
+                (
+                    f"{each.statement} ({join_parts((each.where, each.p), language)})"
+                    for each in rows.failures
+                ),
+            )
             or Paragraph(_NO_FAILURE.in_language(language)),
         ),
         section(
