@@ -80,11 +80,24 @@ def test_what_changes_without_a_name_is_no_slip_in_recording(number: int, cause:
 
 
 @pytest.mark.long
-def test_four_causes_are_built_down_to_the_noise_each_by_its_name() -> None:
-    # A step of the zero and a wave in time, which a single curve in time nearly describes.
-    outcome = followed(drawn_axis(9020, with_stranger=False))
+@pytest.mark.parametrize(
+    "number",
+    [
+        9020,  # a step of the zero and a wave in time, which a single curve in time nearly describes
+        10015,  # a displaced run, in the place of which a slope beside a curve is as good
+    ],
+)
+def test_causes_are_built_down_to_the_noise_each_by_its_name(number: int) -> None:
+    outcome = followed(drawn_axis(number, with_stranger=False))
     assert sorted(outcome.built) == sorted(outcome.drawn.causes)
     assert outcome.left < DOWN_TO_NOISE
+
+
+@pytest.mark.long
+def test_a_search_that_comes_by_sets_that_are_nearly_known_ends() -> None:
+    drawn = drawn_axis(12019, with_stranger=True)
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert "abbe" in {each.identifier for each in found.together}
 
 
 def test_a_stranger_stands_beside_the_causes() -> None:

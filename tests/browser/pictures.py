@@ -18,6 +18,9 @@ def picture(page: Page, name: str) -> None:
     path = _PICTURES / f"workbench-{name}.png"
     if os.environ.get("ZLMREPORT_PICTURES"):
         page.mouse.move(0, 0)
+        page.wait_for_load_state(
+            "networkidle"
+        )  # what comes later would make the page longer than its picture
         page.evaluate("scrollTo(0, 0)")  # what keeps in sight would lie over what was scrolled away
         content = page.screenshot(full_page=True)
         with Image.open(io.BytesIO(content)) as image:

@@ -31,6 +31,8 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
     page = window(address)
     diagnosed(page, "missing")
     expect(page.get_by_text("Missing effect: screw-pitch, which explains the rest.")).to_be_visible()
+    expect(page.locator(".wave .plot")).to_be_visible()
+    assert page.locator(".wave .tick[text-anchor=end]").count() >= 3
     picture(page, "missing")
 
     page.get_by_role("button", name="The means of the positions deviate").click()
@@ -324,6 +326,10 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     picture(page, "tablet")
     page.get_by_role("combobox", name="Sprache").select_option("en")
     expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible()
+    page.get_by_role("combobox", name="Language").select_option("fr")
+    remedy = page.locator(".candidate .tell strong").first
+    expect(remedy).to_be_visible()
+    assert remedy.inner_text().rstrip(" ").endswith("\N{NO-BREAK SPACE}:")
 
 
 def test_what_a_certificate_lacks_is_filled_in_on_the_page(address: str, job: Path, window: Window) -> None:

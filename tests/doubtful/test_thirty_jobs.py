@@ -101,7 +101,7 @@ JOBS: dict[str, Doubtful] = {
         in_reverse_order,
     ),
     "signs of one direction turned, on a French sheet": Doubtful(
-        changed(FRENCH, SHEET, by("vdi-vde-2617", P=200)), "en sens contraire", with_one_sign_turned
+        changed(FRENCH, SHEET, by("vdi-vde-2617", P=200)), "à l’opposé l’un de l’autre", with_one_sign_turned
     ),
     "two sensors that were logged 5 K apart": Doubtful(
         _LOGGED_ONLY,

@@ -12,7 +12,7 @@ from types import ModuleType
 
 import pytest
 
-from zlmreport.language import Language, Words, accepted_language, same
+from zlmreport.language import Language, Words, accepted_language, named, same
 
 _TOOL = Path(__file__).parents[2] / "docs/generate/translations.py"
 OTHERS = [each for each in Language if each is not Language.ENGLISH]
@@ -119,3 +119,16 @@ def test_a_browser_is_answered_in_the_first_language_that_there_is(
     asked: str, language: Language | None
 ) -> None:
     assert accepted_language(asked) is language
+
+
+def test_in_french_no_line_begins_with_a_sign_that_has_a_space_before_it() -> None:
+    parted = re.compile(r" [:;?!»]|« ")
+    found = [text for *_, texts in messages(Language.FRENCH) for text in texts if parted.search(text)]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("language", "text"), [(Language.FRENCH, "A\N{NO-BREAK SPACE}: b"), (Language.GERMAN, "A: b")]
+)
+def test_a_name_is_parted_from_what_is_said_of_it_as_in_the_language(language: Language, text: str) -> None:
+    assert named("A", same("b")).in_language(language) == text

@@ -385,3 +385,18 @@ def test_what_is_left_beside_a_bow_is_told_and_is_no_larger_than_what_the_whole_
     found = diagnose(model_of("offset"), observations(DESIGN, bowed + noise(DESIGN)), INSTALLED)
     assert found.remainder is not None
     assert found.remainder.rms <= found.error_after.rms
+
+
+def test_a_set_that_the_readings_do_not_determine_is_not_adequate(monkeypatch: pytest.MonkeyPatch) -> None:
+    # So small that χ² alone would let it pass.
+    readings = known(DESIGN) + hidden(DESIGN, "scale-kink", [0.6], size=0.5) + noise(DESIGN)
+    assert diagnose(USUAL, observations(DESIGN, readings), INSTALLED).verdict is Verdict.MISSING
+
+    def refuse(*_: object) -> None:
+        raise ModelError(["the readings do not determine it"])
+
+    for module in ("diagnosis", "candidate"):
+        monkeypatch.setattr(f"zlmreport.model.diagnosis.{module}.fit_with_member", refuse)
+    found = diagnose(USUAL, observations(DESIGN, readings), INSTALLED)
+    assert found.together == ()
+    assert found.verdict is Verdict.UNEXPLAINED

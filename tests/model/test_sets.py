@@ -11,6 +11,7 @@ from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
@@ -137,6 +138,19 @@ def test_a_searched_parameter_need_not_lie_on_the_grid() -> None:
     (kink,) = found.named
     assert kink.identifier == "scale-kink"
     assert kink.theta[0] == pytest.approx(between, abs=(places[8] - places[7]) / 4)
+
+
+def test_a_pitch_between_those_that_are_tried_is_not_given_up_for_the_stated_one() -> None:
+    other = next(
+        each for each in EFFECTS["screw-pitch"].forms() if each.settings.model_dump()["pitch"] == "other"
+    )
+    pitch = np.array([0.01053])
+    readings = noise(DESIGN) + 2 * SIGMA * np.sqrt(2) * other.columns(DESIGN, pitch)[:, 0]
+    contest = _contest(readings)
+    (member,) = SetSearch(contest).make_members_of([(other, pitch)])
+    (kept,), has_moved = jump_along_grids(contest, [member], contest.quiet)
+    assert not has_moved
+    assert kept.theta == pytest.approx(pitch)
 
 
 def test_a_jump_within_the_readings_of_one_target_is_found_where_it_is() -> None:

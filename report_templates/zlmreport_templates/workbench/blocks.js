@@ -1,6 +1,6 @@
 // Blocks as terminal and certificate have them, laid out on a page: sentences, notices, tables, drawings.
 
-import { h, s, symbol } from "./dom.js";
+import { h, named, s, symbol } from "./dom.js";
 import { explained } from "./help.js";
 
 /** Return a section: its title and its blocks; one that is folded opens by a click. */
@@ -17,20 +17,20 @@ export function blocks(all, title = "") {
 
 const KINDS = {
   paragraph: ({ text }) => h("p", {}, text),
-  notice: ({ heading, items }, title) => [heading !== title && h("p", { class: "said" }, `${heading}:`), h("ul", { class: "said" }, items.map((each) => h("li", {}, each)))],
+  notice: ({ heading, items }, title) => [heading !== title && h("p", { class: "said" }, named(heading)), h("ul", { class: "said" }, items.map((each) => h("li", {}, each)))],
   facts: ({ pairs }) => h("dl", { class: "numbers" }, pairs.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))),
   table: (each, title) => table(each, title),
   graph: ({ caption, drawing }) => h("figure", {}, h("div", { class: "drawing" }, drawn(drawing)), h("figcaption", { class: "hint" }, caption)),
 };
 
-/** Return a table; `named` may turn the first cell of a row into something else. */
-export function table({ caption, columns, rows }, title = "", named = content) {
+/** Return a table; `first` may turn the first cell of a row into something else. */
+export function table({ caption, columns, rows }, title = "", first = content) {
   return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": caption },
     h("table", { class: "said" },
       caption !== title && h("caption", {}, caption),
       h("thead", {}, h("tr", {}, columns.map((each) => h("th", { scope: "col", class: each.right ? "number" : false }, content(each.heading), each.unit && ` (${each.unit})`)))),
       h("tbody", {}, rows.map((row) => h("tr", {}, row.map((cell, index) => (index === 0
-        ? h("th", { scope: "row" }, named(cell))
+        ? h("th", { scope: "row" }, first(cell))
         : h("td", { class: columns[index]?.right ? "number" : false }, content(cell)))))))));
 }
 

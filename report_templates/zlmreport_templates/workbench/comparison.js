@@ -1,6 +1,6 @@
 // Several tests of one axis: their means over the readings, what differs, parameters over the days, models.
 
-import { fill, h, s, symbol } from "./dom.js";
+import { fill, h, named, s, symbol } from "./dom.js";
 import { Plot } from "./plot.js";
 import { extent, scale } from "./scale.js";
 
@@ -76,7 +76,7 @@ export class Comparison {
   #say(index) {
     const point = index === null ? null : this.points[index];
     fill(this.place, point
-      ? `${titled(this.numbered[Number(point.name) - 1])}: ${this.number(point.x)} ${this.graphs.axes[0].unit} ${ARROWS.get(point.direction)}: ${this.number(Math.round(100 * point.y) / 100)} ${this.graphs.unit}`
+      ? named(titled(this.numbered[Number(point.name) - 1]), named(`${this.number(point.x)} ${this.graphs.axes[0].unit} ${ARROWS.get(point.direction)}`, `${this.number(Math.round(100 * point.y) / 100)} ${this.graphs.unit}`))
       : this.texts.differenceIs);
   }
 
@@ -86,7 +86,7 @@ export class Comparison {
   }
 
   #parameters(standard) {
-    return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": `${this.texts.tests}: ${standard.designation}` }, h("table", { class: "tests" },
+    return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": named(this.texts.tests, standard.designation) }, h("table", { class: "tests" },
       this.#heading(h("th", { scope: "col" }, this.texts.overDays)),
       h("tbody", {}, standard.rows.map((row) => h("tr", {},
         h("th", { scope: "row", title: row.name }, symbol(row.symbol), h("span", { class: "unseen" }, ` ${row.name}`)),

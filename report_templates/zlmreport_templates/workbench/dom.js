@@ -1,6 +1,8 @@
 // Elements from values: text is always text, never markup.
 
 const SVG = "http://www.w3.org/2000/svg";
+// Between a number and its unit no line ends.
+const UNIT = /(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))/g;
 
 /** Return an element with attributes (functions are listeners, false and null leave one out) and children. */
 export function h(tag, attributes = {}, ...children) {
@@ -17,7 +19,8 @@ function filled(element, attributes, children) {
     if (typeof value === "function") element.addEventListener(name, value);
     else if (value !== null && value !== undefined && value !== false) element.setAttribute(name, value === true ? "" : value);
   }
-  element.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
+  const kept = children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false);
+  element.append(...kept.map((child) => (typeof child === "string" && element.tagName !== "CODE" ? child.replace(UNIT, "\u00a0") : child)));
   return element;
 }
 
@@ -32,6 +35,11 @@ export function symbol(spans) {
 /** Return a phrase with values in its marked places. */
 export function said(phrase, values) {
   return phrase.replace(/\{(\w+)\}/g, (_, name) => values[name]);
+}
+
+/** Return a name and what is said of it, as the language of the page parts them. */
+export function named(name, text = "") {
+  return `${name}${document.documentElement.lang === "fr" ? "\u00a0" : ""}: ${text}`;
 }
 
 /** Fill an element anew; the control that had the focus has it again if it is still there. */

@@ -1,6 +1,6 @@
 // The page of an effect: equation, look, parameters, and what it cannot be told from.
 
-import { h, said, symbol } from "./dom.js";
+import { h, named, said, symbol } from "./dom.js";
 import { written } from "./number.js";
 import { Plot } from "./plot.js";
 import { ROOT, get } from "./server.js";
@@ -20,7 +20,7 @@ export async function showEffect(texts, effect) {
     h("header", {}, h("h1", {}, found.called, found.called !== found.title && h("span", {}, found.title)), back(texts)),
     h("main", { class: "effect" },
       h("section", { class: "panel" }, h("h2", {}, texts.look), h("p", {}, found.look),
-        found.remedy && h("p", {}, h("strong", {}, `${texts.remedy}: `), found.remedy),
+        found.remedy && h("p", {}, h("strong", {}, named(texts.remedy)), found.remedy),
         plot && [plot.element, h("p", { class: "hint" }, found.sketch.words)]),
       h("div", {},
         h("section", { class: "panel" }, h("h2", {}, texts.equation), h("p", { class: "equation" }, symbol(found.equation)), table(texts, found),
@@ -33,7 +33,7 @@ export async function showEffect(texts, effect) {
         found.confusions.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.confusions),
           h("dl", { class: "keys" }, found.confusions.map((each) => [
             h("dt", {}, h("a", { href: `${ROOT}/effects/${each.effect}${location.search}` }, each.called), each.called !== each.title && h("span", { class: "quiet" }, ` ${each.title}`)),
-            h("dd", {}, h("strong", {}, `${texts.tell}: `), each.told)]))))));
+            h("dd", {}, h("strong", {}, named(texts.tell)), each.told)]))))));
 }
 
 function back(texts) {
@@ -55,7 +55,7 @@ function drawn(texts, found) {
   plot.show({
     hidden: new Set(),
     x: sketch.x, y: sketch.y, direction: sketch.direction, fitted: sketch.x.map(() => true), curves: sketch.curves, noise: null, labels: null, range: sketch.range,
-    xTitle: sketch.unit ? `${sketch.title} (${sketch.unit})` : sketch.title, yTitle: sketch.deviation_unit, alternative: `${found.look} ${sketch.words}`,
+    xTitle: sketch.unit ? `${sketch.title} (${sketch.unit})` : sketch.title, yTitle: `${texts.deviation} (${sketch.deviation_unit})`, alternative: `${found.look} ${sketch.words}`,
   });
   return plot;
 }

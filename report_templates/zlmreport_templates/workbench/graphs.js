@@ -1,6 +1,6 @@
 // The two graphs and what is said of the reading that is pointed at: one reading is marked in both.
 
-import { fill, h, said } from "./dom.js";
+import { fill, h, named, said } from "./dom.js";
 import { Plot, passes } from "./plot.js";
 import { saveCsv, savePng, saveSvg } from "./saving.js";
 
@@ -165,8 +165,8 @@ export class Graphs {
     const button = (label, work) => h("button", { type: "button", click: work }, label);
     return h("details", { class: "save" }, h("summary", {}, texts.save), h("div", {},
       [[this.above, texts.measured, "deviations"], [this.below, texts.residuals, "residuals"]].map(([plot, title, name]) => h("p", {},
-        `${title}: `, button("PNG", () => savePng(plot, name)), " ", button("SVG", () => saveSvg(plot, name)))),
-      h("p", {}, `${texts.inSight}: `, button("CSV", () => saveCsv(this.#rows(this.above.within()), "readings")))));
+        named(title), button("PNG", () => savePng(plot, name)), " ", button("SVG", () => saveSvg(plot, name)))),
+      h("p", {}, named(texts.inSight), button("CSV", () => saveCsv(this.#rows(this.above.within()), "readings")))));
   }
 
   #draw() {

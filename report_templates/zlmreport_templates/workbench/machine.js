@@ -1,7 +1,7 @@
 // The page of a machine: its tests against axes and effects, what is missing, the error as it falls.
 
 import { blocks, section, table } from "./blocks.js";
-import { fill, h } from "./dom.js";
+import { fill, h, named } from "./dom.js";
 import { Graphs } from "./graphs.js";
 import { Loop } from "./loop.js";
 import * as panels from "./panels.js";
@@ -71,7 +71,7 @@ export class MachinePage extends Loop {
     const chosen = (cell) => h("button", { type: "button", class: "plain choice", "aria-pressed": String(cell.text === this.test), "data-key": `test-${cell.text}`, click: () => this.#showTest(cell.text) }, cell.text);
     fill(parts.sizes, several && [h("h2", {}, texts.tests), table(results.sizes, "", chosen)]);
     const title = this.job.tests.find((each) => each.test === this.test)?.title;
-    fill(parts.test, results.tests[this.test] && [h("h2", {}, `${this.test}: ${title}`), blocks(results.tests[this.test])]);
+    fill(parts.test, results.tests[this.test] && [h("h2", {}, named(this.test, title)), blocks(results.tests[this.test])]);
   }
 
   /** Show what takes longer than the graphs. */

@@ -1,7 +1,7 @@
 // What stands beside and below the graphs. Each panel is a function from values to elements.
 
 import { blocks } from "./blocks.js";
-import { h, s, said, symbol } from "./dom.js";
+import { h, named, s, said, symbol } from "./dom.js";
 import { explained } from "./help.js";
 import { fixed } from "./number.js";
 import { ROOT } from "./server.js";
@@ -59,7 +59,7 @@ export function faults(texts, found, point) {
     h("h2", {}, texts.faults),
     h("ul", { class: "failures" }, found.faults.map((each, index) => h("li", {},
       h("button", { type: "button", class: "line", "data-key": `fault-${index}`, click: () => point("run", each.readings) },
-        h("span", {}, sentence(each.statement), ". "), h("span", { class: "where" }, `${texts.remedy}: ${each.remedy}`),
+        h("span", {}, sentence(each.statement), ". "), h("span", { class: "where" }, named(texts.remedy, each.remedy)),
         each.readings.length > 0 && h("span", { class: "unseen" }, ` – ${texts.show}`))))),
   ];
 }
@@ -71,7 +71,7 @@ export function failures(texts, found, point) {
     found.failures.length === 0 && h("p", { class: "quiet" }, texts.noFailures),
     h("ul", { class: "failures" }, found.failures.map((each, index) => h("li", {},
       h("button", { type: "button", class: "line", "data-key": `failure-${index}`, click: () => point(each.axis, each.readings, each) },
-        h("span", {}, sentence(each.statement), " "), h("span", { class: "where" }, [each.where, each.p].filter(Boolean).join(" · ")),
+        h("span", {}, sentence(each.statement), " "), h("span", { class: "where" }, [each.where, each.p].filter(Boolean).join("\u00a0· ")),
         h("span", { class: "unseen" }, ` – ${texts.show}`))))),
   ];
 }
@@ -85,11 +85,11 @@ export function candidates(texts, found, actions) {
     h("h2", {}, texts.candidates),
     h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: look(group) },
       group.map((each) => candidate(texts, each, actions)),
-      group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equalNames.join(", ")}.`),
-      !found.experiment && group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
+      group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : named(texts.equals, `${group[0].equalNames.join(", ")}.`)),
+      !found.experiment && group[0].tell && h("p", { class: "tell" }, h("strong", {}, named(texts.tell)), group[0].tell)))),
     rest.length > 0 && h("ul", { class: "others" }, rest.map((each) => h("li", {},
       about(texts, each.effect, each.name), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
-    found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcludedNames.join(", ")}`),
+    found.notExcluded.length > 0 && h("p", { class: "quiet" }, named(texts.notExcluded, found.notExcludedNames.join(", "))),
   ];
 }
 
@@ -108,7 +108,7 @@ export function stairs(texts, job, made, number, actions) {
     head, h("p", { class: "quiet" }, texts.stairsAre),
     h("ol", { class: "stairs" }, made.stairs.map((each, index) => h("li", { class: index < taken ? "taken" : false, "aria-current": index === taken - 1 ? "step" : false },
       h("div", { class: "heading" }, h("span", {}, index < taken && h("span", { "aria-hidden": "true" }, "✓ "), each.name), h("span", { class: "number" }, `${each.before} → `, h("strong", {}, each.after)),
-        index >= taken && button(index === taken ? texts.takeStep : texts.upToHere, `${index === taken ? texts.takeStep : texts.upToHere}: ${each.name}`, `stair-${index}`, () => actions.climb(made.stairs.slice(taken, index + 1)), index === taken ? "add" : false),
+        index >= taken && button(index === taken ? texts.takeStep : texts.upToHere, named(index === taken ? texts.takeStep : texts.upToHere, each.name), `stair-${index}`, () => actions.climb(made.stairs.slice(taken, index + 1)), index === taken ? "add" : false),
         index === taken - 1 && job.undo && button(texts.stepBack, texts.stepBack, "step-back", actions.undo)),
       bar(each.share, "fallen", each.floor ?? undefined)))),
   ];
@@ -135,11 +135,11 @@ function candidate(texts, each, actions) {
   return h("article", { class: "candidate", pointerenter: preview, focusin: preview, pointerleave: () => actions.preview(null), focusout: () => actions.preview(null) },
     h("div", { class: "heading" }, h("h3", {}, about(texts, each.effect, each.name)), title(each), add(texts, each, actions)),
     h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
-    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), " ", each.p && explained(h("span", { class: "quiet" }, each.p), texts.pIs)),
+    h("p", { class: "predicted" }, named(texts.errorAfter), each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), " ", each.p && explained(h("span", { class: "quiet" }, each.p), texts.pIs)),
     h("p", {}, sentence(each.explains), "."),
-    each.remedy && h("p", { class: "tell" }, h("strong", {}, `${texts.remedy}: `), each.remedy),
+    each.remedy && h("p", { class: "tell" }, h("strong", {}, named(texts.remedy)), each.remedy),
     wave(texts, each.name, actions.number, actions.wave(each.argument)),
-    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), " ", doubt(texts, own)))),
+    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), DOUBTS[own.plausibility] || !own.expected ? " " : ", ", doubt(texts, own)))),
   );
 }
 
@@ -172,7 +172,7 @@ function value({ effect, name }, own, actions) {
 
 /** Return what a parameter is called: as in a job where effects are called so, else by what it is. */
 function called(effect, name, own) {
-  return name === effect ? `${effect}.${own.name}` : `${name}: ${own.description}`;
+  return name === effect ? `${effect}.${own.name}` : named(name, own.description);
 }
 
 function fixing(texts, { effect, name }, own, actions) {
@@ -243,8 +243,8 @@ export function excluded(texts, job, actions) {
   return [
     h("h2", {}, texts.excluded),
     h("ul", { class: "excluded" }, job.excluded.map((each, index) => h("li", {},
-      h("span", {}, `${each.reading}, ${texts.run} ${each.run}: ${each.deviation}`, h("br"), h("q", {}, each.reason)),
-      button(texts.bringBack, `${texts.bringBack}: ${each.reading}, ${texts.run} ${each.run}`, `include-${index}`, () => actions.include(index))))),
+      h("span", {}, named(`${each.reading}, ${texts.run} ${each.run}`, each.deviation), h("br"), h("q", {}, each.reason)),
+      button(texts.bringBack, named(texts.bringBack, `${each.reading}, ${texts.run} ${each.run}`), `include-${index}`, () => actions.include(index))))),
   ];
 }
 

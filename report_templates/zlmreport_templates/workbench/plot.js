@@ -10,6 +10,10 @@ const REACH = 26;
 const MOST_RINGS = 600;
 const WIDTH_OF_TICK = 84;
 const HEIGHT_OF_TICK = 38;
+// One number alone gives a low graph no scale.
+const FEWEST_TICKS = 5;
+// So high and wide is a number at the end of a curve.
+const LABEL = 13;
 const MANY = 2000;
 let count = 0;
 
@@ -141,7 +145,7 @@ export class Plot {
       : ticks(x.low, x.high, inside.width / WIDTH_OF_TICK).map((value) => [value, this.number(value)]);
     return s("g", { class: "axes" },
       s("rect", { class: "frame", ...inside }),
-      ticks(y.low, y.high, inside.height / HEIGHT_OF_TICK).map((value) => [
+      ticks(y.low, y.high, Math.max(FEWEST_TICKS, inside.height / HEIGHT_OF_TICK)).map((value) => [
         s("line", { class: value === 0 ? "zero" : "grid", x1: inside.x, x2: inside.x + inside.width, y1: y(value), y2: y(value) }),
         s("text", { class: "tick", x: inside.x - 7, y: y(value) + 4, "text-anchor": "end" }, this.number(value)),
       ]),
@@ -184,10 +188,14 @@ export class Plot {
 
   /** The means of other tests, each with its number at its end: nothing is told by colour alone. */
   #others() {
-    return this.#othersShown().filter((curve) => curve.x.length > 0).map((curve) => [
-      this.#curves([curve], ` ${curve.look}`),
-      s("text", { class: `label ${curve.look}`, x: this.x(curve.x.at(-1)) - 8, y: this.y(curve.y.at(-1)) - 5 }, curve.label),
-    ]);
+    const taken = [];
+    return this.#othersShown().filter((curve) => curve.x.length > 0).map((curve) => {
+      const x = this.x(curve.x.at(-1)) - 8;
+      let y = this.y(curve.y.at(-1)) - 5;
+      while (taken.some((other) => Math.abs(other.x - x) < LABEL && Math.abs(other.y - y) < LABEL)) y += LABEL;
+      taken.push({ x, y });
+      return [this.#curves([curve], ` ${curve.look}`), s("text", { class: `label ${curve.look}`, x, y }, curve.label)];
+    });
   }
 
   #points(heights, look) {

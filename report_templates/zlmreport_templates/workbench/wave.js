@@ -1,12 +1,12 @@
 // One wave instead of sixty: the readings of an effect that repeats, laid over each other at its period.
 
-import { fill, h } from "./dom.js";
+import { fill, h, named } from "./dom.js";
 import { Plot } from "./plot.js";
 
 /** Return a place that shows the wave of an effect once `asked` has it; nothing where the effect does not repeat. */
 export function wave(texts, name, number, asked) {
   const place = h("div", { class: "wave" });
-  asked.then((found) => found && place.isConnected && fill(place, h("h4", {}, `${texts.oneWave}: ${name}`), drawn(texts, found, number)));
+  asked.then((found) => found && place.isConnected && fill(place, h("h4", {}, named(texts.oneWave, name)), drawn(texts, found, number)));
   return place;
 }
 

@@ -39,7 +39,7 @@ from zlmreport.fleet.state import SOON, DueDate, FailingJob, FleetState
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, compute_level_of
 from zlmreport.fleet.trend import Calibration, Series, fit_line_through
 from zlmreport.fleet.trend_graph import Period, draw_trend
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, join_parts
 from zlmreport.version import __version__
 
 _MINUTE = 60
@@ -303,7 +303,8 @@ def _list_drifts(
         # An axis of which nothing is limited still shows its first parameter.
         shown = [each for each in of_axis if each.series.latest.limit is not None] or of_axis[:1]
         also = cells.join_symbols(each for each in of_axis if each not in shown)
-        note = f"{head.note}; {cells.say(words.ALSO.given(symbols=also))}" if also else head.note
+        more = (head.note, cells.say(words.ALSO.given(symbols=also)))
+        note = join_parts(more, cells.language) if also else head.note
         yield replace(head, note=note), shown
 
 

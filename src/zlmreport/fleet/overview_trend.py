@@ -18,6 +18,7 @@ from zlmreport.fleet.drifts import Trend
 from zlmreport.fleet.overview_cells import CellWriter, make_key_of
 from zlmreport.fleet.trend import Series
 from zlmreport.fleet.trend_graph import LARGE, draw_trend
+from zlmreport.language import join_parts
 
 
 def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
@@ -47,15 +48,15 @@ def _list_facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:
     """Yield what the tests say of a change and of a drift, and when the limit is reached."""
     if trend.step or trend.is_wilder:
         changed, came_with = cells.write_change(trend), cells.write_what_came_with(trend)
-        yield cells.say(words.CHANGE_FACT), _write_in_a_line(changed)
-        yield cells.say(words.CAME_WITH), _write_in_a_line(came_with)
-    yield cells.say(words.DRIFT_FACT), _write_in_a_line(cells.write_drift(trend))
+        yield cells.say(words.CHANGE_FACT), _write_in_a_line(changed, cells)
+        yield cells.say(words.CAME_WITH), _write_in_a_line(came_with, cells)
+    yield cells.say(words.DRIFT_FACT), _write_in_a_line(cells.write_drift(trend), cells)
     if trend.drifts:
-        yield cells.say(words.REACHED), _write_in_a_line(cells.write_day_reached(trend))
+        yield cells.say(words.REACHED), _write_in_a_line(cells.write_day_reached(trend), cells)
 
 
-def _write_in_a_line(cell: OverviewCellContext) -> str:
-    return "; ".join(filter(None, (cell.content, cell.note)))
+def _write_in_a_line(cell: OverviewCellContext, cells: CellWriter) -> str:
+    return join_parts(filter(None, (cell.content, cell.note)), cells.language)
 
 
 def _lay_out_tests(key: str, series: Series, cells: CellWriter) -> OverviewTableContext:

@@ -6,7 +6,7 @@ other languages stands in a catalogue of translations, a file for each language 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
@@ -106,6 +106,21 @@ class PhraseRow:
 def same(phrase: str | Said) -> Words:
     """Return a phrase that is alike in every language, or is written by itself: a name, a text."""
     return Words("{phrase}", values={"phrase": phrase})
+
+
+#: In French a space stands before colon and semicolon.
+_NAMED = Words("{name}: {said}")
+_BESIDE = Words("{first}; {second}")
+
+
+def named(name: str | Said, said: str | Said) -> Words:
+    """Return a name and what is said of it, parted as each language parts them."""
+    return _NAMED.given(name=name, said=said)
+
+
+def join_parts(parts: Iterable[str], language: Language) -> str:
+    """Return what stands in a line, with semicolons between its parts as the language sets them."""
+    return _BESIDE.given(first="", second="").in_language(language).join(parts)
 
 
 def _write_in(value: str | float | Said, language: Language) -> str:

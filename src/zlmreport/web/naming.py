@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from zlmreport.language import Language
+from zlmreport.language import Language, named
 from zlmreport.model.effects.effect import Effect
 
 #: What may follow an identifier: the number of one that stands in a model several times, a parameter.
@@ -52,4 +52,4 @@ class Naming:
         name = self.titles[effect] + (f" {number}" if number else "")
         if not parameter:
             return name
-        return f"{name}: {self.parameters.get((effect, parameter), parameter)}"
+        return named(name, self.parameters.get((effect, parameter), parameter)).in_language(self.language)

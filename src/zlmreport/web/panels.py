@@ -24,7 +24,7 @@ from zlmreport.document.subjects.fit import (
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.study import Fitted, correct_by_model
@@ -156,7 +156,7 @@ class Panels:
                     "unit": self.writer.deviation_unit.symbol,
                     "rows": [self._make_row(each, forecast[each.quantity.symbol]) for each in parameters],
                     "unmet": [
-                        f"{self.say(finding.requirement)}: {self.say(finding.found)}"
+                        self.say(named(finding.requirement, finding.found))
                         for finding in evaluated.evaluation.findings
                         if finding.met is False
                     ],

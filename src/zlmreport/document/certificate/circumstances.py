@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from zlmreport.evaluation.checks import runs_in_words
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 from zlmreport.measurement import units
 from zlmreport.measurement.error_symbol import ROTARY_AXES, find_error_named
 from zlmreport.measurement.measurand import Coordinate
@@ -120,7 +120,7 @@ def _write_elsewhere(measurement: Measurement, writer: Writer) -> str | None:
         else:
             unit = "°" if name[:1].upper() in ROTARY_AXES else "mm"
             said.append(f"{name} = {units.with_unit(writer.number(value), unit)}")
-    return "; ".join(said) or None
+    return join_parts(said, writer.language) or None
 
 
 _TOOL = Words("tool")
@@ -139,7 +139,8 @@ def list_environment_facts(
     if environment is not None:
         sensors = Words("Sensor locations")
         yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
-        calibrated = "; ".join(_write_sensor(each, writer) for each in environment.thermometers)
+        stated = (_write_sensor(each, writer) for each in environment.thermometers)
+        calibrated = join_parts(stated, writer.language)
         name = Words("Thermometers and sensors")
         yield Fact(name, calibrated, (f"{within}.thermometers",))
         yield Fact(Words("Remarks"), environment.remarks, (f"{within}.remarks",))

@@ -18,7 +18,7 @@ from zlmreport.document.certificate.circumstances import (
     write_extent,
     write_with_unit,
 )
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 from zlmreport.measurement import units
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import POSITIONING, Coordinate
@@ -302,7 +302,7 @@ def _write_compensates(keys: CompensatesKeys | None, writer: Writer) -> str | No
     parts = [_MATERIAL.given(alpha=keys.material)] if keys.material else []
     if keys.air:
         parts.append(_AIR)
-    return "; ".join(map(writer.say, parts)) or writer.say(_NOTHING)
+    return join_parts(map(writer.say, parts), writer.language) or writer.say(_NOTHING)
 
 
 def _write_uncertainty(instrument: Instrument, writer: Writer) -> str | None:

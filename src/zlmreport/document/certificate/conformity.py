@@ -22,7 +22,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.writer import NOTHING, Writer, write_rounded_together
 from zlmreport.evaluation.evaluation import Conformity
-from zlmreport.language import Words, same
+from zlmreport.language import Words, join_parts, same
 from zlmreport.language.formatting import write_fixed_number, write_percentage, write_plain
 from zlmreport.measurement.units import with_unit
 
@@ -122,12 +122,15 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
     if not named:
         return _NO_SPECIFICATION
     some = len({each.specification for each in limited}) > 1
-    names = "; ".join(
-        writer.say(_OF_STANDARD.given(specification=each.specification, standard=each.designation))
-        if some
-        else each.specification
-        for each in limited
-        if each.specification
+    names = join_parts(
+        (
+            writer.say(_OF_STANDARD.given(specification=each.specification, standard=each.designation))
+            if some
+            else each.specification
+            for each in limited
+            if each.specification
+        ),
+        writer.language,
     )
     mark = writer.marks.write_after("evaluate.specification")
     return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)

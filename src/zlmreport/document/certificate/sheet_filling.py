@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from zlmreport.document.blocks import Block, Facts, Notice, Paragraph
 from zlmreport.document.certificate import columns
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 
 if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
@@ -109,7 +109,7 @@ def lay_out_details(
             groups.setdefault(group.heading, {}).update(dict.fromkeys(group.pairs))
     facts = [Facts(tuple(pairs), heading) for heading, pairs in groups.items() if pairs]
     law = [paragraph for each in lacking for paragraph in each.law]
-    small_facts = [block for each in facts for block in _set_fine(_write_in_running_text([each]))]
+    small_facts = [block for each in facts for block in _set_fine(_write_in_running_text([each], writer))]
     small_law = [replace(each, fine=True) for each in law]
     title = writer.say(_DETAILS)
     ways: list[tuple[Block, ...]] = [
@@ -136,9 +136,9 @@ def _fill_with_all(said: SheetContent, room: float, writer: Writer) -> Filled | 
         shown = short[:count]
         others = (
             *_balance_columns(shown),
-            *_write_facts_in_a_line(_keep_others(said.who, shown)),
+            *_write_facts_in_a_line(_keep_others(said.who, shown), writer),
             *_split_sentences(said.law),
-            *_set_fine(_write_in_running_text(_drop_facts(said.conditions, shown))),
+            *_set_fine(_write_in_running_text(_drop_facts(said.conditions, shown), writer)),
             *said.corrections,
         )
         filled = Filled(notices, others, SheetContent())
@@ -159,14 +159,16 @@ def _fill_with_what_matters(
     page = _Room(room)
     page.take([_say_elsewhere(reserved, writer), *pointed_at])
     noted = page.upgrade(pointed_at, ways[1:])
-    who, long_who = _who(said, page)
+    who, long_who = _who(said, page, writer)
     law = page.choose(said.law, _split_sentences)
     noted = page.upgrade(noted, ways)
     plain = [pair for group in said.conditions for pair in group.pairs if pair in said.plain]
     shown = page.choose(plain[: _MOST_IN_COLUMNS - len(who)], _balance_columns, after=who)
     further = _drop_facts(said.conditions, shown)
     pairs = [pair for group in further for pair in group.pairs]
-    running = page.choose(pairs, lambda pairs: _set_fine(_write_in_running_text(_keep_facts(further, pairs))))
+    running = page.choose(
+        pairs, lambda pairs: _set_fine(_write_in_running_text(_keep_facts(further, pairs), writer))
+    )
     corrections = page.upgrade((), [said.corrections])
     cut = said.notices if noted == pointed_at else _cut(said.notices, writer)
     left = SheetContent(
@@ -178,16 +180,16 @@ def _fill_with_what_matters(
     )
     others = (
         *_balance_columns((*who, *shown)),
-        *_write_facts_in_a_line(long_who),
+        *_write_facts_in_a_line(long_who, writer),
         *_split_sentences(law),
-        *_set_fine(_write_in_running_text(_keep_facts(further, running))),
+        *_set_fine(_write_in_running_text(_keep_facts(further, running), writer)),
         *corrections,
     )
     pointer = [_say_elsewhere(left.names, writer)] if left.names else []
     return Filled(noted, (*others, *pointer), left)
 
 
-def _who(said: SheetContent, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+def _who(said: SheetContent, page: _Room, writer: Writer) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
     """Take room for who and what was measured; return what of it stands in columns, and what in a line.
 
     In columns stands what leaves room for the law.
@@ -196,11 +198,11 @@ def _who(said: SheetContent, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair,
     ways = [(short[:count], _keep_others(said.who, short[:count])) for count in (_FEWEST_IN_COLUMNS, 0)]
     for beside in (_split_sentences(said.law), ()):
         for in_columns, in_a_line in ways:
-            blocks: list[Block] = [*_balance_columns(in_columns), *_write_facts_in_a_line(in_a_line)]
+            blocks: list[Block] = [*_balance_columns(in_columns), *_write_facts_in_a_line(in_a_line, writer)]
             if page.holds((*blocks, *beside)):
                 page.take(blocks)
                 return in_columns, in_a_line
-    return (), page.choose(said.who, _write_facts_in_a_line)
+    return (), page.choose(said.who, lambda pairs: _write_facts_in_a_line(pairs, writer))
 
 
 class _Room:
@@ -279,7 +281,7 @@ def _box_notices(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, .
 def _write_as_item(notice: Notice, writer: Writer) -> str:
     if not notice.items:
         return notice.heading
-    return writer.say(_ITEM.given(heading=notice.heading, items="; ".join(notice.items)))
+    return writer.say(_ITEM.given(heading=notice.heading, items=join_parts(notice.items, writer.language)))
 
 
 def _say_elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
@@ -318,20 +320,21 @@ def _split_sentences(paragraphs: Sequence[Paragraph]) -> tuple[Paragraph, ...]:
     return tuple(replace(each, symbols=tuple(symbols)) for each in fine)
 
 
-def _write_facts_in_a_line(pairs: Iterable[Pair]) -> tuple[Paragraph, ...]:
-    return _set_fine(_write_in_a_line(pairs))
+def _write_facts_in_a_line(pairs: Iterable[Pair], writer: Writer) -> tuple[Paragraph, ...]:
+    return _set_fine(_write_in_a_line(pairs, writer))
 
 
-def _write_in_a_line(pairs: Iterable[Pair]) -> str:
-    text = "; ".join(map(": ".join, pairs))
+def _write_in_a_line(pairs: Iterable[Pair], writer: Writer) -> str:
+    said = (writer.say(_ITEM.given(heading=name, items=value)) for name, value in pairs)
+    text = join_parts(said, writer.language)
     return f"{text.rstrip('. ')}." if text else ""
 
 
-def _write_in_running_text(groups: Iterable[Facts]) -> str:
+def _write_in_running_text(groups: Iterable[Facts], writer: Writer) -> str:
     return " ".join(
-        f"{group.heading} – {_write_in_a_line(group.pairs)}"
+        f"{group.heading} – {_write_in_a_line(group.pairs, writer)}"
         if group.heading
-        else _write_in_a_line(group.pairs)
+        else _write_in_a_line(group.pairs, writer)
         for group in groups
     )
 

@@ -47,7 +47,7 @@ from zlmreport.document.certificate.standard_layout import (
     say_of_all,
     set_in_smaller_type,
 )
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 from zlmreport.language.formatting import write_plain
 
 if TYPE_CHECKING:
@@ -324,7 +324,7 @@ def _list_laboratory(of: Material) -> Iterator[Pair]:
     """Yield what of the laboratory its letterhead has no room for."""
     if of.letterhead:
         said = filter(None, (", ".join(of.letterhead.laboratory.lines), of.letterhead.accreditation))
-        yield of.writer.say(_LABORATORY), "; ".join(said)
+        yield of.writer.say(_LABORATORY), join_parts(said, of.writer.language)
 
 
 def _gather_stated(of: Material, page: _Page) -> tuple[tuple[Pair, ...], tuple[tuple[str, Facts], ...]]:

@@ -23,7 +23,7 @@ from zlmreport.document.figures.bars import draw_budget
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts, named
 from zlmreport.language.formatting import round_pair, write_percentage
 from zlmreport.measurement.units import MICROMETRE
 
@@ -126,7 +126,9 @@ def say_uncertainty(
         has_interval = any(each.axis_interval is not None for each in parameters)
         yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if has_interval else _COVERAGE))
     else:
-        missing = "; ".join(writer.say(wording.name_contributor(name)) for name in budget.missing)
+        missing = join_parts(
+            (writer.say(wording.name_contributor(name)) for name in budget.missing), writer.language
+        )
         yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
     if budget.uncorrected_expansion is None:
         yield Notice(writer.say(_NOT_AT_REFERENCE), ())
@@ -146,8 +148,9 @@ def say_neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragra
     for name, reason in budget.negligible:
         by_reason.setdefault(reason, []).append(writer.say(wording.name_contributor(name)))
     if by_reason:
-        said = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in by_reason.items())
-        yield Paragraph(f"{writer.say(_NEGLIGIBLE)}: {said}.")
+        parts = (f"{', '.join(names)} ({reason})" for reason, names in by_reason.items())
+        said = join_parts(parts, writer.language)
+        yield Paragraph(writer.say(named(_NEGLIGIBLE, f"{said}.")))
 
 
 def lay_out_budgets(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:

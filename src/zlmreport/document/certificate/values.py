@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Align, Cell, Column, Symbol
 from zlmreport.document.certificate import conformity
 from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.language.formatting import write_fixed_number, write_plain
 from zlmreport.measurement.units import with_unit
 
@@ -106,8 +106,8 @@ def tell_columns_apart(
     others = {each.notation: writer.say(each.name) for each in quantities if each.notation[:1] == "U"}
     if not (has_uncertainty and others):
         return writer.say(caption), ()
-    named = ", ".join(f"{write_plain(notation)}: {name}" for notation, name in others.items())
-    return writer.say(_TOLD_APART.given(caption=caption, others=named)), ("U", *others)
+    told = ", ".join(writer.say(named(write_plain(notation), name)) for notation, name in others.items())
+    return writer.say(_TOLD_APART.given(caption=caption, others=told)), ("U", *others)
 
 
 def write_coverage_factor(parameter: EvaluatedParameter, writer: Writer) -> str:

@@ -31,7 +31,7 @@ from zlmreport.document.subjects.fit import (
     write_in_a_sentence,
 )
 from zlmreport.document.writer import NOTHING
-from zlmreport.language import Language, Words, same
+from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.candidate import Candidate
@@ -219,7 +219,13 @@ def lay_out_diagnosis(
         section(
             "failures",
             FAILURES,
-            notice(FAILURES, (f"{each.statement} ({each.where}; {each.p})" for each in rows.failures))
+            notice(
+                FAILURES,
+                (
+                    f"{each.statement} ({join_parts((each.where, each.p), language)})"
+                    for each in rows.failures
+                ),
+            )
             or Paragraph(_NO_FAILURE.in_language(language)),
         ),
         section(
@@ -232,22 +238,33 @@ def lay_out_diagnosis(
         section(
             "remedy",
             REMEDY,
-            notice(REMEDY, (f"{each.effect}: {each.remedy}" for each in rows.leading if each.remedy)),
+            notice(
+                REMEDY,
+                (
+                    named(each.effect, each.remedy).in_language(language)
+                    for each in rows.leading
+                    if each.remedy
+                ),
+            ),
         ),
         section(
             "experiment",
             EXPERIMENT,
             notice(EXPERIMENT, [experiment.statement.in_language(language)] if experiment else []),
         ),
-        section("hidden", HIDDEN, notice(HIDDEN, map(_write_reason, rows.hidden))),
-        section("not-tried", NOT_TRIED, notice(NOT_TRIED, map(_write_reason, rows.not_tested))),
+        section("hidden", HIDDEN, notice(HIDDEN, (_write_reason(each, language) for each in rows.hidden))),
+        section(
+            "not-tried",
+            NOT_TRIED,
+            notice(NOT_TRIED, (_write_reason(each, language) for each in rows.not_tested)),
+        ),
         section("visibility", HIDDEN, _lay_out_visibility(diagnosis, language, titles)),
     )
     return tuple(each for each in sections if each.blocks)
 
 
-def _write_reason(row: HiddenRow) -> str:
-    return f"{', '.join(row.effects)}: {row.reason}"
+def _write_reason(row: HiddenRow, language: Language) -> str:
+    return named(", ".join(row.effects), row.reason).in_language(language)
 
 
 def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language) -> Table | None:

@@ -19,7 +19,7 @@ from zlmreport.document.blocks import (
     Table,
 )
 from zlmreport.document.writer import NOTHING
-from zlmreport.language import Language, Words, same
+from zlmreport.language import Language, Words, named, same
 from zlmreport.language.formatting import MINUS, round_pair, write_general_number
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
@@ -221,7 +221,7 @@ def lay_out_parameters(fit: Fit, language: Language) -> Table:
     groups = tuple(
         RowGroup(
             tuple(_lay_out_cells(each, language) for each in rows if each.effect == effect.identifier),
-            f"{effect.identifier}: {effect.title.in_language(language)}",
+            named(effect.identifier, effect.title).in_language(language),
         )
         for effect in (term.effect for term in fit.model.terms)
     )

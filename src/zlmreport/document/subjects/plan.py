@@ -19,7 +19,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.evaluation.checks import position_in_words, readings_in_words
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import write_fixed_number, write_general_number, write_percentage
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
@@ -212,10 +212,10 @@ class _Plan:
                 untestable.setdefault(self.say(self.say_untestable(each)), []).append(name)
             elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
                 remedy = self.planned.remedies.get(name)
-                item = f"{name}: {self.say(self.say_blurred(each, remedy))}"
+                item = self.say(named(name, self.say_blurred(each, remedy)))
                 blurred.setdefault(self.say(_say_what_to_do(remedy)), []).append(item)
         yield from (Notice(text, tuple(items)) for text, items in blurred.items())
-        yield from (Paragraph(f"{', '.join(names)}: {text}") for text, names in untestable.items())
+        yield from (Paragraph(self.say(named(", ".join(names), text))) for text, names in untestable.items())
 
     def say_blurred(self, seen: SeenEffect, remedy: Remedy | None) -> Words:
         """Return what is visible of an effect, and what would be."""

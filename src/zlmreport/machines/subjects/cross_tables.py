@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Symbol
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
 from zlmreport.machines.cross_making import CrossMade
@@ -75,10 +75,11 @@ def say_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Paragr
     sizes = [(f"{each.name}, RMS", each.before, each.after) for each in found.circles]
     if found.largest:
         sizes.append((say(_LARGEST), *found.largest))
-    left = "; ".join(
+    told = (
         f"{name} {say.write_micrometres(before)} → {say.write_micrometres(after)} µm"
         for name, before, after in sizes
     )
+    left = join_parts(told, say.language)
     return Paragraph(say(_BRIEFLY.given(errors=", ".join(plan.taken), left=left)))
 
 

@@ -18,7 +18,7 @@ from zlmreport.document.blocks import (
     Table,
 )
 from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.residual import Stretch, centre
@@ -62,7 +62,7 @@ def _write_both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[
 
 def lay_out_test(found: ComparedTest, say: Sayer) -> Section:
     """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
-    title = f"{found.name}: {say(write_title_of(found.test))}"
+    title = say(named(found.name, write_title_of(found.test)))
     return Section(f"test-{found.name}", title, tuple(_lay_out_test_blocks(found, say)))
 
 

@@ -196,9 +196,8 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
         left = None
     if left is None and not finding.named and run:
         left = make_remainder_of_run(fitted, run)
-    elif left is None and not _is_perhaps_noise(
-        after, complete
-    ):  # what no curve follows is there all the same
+    elif left is None and ((complete is fitted and finding.named) or not _is_perhaps_noise(after, complete)):
+        # What no curve follows is there all the same, and so is a set that the readings do not determine.
         left = find_irregular_remainder(complete, after.noise_rms or 0.0, fitted)
     return _Held(asked.observed, fitted, error, finding, complete, after, left)
 

@@ -281,11 +281,11 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
 
     Where several could stand in a place, it is their evidence together that something stands there.
     """
-    if not search.has_nameless(found):
+    is_whole = not search.has_nameless(found)
+    if is_whole:
         # With enough names any curve is described: several that one curve replaces are not told.
         for names, within in _REPLACED:
             found = search.find_fewer_beside_curve(found, names, within) or found
-    is_whole = not search.has_nameless(found)
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
         order = sorted(range(len(without)), key=lambda each: without[each].score)
@@ -387,13 +387,15 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
         for each, whole, weight in zip(members, sets, weights[1:], strict=True)
     ]
     design = search.contest.design
-    # What takes the place of several at once does not lead in the place of one of them.
+    # What takes the place of several at once, or asks for a curve beside it, leads in the place of none.
     others = list_names(found.named) - {find_installed_name(member.effect)}
+    nameless = search.count_nameless(found)
     near = [
         each
         for each, whole in zip(rivals, sets, strict=True)
         if each.evidence > rivals[0].evidence - MENTION
         and others < list_names(whole.named)
+        and search.count_nameless(whole) <= nameless
         and (each is rivals[0] or each.identifier not in taken)
     ]
     leading = min(

@@ -29,6 +29,8 @@ PRICE = 9.0
 _VARIANCES = (0.02, 0.1, 0.5, 2.5, 12.0, 60.0, 300.0, 1500.0, 1e4, 1e5, 1e6)
 #: The same of irregular shares, beyond those that are noise; what drifts without being smooth stays noise.
 _IRREGULAR = (0.25, 1.0, 5.0, 25.0, 125.0, 1e3, 1e4, 1e5)
+#: Variances beyond which a curve is large, and the odds against that: those of an effect that is as large.
+_LARGE = ((30.0, 18.0), (3000.0, 30.0))
 #: By how much each level of a shared noise is rarer than the one below it, 2·ln of the odds.
 _RARER = 1.0
 #: Correlation lengths of smooth curves, as shares of the travel or the duration.
@@ -133,10 +135,15 @@ def list_parts_of(
         contrasts = columns.space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
-            costs = (0.0, *(PRICE for _ in _VARIANCES))
+            costs = (0.0, *(PRICE + _compute_cost_of_size(each) for each in _VARIANCES))
             places = columns.add(contrasts / size)
             found.append(CovariancePart(shape, course, places, None, (0.0, *_VARIANCES), costs, 1))
     return tuple(found)
+
+
+def _compute_cost_of_size(variance: float) -> float:
+    """Return what it costs a curve that it is large, 2·ln of the odds."""
+    return 2.0 * float(np.log(max((odds for least, odds in _LARGE if variance > least), default=1.0)))
 
 
 def _compute_noise_costs(noise: NoisePart, expected: PriorExpectation) -> tuple[float, ...]:

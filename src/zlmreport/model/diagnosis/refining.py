@@ -38,11 +38,16 @@ def jump_along_grids(
         own = next(place for place in forms if contest.families[place] is member.family)
         if not np.isfinite(scan.criterion[best]):
             continue
-        is_other = scan.criterion[best] < scan.criterion[own] - _CLEAR_GAIN
+        # Where the member stands between the values of its grid it may be better than at the best of them.
+        at_grid = contest.families[own].blocks[int(scan.best[own])]
+        on_grid, stands = (
+            contest.compute_criterion(amplitudes, [*rest, each]) for each in (at_grid, member.columns)
+        )
+        refined = float(scan.criterion[own]) + min(0.0, stands - on_grid)
+        is_other = scan.criterion[best] < refined - _CLEAR_GAIN
         chosen = best if is_other else own
         family, block = contest.families[chosen], int(scan.best[chosen])
-        moved = contest.compute_criterion(amplitudes, [*rest, family.blocks[block]])
-        if is_other or moved < contest.compute_criterion(amplitudes, [*rest, member.columns]) - _JUMP:
+        if is_other or on_grid < stands - _JUMP:
             found[number] = SetMember(
                 family, family.thetas[block], family.blocks[block], int(family.ranks[block])
             )

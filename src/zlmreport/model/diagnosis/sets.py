@@ -148,7 +148,8 @@ class SetSearch:
             better = next((each for each in ends if each.score < now.score - GAIN), None)
             if better is None:
                 return now
-            now = self._climb(better, scope)
+            # A climb that comes by a set nearly known ends where that one did, perhaps a trifle lower.
+            now = min(better, self._climb(better, scope), key=find_score)
 
     def _begin(self, members: Sequence[SetMember], scope: Scope) -> EffectSet:
         """Return a set with its best amplitudes near nothing."""
@@ -186,7 +187,11 @@ class SetSearch:
 
     def has_nameless(self, found: EffectSet) -> bool:
         """Whether anything without a name is in a set, beyond what noise may be."""
-        return bool(found.unnamed or self._list_loud(found))
+        return self.count_nameless(found) > 0
+
+    def count_nameless(self, found: EffectSet) -> int:
+        """Return how many forms and curves without a name are in a set, beyond what noise may be."""
+        return len(found.unnamed) + len(self._list_loud(found))
 
     def compute_evidence_of(self, found: EffectSet, names: AbstractSet[str]) -> float:
         """Return the evidence that the best set without any of some effects lacks, of all looked at.
@@ -203,17 +208,16 @@ class SetSearch:
         return min(others, default=np.inf) - found.score
 
     def find_fewer_beside_curve(self, found: EffectSet, names: int, within: float) -> EffectSet | None:
-        """Return the best of all sets looked at in which a curve without a name replaces several names.
+        """Return the best of all sets looked at in which curves without a name replace several names each.
 
-        `names`: How many it replaces at least.
+        `names`: How many one replaces at least; each further one replaces one more.
         `within`: What evidence it may lack; None where all lack more.
         """
         fewer = [
             each
             for each in self._sets.best.values()
-            if len(each.named) <= len(found.named) - names
+            if 0 < self.count_nameless(each) <= len(found.named) - len(each.named) - names + 1
             and each.score < found.score + within
-            and self.has_nameless(each)
         ]
         return min(fewer, key=find_score, default=None)
 
