@@ -167,8 +167,9 @@ def _check_job(
             for choice in chosen.extensions
             for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
         ]
+        if not measurand.is_position:
+            found += find_quantity_contradictions(keys, measurand)
         found += [
-            *find_quantity_contradictions(keys, measurand),
             *find_tests_contradictions(keys, measurand),
             *(
                 find_circle_contradictions(keys, keys.circle, has_axis="axis" in composition.keys.entries)
