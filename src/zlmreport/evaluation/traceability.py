@@ -21,7 +21,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import CELSIUS, with_unit
+from zlmreport.measurement.units import CELSIUS, say_with_unit
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -233,10 +233,6 @@ def _find_breaks_of_calibration(
         yield _Break(f"{key}.due", words, is_broken=True)
 
 
-def _write_with_unit(value: float, unit: str) -> Words:
-    return Words(with_unit("{value}", unit)).given(value=value)
-
-
 def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
@@ -276,8 +272,8 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
     if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):
-        over = _write_with_unit(float(f"{length:.6g}"), axis.position_unit.symbol)
-        most = _write_with_unit(cmc.length, axis.position_unit.symbol)
+        over = say_with_unit(length, axis.position_unit.symbol)
+        most = say_with_unit(cmc.length, axis.position_unit.symbol)
         yield _OUT_OF_SCOPE.given(what=_OF_LENGTH.given(length=over, most=most))
     for choice in job.standards:
         if cmc.standards is not None and choice.identifier not in cmc.standards:
@@ -299,8 +295,8 @@ def _say_out_of_range(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     spanned = measurements.target_positions if is_position else measurements.deviation
     span = unit.from_si(float(np.nanmax(spanned) - np.nanmin(spanned)))
     if span > width * (1 + _ROUNDING):
-        over = _write_with_unit(float(f"{span:.4g}"), unit.symbol)
-        most = _write_with_unit(float(f"{width:.6g}"), unit.symbol)
+        over = say_with_unit(float(f"{span:.4g}"), unit.symbol)
+        most = say_with_unit(width, unit.symbol)
         yield _OUT_OF_RANGE.given(what=_OF_SPAN.given(length=over, most=most))
 
 
