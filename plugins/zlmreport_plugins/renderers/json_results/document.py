@@ -71,12 +71,12 @@ def collect_results(certificate: Certificate) -> Json:
         "evaluations": [
             report_evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
-        **_collect_as_found(certificate),
+        **(_collect_as_found(certificate) if certificate.evaluations_as_found else {}),
         **_collect_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
         **_collect_doubtful(certificate),
         "model": _collect_model(certificate),
         "measurements": _collect_measurements(measurements, certificate.job),
-        **_collect_tests(certificate),
+        **(_collect_tests(certificate) if certificate.tests else {}),
         "provenance": _collect_provenance(certificate),
     }
 
@@ -124,10 +124,8 @@ def _collect_certificate(certificate: Certificate) -> Json:
 
 
 def _collect_as_found(certificate: Certificate) -> Json:
-    """Return the results of the axis before it was adjusted; nothing where it was not."""
+    """Return the results of the axis before it was adjusted."""
     found = certificate.evaluations_as_found
-    if not found:
-        return {}
     measurements = found[0].measurements
     job = certificate.job.as_found if certificate.job else None
     provenance = measurements.provenance
@@ -144,7 +142,7 @@ def _collect_as_found(certificate: Certificate) -> Json:
 
 
 def _collect_tests(certificate: Certificate) -> Json:
-    """Return what is known of each of several measured lines; nothing where there is only one."""
+    """Return what is known of each of several measured lines."""
     found = {
         each.name: {
             "evaluations": [report_evaluation(of.evaluation, certificate.language) for of in each.evaluated],
@@ -155,7 +153,7 @@ def _collect_tests(certificate: Certificate) -> Json:
         }
         for each in certificate.tests
     }
-    return {"tests": found} if found else {}
+    return {"tests": found}
 
 
 def _collect_doubtful(certificate: Certificate) -> Json:
