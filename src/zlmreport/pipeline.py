@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
 from zlmreport.document.certificate.attachments import (
     Attachment,
     arrange_attachments,
@@ -24,7 +26,6 @@ from zlmreport.document.certificate.clauses import find_missing_items
 from zlmreport.document.certificate.information import check_information
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
-from zlmreport.document.subjects.doubts import find_doubts_of_runs
 from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.correction.corrections import correct, drop_excluded, find_corrections_of
@@ -76,6 +77,7 @@ RESULTS = "json"
 #: Files that can be signed.
 PDF = ".pdf"
 _SIGNATURE = Words("Electronic signature")
+_OF_A_RUN = Words("{statement}; {remedy}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,7 +185,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
                 name,
                 (
                     *find_doubts(line, of_line, [each.evaluation for each in by]),
-                    *find_doubts_of_runs(of_line),
+                    *_find_doubts_of_runs(of_line),
                     *_find_doubts_of_extensions(line, of_line, registry),
                 ),
             )
@@ -281,6 +283,19 @@ def evaluate_tests(
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
     return GENERATOR, registry.list_versions(job)
+
+
+def _find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a sentence for each run that seems to be in another unit than the others."""
+    if not np.isfinite(measurements.deviation).any():
+        return
+    from zlmreport.model.diagnosis.faults import FaultKind, find_recorded_faults  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - likewise
+
+    observed = make_observations_of(measurements)
+    for each in find_recorded_faults(observed.design, observed.deviation):
+        if each.kind is FaultKind.WRONG_UNIT and each.run is not None:
+            yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 
 def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:

@@ -29,7 +29,7 @@ from doubtful.doubtful_jobs import (
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.measurement.times import read_moment
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
 _SHOWN = "What readings, dates and calibrations show"

@@ -21,7 +21,7 @@ from doubtful import doubtful_jobs
 from doubtful.doubtful_jobs import REPORT, SOUND, TARGETS, changed, composed, order, readings, refusals, write
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.measurement.approach import Approach
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 GERMAN = ("certificate.language", "de")
 SHEET, STANDARD = ("certificate.layout", "sheet"), ("certificate.layout", "standard")

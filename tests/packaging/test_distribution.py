@@ -136,6 +136,10 @@ def test_every_built_in_plugin_is_declared_by_entry_points(metadata: dict[str, A
         f"{kind.__name__}.{module.name}" for kind in kinds for module in pkgutil.iter_modules(kind.__path__)
     }
     present |= {f"zlmreport_step_gauge.{name}" for name in ("extension", "effects", "paths.programs")}
+    catalogues = Path(zlmreport_plugins.effects.__file__).parent.glob("*.yaml")
+    present |= {
+        f"zlmreport_plugins.effects:{each.stem}" for each in catalogues if each.stem != "measurements"
+    }
     # one plugin each: their pages share phrases and are declared together
     present |= {f"zlmreport_plugins.{name}" for name in ("circle_effects", "notifiers", "part_programs")}
     declared = {module for group in metadata["entry-points"].values() for module in group.values()}

@@ -11,7 +11,7 @@ Source: the ZLM Position manual, G 1.3; the bar over X that its formulas of the 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -159,6 +159,10 @@ NOTES_OF_ONE_DIRECTION: tuple[Words, ...] = (
 )
 
 _MEAN_DEVIATION = Words("Mean deviation")
+_RUNS_FOR_A_SCATTER = 2
+_ONE_DIRECTION_ONLY = Words(
+    "the formulas pool both: here the readings of this direction alone are the sample"
+)
 
 
 class Nmtba:
@@ -174,9 +178,17 @@ class Nmtba:
     notes = NOTES
     notes_of_one_direction = NOTES_OF_ONE_DIRECTION
 
-    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
-        """Hold the requirements against the test."""
-        return check_requirements(measurements)
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no keys of its own
+        """Yield the requirements, held against the test.
+
+        The recommendation's own numbers have not been read; only what its formulas need is asked.
+        """
+        yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.APPLIED)
+        yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
+        yield _number_of_positions(measurements)
+        yield no_missing_readings(measurements)
+        yield positions_over_travel(measurements)
+        yield from spacing_against_periods(measurements, Basis.APPLIED)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the parameters, and X̄_j and P_sj by position."""
@@ -184,28 +196,11 @@ class Nmtba:
         spread = position_spread(statistics, mean)
         return Arithmetic(parameters(mean, spread), {"X": mean, "Ps": spread})
 
-    def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
-        """Return the two diagrams."""
-        return _draw_figures(evaluation)
-
-
-_RUNS_FOR_A_SCATTER = 2
-_ONE_DIRECTION_ONLY = Words(
-    "the formulas pool both: here the readings of this direction alone are the sample"
-)
-
-
-def check_requirements(measurements: MeasurementSet) -> Iterator[Finding]:
-    """Yield the requirements, held against the test.
-
-    The recommendation's own numbers have not been read; only what its formulas need is asked.
-    """
-    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.APPLIED)
-    yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
-    yield _number_of_positions(measurements)
-    yield no_missing_readings(measurements)
-    yield positions_over_travel(measurements)
-    yield from spacing_against_periods(measurements, Basis.APPLIED)
+    def figures(self, evaluation: Evaluation, options: Options) -> Iterator[Figure]:  # noqa: ARG002 - no keys of its own
+        """Yield both diagrams, as far as the test defines what they show."""
+        graphs = _Graphs(evaluation)
+        yield graphs.draw_means()
+        yield graphs.draw_overall()
 
 
 def _number_of_positions(measurements: MeasurementSet) -> Finding:
@@ -269,13 +264,6 @@ def _find_lacking_a_direction(statistics: PositionStatistics) -> BoolArray:
     """Tell where a test of both directions has readings of only one, shape (..., position)."""
     lacks: BoolArray = np.any(statistics.count == 0, axis=-2)
     return lacks & statistics.is_bidirectional[..., np.newaxis]
-
-
-def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
-    """Yield both diagrams, as far as the test defines what they show."""
-    graphs = _Graphs(evaluation)
-    yield graphs.draw_means()
-    yield graphs.draw_overall()
 
 
 class _Graphs:

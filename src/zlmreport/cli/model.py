@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport import pipeline
 from zlmreport.cli.model_build import build_lines
 from zlmreport.cli.model_lines import change_lines, fit_lines, tell_diagnosis, tell_history, write_point_lines
 from zlmreport.cli.model_values import (
@@ -40,6 +39,7 @@ from zlmreport.model.diagnosis.study import Fitted, Study, read_addition, refuse
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.priors import Lesson, learn_priors, write_as_text
 from zlmreport.model.planning.deciding import collect_experiment, plan_experiment_of_tie
+from zlmreport.pipeline import choose_standards, read as read_readings, read_sessions
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _KEY = "model.effects"
@@ -75,7 +75,7 @@ class _Session:
 
     def make_forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
-        return make_forecasts(pipeline.choose_standards(self.job, self.registry), study, history)
+        return make_forecasts(choose_standards(self.job, self.registry), study, history)
 
 
 def run(options: Namespace) -> int:
@@ -84,9 +84,7 @@ def run(options: Namespace) -> int:
         return learn(options)
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry)
-    session = _Session(
-        options.job, job, pipeline.read(job, registry), pipeline.read_sessions(job, registry), registry
-    )
+    session = _Session(options.job, job, read_readings(job, registry), read_sessions(job, registry), registry)
     lines, collect_values = _ACTIONS[options.action](session, options)
     if options.json:
         print_json(collect_values())
@@ -277,7 +275,7 @@ def _collect_lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson
                 told.append((name, "left out: it has no error model"))
                 continue
             alone = replace(job, sessions=(), priors=None)
-            measurements = pipeline.read(alone, registry)
+            measurements = read_readings(alone, registry)
             readings = tuple(each.sha256 for each in measurements.provenance.files)
             if readings in seen:
                 told.append((name, f"left out: the readings of {seen[readings]}"))

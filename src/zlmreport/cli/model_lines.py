@@ -32,8 +32,6 @@ from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
 
 _ENGLISH = Language.ENGLISH
-#: Sections that nobody reads every time.
-_ON_REQUEST = frozenset({"visibility", "hidden", "not-tried"})
 
 
 def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
@@ -75,8 +73,7 @@ def tell_diagnosis(
     sections = lay_out_diagnosis(diagnosis, _ENGLISH, titles, experiment)
     following = f"next: {find_next_step(diagnosis, path, experiment)}"
     for each in sections:
-        if each.key not in _ON_REQUEST:
-            yield from lay_out_sections([_drop_unused_columns(each)])
+        yield from lay_out_sections([_drop_unused_columns(each)])
         if each.key == "verdict":
             yield from measure_lines(diagnosis, "  ")
             yield f"  {following}"

@@ -11,7 +11,6 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
-from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.jobs import JobResult, do_all, load_all, report, tell_findings
 from zlmreport.cli.terminal import show_progress
@@ -20,7 +19,7 @@ from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import write
 from zlmreport.job.days import demand_days_past
 from zlmreport.job.loading import choose_formats_once
-from zlmreport.pipeline import PDF
+from zlmreport.pipeline import PDF, Showing, compose, run as make_documents
 from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
@@ -49,7 +48,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
             from zlmreport.cli.capture import capture_if_watched  # noqa: PLC0415 - only for live readings
 
             capture_if_watched(job, registry, result.path)
-        outcome = pipeline.run(job, registry, signer, _make_showing(options))
+        outcome = make_documents(job, registry, signer, _make_showing(options))
         files = write(outcome.documents)
         made = outcome.certificate
         return replace(
@@ -71,7 +70,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
     return do_all(loaded, made, report, options, fail_on_nonconformity=options.fail_on_nonconformity)
 
 
-def _make_showing(options: Namespace) -> pipeline.Showing:
+def _make_showing(options: Namespace) -> Showing:
     """Return what shows how far a diagnosis is: nothing where nothing is to be printed."""
     return partial(show_progress, is_wanted=not options.quiet)
 
@@ -133,7 +132,7 @@ def check(options: Namespace) -> int:
                 demand_capturable(job, registry)
                 return result
         demand_days_past(job)
-        certificate = pipeline.compose(job, registry, showing=_make_showing(options), trials=trials)
+        certificate = compose(job, registry, showing=_make_showing(options), trials=trials)
         return replace(
             result,
             evaluations=certificate.evaluations,

@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import Unit, with_unit
+from zlmreport.measurement.units import say_with_unit
 
 #: Positions come as decimal numbers of mm or °: what differs less than this is the same.
 _ROUNDING = 1e-9
@@ -41,12 +41,12 @@ _ALIKE = 1e-6
 
 def position_in_words(axis: Axis, value: float) -> Words:
     """Return a position or a distance along the axis, m or rad, with its unit: ``250 mm``, ``90°``."""
-    return _write_with_unit(axis.position_unit, value)
+    return say_with_unit(float(axis.position_unit.from_si(value)), axis.position_unit.symbol)
 
 
 def deviation_in_words(axis: Axis, value: float) -> Words:
     """Return a deviation, m or rad, with its unit: ``12.5 µm``, ``3″``."""
-    return _write_with_unit(axis.deviation_unit, value)
+    return say_with_unit(float(axis.deviation_unit.from_si(value)), axis.deviation_unit.symbol)
 
 
 def positions_in_words(number: int) -> Words:
@@ -62,11 +62,6 @@ def runs_in_words(number: int) -> Words:
 def readings_in_words(number: int) -> Words:
     """Return how many readings there are."""
     return Words("{number} reading", plural="{number} readings").given(number=number)
-
-
-def _write_with_unit(unit: Unit, value: float) -> Words:
-    phrase = with_unit("{value}", unit.symbol)
-    return Words(phrase).given(value=float(unit.from_si(value)))
 
 
 def measured_length(measurements: MeasurementSet) -> float:

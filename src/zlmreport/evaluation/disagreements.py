@@ -18,6 +18,7 @@ from zlmreport.evaluation.logged_conditions import (
     find_temperatures_apart,
 )
 from zlmreport.evaluation.uncertainty.reasons import is_reference, says_something
+from zlmreport.job.circle_keys import CircleKeys
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
@@ -28,7 +29,8 @@ from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import MILLIMETRE, with_unit
+from zlmreport.measurement.provenance import ReadingDays
+from zlmreport.measurement.units import MILLIMETRE, say_with_unit
 
 _LATE = Words("Issued on {issued}, {years} after the measurement of {measured}")
 _YEARS = Words("{number} year", plural="{number} years")
@@ -87,23 +89,29 @@ _LONG_PAUSE = 3600.0
 _OF_TIMES, _OF_FEED = 1.0, 1.2
 
 
-def find_disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
-    """Return a sentence for each statement of a job that another one does not bear out."""
-    return (
-        *_find_days_apart(job.keys),
-        *_find_other_days(job.keys, measurements),
-        *_find_more_than_days(job.keys, measurements),
-        *find_temperatures_apart(job, measurements),
-        *find_gaps(measurements),
-        *find_silent_sensors(measurements),
-        *_find_other_coefficient(job.keys),
-        *_find_certificates_of_two_dates(job.keys),
-        *_find_exclusions_without_reason(job),
-        *_find_odd_times(job, measurements),
-        *_find_other_method(job.keys, measurements),
-        *_find_one_serial(job.keys),
-        *_find_bare_length(job.keys),
-    )
+def find_disagreements(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a sentence for each statement of a job that another one does not bear out."""
+    keys, times = job.keys, measurements.time
+    yield from _find_days_apart(keys)
+    if measurements.provenance.days is not None:
+        yield from _find_other_days(keys, measurements.provenance.days)
+    if times is not None:
+        yield from _find_more_than_days(keys, times)
+    yield from find_temperatures_apart(job, measurements)
+    if measurements.conditions:
+        yield from find_gaps(measurements)
+        yield from find_silent_sensors(measurements)
+    if keys.corrections and keys.corrections.material:
+        yield from _find_other_coefficient(keys, keys.corrections.material.expansion_coefficient)
+    yield from _find_certificates_of_two_dates(keys)
+    if keys.measurement.excluded:
+        yield from _find_exclusions_without_reason(job)
+    if times is not None:
+        yield from _find_odd_times(job, measurements, times)
+    yield from _find_other_method(keys, measurements)
+    yield from _find_one_serial(keys)
+    if keys.circle and keys.circle.calibrated_length:
+        yield from _find_bare_length(keys, keys.circle)
 
 
 def _find_days_apart(keys: JobKeys) -> Iterator[Words]:
@@ -118,11 +126,10 @@ def _find_days_apart(keys: JobKeys) -> Iterator[Words]:
         yield _UNDATED
 
 
-def _find_other_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_other_days(keys: JobKeys, days: ReadingDays) -> Iterator[Words]:
     """Yield days of the readings that are not those of the measurement; a night may end on the next one."""
     first, last = keys.measurement.date, find_last_day(keys.measurement)
-    days = measurements.provenance.days
-    if first is None or last is None or days is None:
+    if first is None or last is None:
         return
     spare = dt.timedelta(days=1 if days.is_utc else 0)
     of_night = dt.timedelta(days=1) if keys.measurement.end is None and days.last > days.first else spare
@@ -132,10 +139,10 @@ def _find_other_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Wo
         yield words.given(first=first_read, last=last_read, measured=_write_day(first))
 
 
-def _find_more_than_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_more_than_days(keys: JobKeys, times: FloatArray) -> Iterator[Words]:
     """Yield whether the readings go over more time than the days of the measurement have."""
-    first, last, times = keys.measurement.date, find_last_day(keys.measurement), measurements.time
-    if first is None or last is None or times is None or not np.isfinite(times).any():
+    first, last = keys.measurement.date, find_last_day(keys.measurement)
+    if first is None or last is None or not np.isfinite(times).any():
         return
     seconds = float(np.nanmax(times) - np.nanmin(times))
     if seconds >= ((last - first).days + 1) * _DAY - _OF_TIMES:
@@ -156,12 +163,10 @@ def _find_one_serial(keys: JobKeys) -> Iterator[Words]:
         yield _SERIALS.given(serial=same(machine))
 
 
-def _find_bare_length(keys: JobKeys) -> Iterator[Words]:
+def _find_bare_length(keys: JobKeys, circle: CircleKeys) -> Iterator[Words]:
     """Yield a ballbar of calibrated length without any certificate."""
-    if keys.circle is None or not keys.circle.calibrated_length:
-        return
     of_instrument = keys.instrument.certificate if keys.instrument else None
-    if not any(is_reference(each or "") for each in (keys.circle.certificate, of_instrument)):
+    if not any(is_reference(each or "") for each in (circle.certificate, of_instrument)):
         yield _BARE_LENGTH
 
 
@@ -175,10 +180,8 @@ def _list_calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date
     yield from ((each.name, each.certificate, each.calibrated) for each in devices if each)
 
 
-def _find_other_coefficient(keys: JobKeys) -> Iterator[Words]:
+def _find_other_coefficient(keys: JobKeys, corrected: float | None) -> Iterator[Words]:
     """Yield a coefficient of the correction that is not the machine's."""
-    material = keys.corrections.material if keys.corrections else None
-    corrected = material.expansion_coefficient if material else None
     stated = keys.environment.expansion_coefficient if keys.environment else None
     if corrected and isinstance(stated, float) and abs(corrected - stated) > _ROUNDING:
         yield _COEFFICIENTS.given(corrected=corrected, stated=stated)
@@ -205,18 +208,17 @@ def _find_exclusions_without_reason(job: Job) -> Iterator[Words]:
             approach = Approach.POSITIVE if each.direction == "+" else Approach.NEGATIVE
             yield _NO_REASON.given(
                 run=each.run,
-                target=Words(with_unit("{value}", job.axis.position_unit.symbol)).given(value=each.target),
+                target=say_with_unit(each.target, job.axis.position_unit.symbol),
                 arrow=approach.arrow,
                 reason=same(f"“{each.reason}”"),
             )
 
 
-def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_odd_times(job: Job, measurements: MeasurementSet, times: FloatArray) -> Iterator[Words]:
     """Yield what the times of the readings say against each other, or against the stated feed."""
-    times = measurements.time
     if measurements.axis.circle is not None:
-        yield from _find_another_feed_of_circle(measurements, measurements.axis.circle)
-    if times is None or measurements.axis.measurand.is_continuous or np.isfinite(times).sum() < 2:
+        yield from _find_another_feed_of_circle(measurements, measurements.axis.circle, times)
+    if measurements.axis.measurand.is_continuous or np.isfinite(times).sum() < 2:
         return
     there = np.isfinite(times)
     seconds = np.diff(times[there])
@@ -235,12 +237,12 @@ def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
         yield from _find_exceeded_feed(feed, measurements, there, seconds)
 
 
-def _find_another_feed_of_circle(measurements: MeasurementSet, circle: NominalCircle) -> Iterator[Words]:
+def _find_another_feed_of_circle(
+    measurements: MeasurementSet, circle: NominalCircle, times: FloatArray
+) -> Iterator[Words]:
     """Yield whether the readings of a circle went round at another feed than the stated one."""
-    if measurements.time is None:
-        return
     way = np.abs(np.diff(measurements.target_positions[measurements.target])) * circle.radius
-    seconds = np.diff(measurements.time)
+    seconds = np.diff(times)
     known = (seconds > 0) & (way > 0) & (way < np.pi * circle.radius)
     if not known.any():
         return
@@ -315,5 +317,4 @@ def _list_parts(symbols: tuple[str, ...], evaluation: Evaluation) -> Iterator[st
 
 def _write_limit(parameter: EvaluatedParameter, evaluation: Evaluation) -> Words:
     unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
-    limit = float(f"{unit.from_si(parameter.limit or 0.0):.6g}")
-    return Words(with_unit("{limit}", unit.symbol)).given(limit=limit)
+    return say_with_unit(unit.from_si(parameter.limit or 0.0), unit.symbol)

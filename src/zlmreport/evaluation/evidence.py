@@ -31,7 +31,7 @@ from zlmreport.measurement.measurement_set import (
     find_last_digit,
     find_step,
 )
-from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, with_unit
+from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, say_with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
 _LIE, _AND = Words("lie between"), Words("and")
@@ -194,7 +194,7 @@ def _say_stated_drift(job: Job, unit: Unit) -> Words:
     """Return what the job says of the drift at rest."""
     keys = job.keys.uncertainty
     if keys.environmental_variation:
-        return _AT_REST.given(range=_write_with_unit(keys.environmental_variation, unit.symbol))
+        return _AT_REST.given(range=say_with_unit(keys.environmental_variation, unit.symbol))
     return _NEGLECTED if "environmental_variation" in keys.negligible else _NOTHING_STATED
 
 
@@ -225,7 +225,7 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
     for direction, position, run in far[:_MOST_NAMED]:
         yield _OUTLIER.given(
             run=int(measurements.runs[run]),
-            target=_write_with_unit(
+            target=say_with_unit(
                 measurements.axis.position_unit.from_si(float(measurements.target_positions[position])),
                 measurements.axis.position_unit.symbol,
             ),
@@ -254,7 +254,7 @@ def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
         unit = measurements.axis.position_unit
         target = measurements.target_positions[measurements.target[there][at + 1]]
         yield _SPIKE.given(
-            target=_write_with_unit(unit.from_si(float(target)), unit.symbol),
+            target=say_with_unit(unit.from_si(float(target)), unit.symbol),
             distance=_write_size(measurements, float(off[at])),
         )
 
@@ -344,7 +344,7 @@ def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> I
     for stray in join_found_in_both(*(find_stray_target(positions, each, step) for each in readings)):
         target = float(positions[stray.position])
         yield _STRAY.given(
-            target=_write_with_unit(unit.from_si(target), unit.symbol),
+            target=say_with_unit(unit.from_si(target), unit.symbol),
             distance=_write_size(measurements, abs(stray.distance)),
         )
 
@@ -386,7 +386,7 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
         return
     yield words.given(
         range=_write_size(measurements, full_range),
-        length=_write_with_unit(unit.from_si(length), unit.symbol),
+        length=say_with_unit(unit.from_si(length), unit.symbol),
         unit=axis.deviation_unit.symbol,
     )
 
@@ -419,7 +419,7 @@ def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Word
     given = find_step(measurements)
     if given > stated * (1 + 1e-9):
         yield _COARSER.given(
-            stated=_write_with_unit(stated, unit.symbol), given=_write_with_unit(given, unit.symbol)
+            stated=say_with_unit(stated, unit.symbol), given=say_with_unit(given, unit.symbol)
         )
 
 
@@ -436,9 +436,4 @@ def _compute_median(values: FloatArray, axis: int) -> FloatArray:
 
 def _write_size(measurements: MeasurementSet, value: float) -> Words:
     unit = measurements.axis.deviation_unit
-    return _write_with_unit(float(f"{unit.from_si(value):.3g}"), unit.symbol)
-
-
-def _write_with_unit(value: float, unit: str) -> Words:
-    phrase = with_unit("{value}", unit)
-    return Words(phrase).given(value=float(f"{value:.6g}"))
+    return say_with_unit(float(f"{unit.from_si(value):.3g}"), unit.symbol)

@@ -7,7 +7,7 @@ said, or old, is marked on its first page, as all of it is in a measuring report
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -21,9 +21,10 @@ from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import CELSIUS, with_unit
+from zlmreport.measurement.units import CELSIUS, say_with_unit
 
 if TYPE_CHECKING:
+    from zlmreport.job.document_keys import Capability
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
     from zlmreport.job.measurement_keys import Instrument, SensorKeys
@@ -72,19 +73,21 @@ class _Break(NamedTuple):
     is_broken: bool  #: Whether by the job's own words, so that a calibration certificate is refused.
 
 
-def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
-    """Return a sentence for each place at which the chain does not hold, or is not said to."""
-    found = (
-        *_find_breaks_of_instruments(job.keys),
-        *_find_breaks_of_artefacts(job),
-        *_find_breaks_of_temperatures(job, measurements),
-    )
-    return (
-        *(each.words for each in found),
-        *_say_out_of_scope(job, measurements),
-        *_say_out_of_range(job, measurements),
-        *_say_too_warm(job, measurements),
-    )
+def find_doubts(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a sentence for each place at which the chain does not hold, or is not said to."""
+    laboratory, instrument, environment = job.keys.laboratory, job.keys.instrument, job.keys.environment
+    found = [*_find_breaks_of_instruments(job.keys), *_find_breaks_of_artefacts(job)]
+    if job.keys.certificate.kind == "certificate" and not (environment and environment.thermometers):
+        found += _find_breaks_of_temperatures(job, measurements)
+    yield from (each.words for each in found)
+    if laboratory and laboratory.cmc:
+        yield from _say_out_of_scope(job, laboratory.cmc, measurements)
+    if instrument and instrument.calibrated_range:
+        yield from _say_out_of_range(instrument.calibrated_range, measurements)
+    extents = [each.calibrated_range for each in environment.thermometers] if environment else []
+    known = [each for each in extents if each]
+    if known and len(known) == len(extents):
+        yield from _say_too_warm(job, known, measurements)
 
 
 def find_doubts_of_artefacts(job: Job) -> Iterator[Words]:
@@ -148,8 +151,11 @@ def _list_artefact_keys(job: Job) -> Iterator[tuple[str, object]]:
 
 def is_within_calibrated_range(job: Job, measurements: MeasurementSet) -> bool:
     """Return whether no instrument was used, on any line, over more than it is calibrated for."""
-    lines = ((line, measurements.tests.get(name, measurements)) for name, line in job.lines.items())
-    return not any([*_say_out_of_range(line, of_line)] for line, of_line in lines)
+    for name, line in job.lines.items():
+        extent = line.keys.instrument.calibrated_range if line.keys.instrument else None
+        if extent and any(_say_out_of_range(extent, measurements.tests.get(name, measurements))):
+            return False
+    return True
 
 
 def find_broken_chain(job: Job) -> Iterator[Problem]:
@@ -233,19 +239,13 @@ def _find_breaks_of_calibration(
         yield _Break(f"{key}.due", words, is_broken=True)
 
 
-def _write_with_unit(value: float, unit: str) -> Words:
-    return Words(with_unit("{value}", unit)).given(value=value)
-
-
 def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
 
 def _find_breaks_of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:
     """Yield that a temperature enters the results and nobody says by which thermometer it was measured."""
-    environment, corrections = job.keys.environment, job.keys.corrections
-    if job.keys.certificate.kind != "certificate" or (environment and environment.thermometers):
-        return
+    corrections = job.keys.corrections
     by_program = corrections is not None and (corrections.material or corrections.air)
     is_counted = by_program or _is_expanded(job, measurements)
     if is_counted and not find_compensated_by_instrument(job, measurements).material:
@@ -263,11 +263,8 @@ def _is_expanded(job: Job, measurements: MeasurementSet) -> bool:
     )
 
 
-def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _say_out_of_scope(job: Job, cmc: Capability, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield which results lie outside the scope for which the laboratory is accredited."""
-    cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
-    if cmc is None:
-        return
     axis, targets = job.axis, measurements.target_positions
     if cmc.quantity != axis.measurand.identifier:
         yield _OTHER_CAPABILITY.given(quantity=axis.measurand.title, own=_OF_QUANTITY[cmc.quantity])
@@ -276,22 +273,21 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
     if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):
-        over = _write_with_unit(float(f"{length:.6g}"), axis.position_unit.symbol)
-        most = _write_with_unit(cmc.length, axis.position_unit.symbol)
+        over = say_with_unit(length, axis.position_unit.symbol)
+        most = say_with_unit(cmc.length, axis.position_unit.symbol)
         yield _OUT_OF_SCOPE.given(what=_OF_LENGTH.given(length=over, most=most))
     for choice in job.standards:
         if cmc.standards is not None and choice.identifier not in cmc.standards:
             yield _OUT_OF_SCOPE.given(what=_OF_STANDARD.given(standard=choice.identifier))
 
 
-def _say_out_of_range(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _say_out_of_range(extent: tuple[float, float], measurements: MeasurementSet) -> Iterator[Words]:
     """Yield which results lie over more than what the instrument is calibrated for.
 
     Where its range begins nobody sees in deviations: a length, or a span of readings, is held against the
     width of the range.
     """
-    extent = job.keys.instrument.calibrated_range if job.keys.instrument else None
-    if extent is None or not np.isfinite(measurements.deviation).any():
+    if not np.isfinite(measurements.deviation).any():
         return
     axis, width = measurements.axis, extent[1] - extent[0]
     is_position = axis.measurand.is_position
@@ -299,25 +295,23 @@ def _say_out_of_range(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     spanned = measurements.target_positions if is_position else measurements.deviation
     span = unit.from_si(float(np.nanmax(spanned) - np.nanmin(spanned)))
     if span > width * (1 + _ROUNDING):
-        over = _write_with_unit(float(f"{span:.4g}"), unit.symbol)
-        most = _write_with_unit(float(f"{width:.6g}"), unit.symbol)
+        over = say_with_unit(float(f"{span:.4g}"), unit.symbol)
+        most = say_with_unit(width, unit.symbol)
         yield _OUT_OF_RANGE.given(what=_OF_SPAN.given(length=over, most=most))
 
 
-def _say_too_warm(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _say_too_warm(
+    job: Job, known: Sequence[tuple[float, float]], measurements: MeasurementSet
+) -> Iterator[Words]:
     """Yield the temperatures, stated or logged, for which no thermometer is calibrated.
 
-    Which of them measured what, a job does not say: as long as one states no range, it may have been that.
+    `known`: The ranges of all thermometers. Which of them measured what, a job does not say: as long as one
+        states no range, it may have been that.
     """
-    environment = job.keys.environment
-    extents = [each.calibrated_range for each in environment.thermometers] if environment else []
-    if not extents or None in extents:
-        return
-    known = [each for each in extents if each]
     for name, kind in CONDITIONS.items():
         if kind.unit is not CELSIUS:
             continue
-        stated = getattr(environment, name, None)
+        stated = getattr(job.keys.environment, name, None)
         logged = measurements.conditions.get(name)
         values = [stated] if isinstance(stated, float) else []
         if logged is not None and np.isfinite(logged).any():

@@ -12,11 +12,10 @@ from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import Any, Self
 
-from pydantic import BaseModel
-
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.job import Job
+from zlmreport.job.types import list_values
 from zlmreport.plugin import kinds
 from zlmreport.plugin.registry import FILES, Registry
 from zlmreport.plugin.registry.find import find_plugin_points
@@ -262,7 +261,7 @@ def digest_named_files(job: Job) -> dict[Path, str]:
     templates = job.keys.certificate.style.templates
     options = [each.options for part in job.parts for each in (*part.sources, *part.standards)]
     keys = [each.keys for each in (job, *job.parts)]
-    named = [path for path in _list_paths([*keys, *options]) if path.is_file()]
+    named = [path for _, path in list_values([*keys, *options]) if isinstance(path, Path) and path.is_file()]
     return {path: compute_sha256(path) for path in (*named, *([templates] if templates else ()))}
 
 
@@ -290,15 +289,3 @@ def list_files_behind(
         yield KnownFile(kind, write_path_in(folder, path), sha256, settled)
     if templates:
         yield KnownFile("templates", write_path_in(folder, templates), named[templates])
-
-
-def _list_paths(value: object) -> Iterator[Path]:
-    """Yield every path among values."""
-    if isinstance(value, Path):
-        yield value
-    elif isinstance(value, BaseModel):
-        for name in type(value).model_fields:
-            yield from _list_paths(getattr(value, name))
-    elif isinstance(value, list | tuple):
-        for each in value:
-            yield from _list_paths(each)

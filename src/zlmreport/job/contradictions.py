@@ -11,7 +11,8 @@ from typing import Any, TypeAlias, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from zlmreport.errors import Problem, did_you_mean, quoted
-from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, plan_contradictions
+from zlmreport.job.document_keys import Amends, OpinionKeys
+from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, find_wrong_positions
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Instrument, Measurement, SensorKeys
 from zlmreport.job.sentences import (
@@ -129,15 +130,19 @@ def find_all_contradictions(
     for path, message in (*_find_contradictions(keys), *others):
         named = ".".join(step for step in path if isinstance(step, str))
         yield Problem(place_of(tree, path), f"{named}: {message}")
-    yield from find_supplied_problems(keys, tree)
+    if keys.provided_by_customer or keys.external:
+        yield from find_supplied_problems(keys, tree)
 
 
 def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
+    certificate, due = keys.certificate, keys.next_due
     yield from _find_wrong_days(keys)
-    yield from _find_wrong_amendment(keys)
-    yield from _find_wrong_opinions(keys)
-    yield from _find_wrong_title(keys)
-    due = keys.next_due
+    if certificate.amends:
+        yield from _find_wrong_amendment(certificate.number, certificate.amends)
+    if certificate.authorised_by is None and keys.opinions:
+        yield from _find_opinions_of_nobody(keys.opinions)
+    if certificate.title and certificate.kind == "report":
+        yield from _find_wrong_title(certificate.title)
     if due and not due.agreed:
         yield (
             ("next_due", "agreed"),
@@ -150,13 +155,15 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     if travel and travel[0] >= travel[1]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
     yield from _find_turned_ranges(keys)
-    for key, message in plan_contradictions(keys.plan.targets):
-        yield ("plan", "targets", key), message
+    if keys.plan.targets.positions is not None:
+        for message in find_wrong_positions(keys.plan.targets, keys.plan.targets.positions):
+            yield ("plan", "targets", "positions"), message
     for steps, message in find_uncertainty_contradictions(
         keys.uncertainty, keys.axis.kind, is_circle=keys.circle is not None
     ):
         yield ("uncertainty", *steps), message
-    yield from _find_per_metre(keys)
+    if keys.instrument and keys.axis.kind is AxisKind.ROTARY:
+        yield from _find_per_metre(keys.instrument)
 
 
 def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], Instrument | SensorKeys]]:
@@ -180,11 +187,10 @@ def _find_turned_ranges(keys: JobKeys) -> Iterator[Contradiction]:
             )
 
 
-def _find_per_metre(keys: JobKeys) -> Iterator[Contradiction]:
+def _find_per_metre(instrument: Instrument) -> Iterator[Contradiction]:
     """Yield an uncertainty that grows with the length of an axis that has none."""
-    instrument = keys.instrument
-    stated = instrument.stated_uncertainty if instrument else None
-    if instrument and stated and stated[1] and keys.axis.kind is AxisKind.ROTARY:
+    stated = instrument.stated_uncertainty
+    if stated and stated[1]:
         is_own = instrument.expanded_uncertainty_per_metre is not None
         name = "expanded_uncertainty_per_metre" if is_own else "expanded_uncertainty"
         yield ("instrument", name), "belongs to a linear axis: a rotary one has no metres"
@@ -197,9 +203,11 @@ def _find_wrong_days(keys: JobKeys) -> Iterator[Contradiction]:
     received, sampled, issued = keys.dates.received, keys.dates.sampled, keys.certificate.issued
     due = keys.next_due.date if keys.next_due else None
     began = before.date if before and before.date else first
-    yield from _find_wrong_ends(("measurement",), keys.measurement)
+    if keys.measurement.end:
+        yield from _find_wrong_end(("measurement",), keys.measurement.date, keys.measurement.end)
     if before:
-        yield from _find_wrong_ends(("as_found", "measurement"), before)
+        if before.end:
+            yield from _find_wrong_end(("as_found", "measurement"), before.date, before.end)
         found = find_last_day(before)
         if found and first and first < found:
             yield (
@@ -220,29 +228,27 @@ def find_last_day(measurement: Measurement) -> dt.date | None:
     return measurement.end or measurement.date
 
 
-def _find_wrong_ends(group: tuple[str, ...], measurement: Measurement) -> Iterator[Contradiction]:
-    if measurement.end and measurement.date is None:
+def _find_wrong_end(group: tuple[str, ...], first: dt.date | None, last: dt.date) -> Iterator[Contradiction]:
+    if first is None:
         yield (*group, "end"), f"the first day is missing; add {'.'.join(group)}.date"
-    elif measurement.end and measurement.date and measurement.end < measurement.date:
-        yield (*group, "end"), f"{measurement.end} lies before the first day, {measurement.date}"
+    elif last < first:
+        yield (*group, "end"), f"{last} lies before the first day, {first}"
 
 
-def _find_wrong_amendment(keys: JobKeys) -> Iterator[Contradiction]:
-    amends = keys.certificate.amends
-    if amends and amends.number.casefold() == keys.certificate.number.casefold():
+def _find_wrong_amendment(number: str, amends: Amends) -> Iterator[Contradiction]:
+    if amends.number.casefold() == number.casefold():
         yield (
             ("certificate", "number"),
             (
-                f"{keys.certificate.number} is the number of the document that this one "
-                f"{_VERBS[amends.kind]}; a changed document has a number of its own, such as "
-                f"{keys.certificate.number}-1"
+                f"{number} is the number of the document that this one {_VERBS[amends.kind]}; "
+                f"a changed document has a number of its own, such as {number}-1"
             ),
         )
 
 
-def _find_wrong_opinions(keys: JobKeys) -> Iterator[Contradiction]:
-    for index, opinion in enumerate(keys.opinions):
-        if opinion.by is None and keys.certificate.authorised_by is None:
+def _find_opinions_of_nobody(opinions: Iterable[OpinionKeys]) -> Iterator[Contradiction]:
+    for index, opinion in enumerate(opinions):
+        if opinion.by is None:
             yield (
                 ("opinions", index),
                 (
@@ -260,10 +266,9 @@ _OF_CERTIFICATES = re.compile(
 )
 
 
-def _find_wrong_title(keys: JobKeys) -> Iterator[Contradiction]:
-    """Yield a title that calls a measuring report a calibration certificate."""
-    title = keys.certificate.title
-    if title and keys.certificate.kind == "report" and _OF_CERTIFICATES.search(title):
+def _find_wrong_title(title: str) -> Iterator[Contradiction]:
+    """Yield the title of a measuring report that calls it a calibration certificate."""
+    if _OF_CERTIFICATES.search(title):
         yield (
             ("certificate", "title"),
             (

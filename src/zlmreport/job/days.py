@@ -8,12 +8,11 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator
-from typing import Any, NamedTuple
-
-from pydantic import BaseModel
+from typing import NamedTuple
 
 from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
+from zlmreport.job.types import list_values
 from zlmreport.version import RELEASED
 
 #: What a job says of the future.
@@ -34,7 +33,9 @@ class DayToCome(NamedTuple):
 def find_days_to_come(job: Job, today: dt.date, within: str = "") -> Iterator[DayToCome]:
     """Yield the days of a job that have not come yet, with those of its measurements and lines."""
     yield from (
-        DayToCome(job, key, within, day) for key, day in _list_days(job.keys, "") if day > today + _ELSEWHERE
+        DayToCome(job, key, within, day)
+        for key, day in list_values(job.keys)
+        if isinstance(day, dt.date) and day > today + _ELSEWHERE and _OF_THE_FUTURE.isdisjoint(key.split("."))
     )
     for name, part in (*job.measurements.items(), *job.tests.items()):
         yield from find_days_to_come(part, today, f"{within}{name}.")
@@ -68,19 +69,3 @@ def demand_days_past(job: Job, today: dt.date | None = None) -> None:
 def read_clock() -> dt.date:
     """Return the day by the clock of this computer, a day here: as a certificate states one."""
     return dt.date.today()  # noqa: DTZ011
-
-
-def _list_days(value: Any, key: str) -> Iterator[tuple[str, dt.date]]:
-    match value:
-        case dt.date():
-            yield key, value
-        case BaseModel():
-            for name in type(value).model_fields:
-                if name not in _OF_THE_FUTURE:
-                    yield from _list_days(getattr(value, name), f"{key}.{name}" if key else name)
-        case dict():
-            for name, each in value.items():
-                yield from _list_days(each, f"{key}.{name}")
-        case list() | tuple():
-            for number, each in enumerate(value):
-                yield from _list_days(each, f"{key}.{number}")

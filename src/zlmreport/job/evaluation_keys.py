@@ -448,11 +448,9 @@ class PlanKeys(JobPart):
     )
 
 
-def plan_contradictions(targets: PlannedTargetKeys) -> Iterator[tuple[str, str]]:
-    """Yield what no single key of the targets shows to be wrong: the key, and a sentence."""
-    if targets.positions is None:
-        return
+def find_wrong_positions(targets: PlannedTargetKeys, positions: list[float]) -> Iterator[str]:
+    """Yield what no single key of the targets shows to be wrong about their positions."""
     if targets.count is not None or targets.fractions_of is not None:
-        yield "positions", "either positions, or a count of targets with fractions_of; take one of them out"
-    if sorted(set(targets.positions)) != targets.positions:
-        yield "positions", "target positions rise, and none is there twice"
+        yield "either positions, or a count of targets with fractions_of; take one of them out"
+    if sorted(set(positions)) != positions:
+        yield "target positions rise, and none is there twice"

@@ -62,9 +62,7 @@ def add_shared_source(tree: Keys) -> Keys:
 
 
 def add_axis(tree: Keys, registry: Installed) -> Keys:
-    """Return the keys of a job with its axis, where a circle, an extension or an error's symbol has it."""
-    if "axis" in tree.entries:
-        return tree
+    """Return the keys of a job without an axis, with the one that a circle, an extension or an error has."""
     error = find_error_in(tree)
     name = next((key for key in registry.axis_keys if key in tree.entries), "")
     place = tree.entries[name].place if name else place_of(tree, ("measurement",))

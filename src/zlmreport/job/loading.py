@@ -145,7 +145,9 @@ def _check_job(
     composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
 ) -> Job:
     """Return the job in a folder that files make together, without the further tests that its model names."""
-    tree = add_axis(share_keys(add_shared_source(composition.keys), registry), registry)
+    tree = share_keys(add_shared_source(composition.keys), registry)
+    if "axis" not in tree.entries:
+        tree = add_axis(tree, registry)
     refuse_other_format(
         tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
     )
@@ -167,16 +169,18 @@ def _check_job(
             for choice in chosen.extensions
             for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
         ]
+        if not measurand.is_position:
+            found += find_quantity_contradictions(keys, measurand)
         found += [
-            *find_quantity_contradictions(keys, measurand),
             *find_tests_contradictions(keys, measurand),
             *(
                 find_circle_contradictions(keys, keys.circle, has_axis="axis" in composition.keys.entries)
                 if keys.circle
                 else find_lack_of_circle(keys, measurand)
             ),
-            *find_effect_contradictions(chosen.effects, measurand, registry),
         ]
+        if chosen.effects:
+            found += find_effect_contradictions(chosen.effects, measurand, registry)
         problems.extend(find_all_contradictions(keys, tree, found))
     if source is None and tests:
         source = next(iter(tests.values()))

@@ -45,9 +45,9 @@ def find_measurand_of(keys: JobKeys, tree: Keys, registry: Installed, problems: 
     symbol does not name.
     """
     standards = list(_list_standards(keys, tree, registry))
-    found = _find_stated(keys, tree, standards, problems) or _find_of_standards(
-        keys, tree, standards, problems
-    )
+    stated = keys.measurement.error
+    found = _find_stated(stated, keys, tree, standards, problems) if stated else None
+    found = found or _find_of_standards(keys, tree, standards, problems)
     if found is None:
         return POSITIONING
     for index, standard in standards:
@@ -87,15 +87,13 @@ def _list_standards(
 
 
 def _find_stated(
+    stated: str,
     keys: JobKeys,
     tree: Keys,
     standards: Sequence[tuple[int, InstalledStandard]],
     problems: list[Problem],
 ) -> Measurand | None:
     """Return what `measurement.error` names: an error of ISO 230-1, or a measurand of the standards."""
-    stated = keys.measurement.error
-    if stated is None:
-        return None
     named = {each.identifier: each for _, standard in standards for each in list_measurands_of(standard)}
     place = place_of(tree, _ERROR)
     if stated in named and stated not in OF_SYMBOLS:
@@ -185,9 +183,7 @@ _FOR_LENGTHS = {
 def find_quantity_contradictions(
     keys: JobKeys, measurand: Measurand
 ) -> Iterator[tuple[tuple[Step, ...], str]]:
-    """Yield the keys of a job that do not go with what was measured."""
-    if measurand.is_position:
-        return
+    """Yield the keys of a job that do not go with what was measured, which is no positioning."""
     if (measurand.of_lines or measurand).coordinate is Coordinate.TIME:
         yield from _find_keys_of_lengths(keys)
     for key, reason in _FOR_LENGTHS.items():

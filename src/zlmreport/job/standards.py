@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
-
-from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import demand
@@ -18,6 +15,7 @@ from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import StandardChoice
 from zlmreport.job.parse import LARGEST
 from zlmreport.job.tree import Items, Keys, Scalar, find_at
+from zlmreport.job.types import list_values
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import evaluate_for_error
@@ -102,20 +100,6 @@ def convert_tolerances_to_si(
 def list_files_named(standards: Iterable[StandardChoice]) -> Iterator[SourceFile]:
     """Yield the files that keys of standards name; a certificate carries them as it does its readings."""
     for choice in standards:
-        for path in _list_paths_in(choice.options):
-            yield SourceFile.of(path, demand(path, LARGEST, choice.place))
-
-
-def _list_paths_in(value: Any) -> Iterator[Path]:
-    """Yield every path among the values of keys."""
-    if isinstance(value, Path):
-        yield value
-    elif isinstance(value, BaseModel):
-        for name in type(value).model_fields:
-            yield from _list_paths_in(getattr(value, name))
-    elif isinstance(value, Mapping):
-        for each in value.values():
-            yield from _list_paths_in(each)
-    elif isinstance(value, list | tuple):
-        for each in value:
-            yield from _list_paths_in(each)
+        for _, path in list_values(choice.options):
+            if isinstance(path, Path):
+                yield SourceFile.of(path, demand(path, LARGEST, choice.place))

@@ -368,6 +368,22 @@ def list_keys_in(model: type[BaseModel]) -> dict[str, FieldInfo]:
     return {info.alias or name: info for name, info in model.model_fields.items()}
 
 
+def list_values(keys: object, within: str = "") -> Iterator[tuple[str, object]]:
+    """Yield every single value of keys with its dotted name; items of lists by their index."""
+    match keys:
+        case BaseModel():
+            parts: Iterable[tuple[object, object]] = keys
+        case Mapping():
+            parts = keys.items()
+        case list() | tuple():
+            parts = enumerate(keys)
+        case _:
+            yield within, keys
+            return
+    for name, each in parts:
+        yield from list_values(each, f"{within}.{name}" if within else str(name))
+
+
 def find_field_at(model: type[BaseModel], path: Iterable[Step]) -> FieldInfo | None:
     """Return what the model says of the last key in a path; of a list's item, what it says of the list."""
     annotation: Any = model

@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
+from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 
 #: 0 °C in kelvin.
@@ -27,6 +28,11 @@ def with_unit(number: str, symbol: str) -> str:
     """Return a number with its unit as printed: ``20 µm``, ``20″``, ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``."""
     is_sum = symbol in _TOUCHING and "±" in number
     return f"({number}){write_behind(symbol)}" if is_sum else f"{number}{write_behind(symbol)}"
+
+
+def say_with_unit(value: float, symbol: str) -> Words:
+    """Return a value with its unit, for sentences: each language writes the number its own way."""
+    return Words(with_unit("{value}", symbol)).given(value=value)
 
 
 def write_behind(symbol: str) -> str:

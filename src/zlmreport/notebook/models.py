@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zlmreport.document.blocks import Notice, Section
-from zlmreport.document.subjects.diagnosis import lay_out_diagnosis
+from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, lay_out_unseen
 from zlmreport.document.subjects.fit import fit_sections
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.choices import EffectChoice, choose_effects_of, find_next_number
@@ -115,7 +115,10 @@ class Diagnosis:
         self.statement = write_verdict_statement(found).in_language(Language.ENGLISH)
         self.asks = tuple(asks)
         titles = {each.identifier: each.title for each in registry().effects}
-        self._sections = lay_out_diagnosis(found, Language.ENGLISH, titles)
+        self._sections = (
+            *lay_out_diagnosis(found, Language.ENGLISH, titles),
+            *lay_out_unseen(found, Language.ENGLISH, titles),
+        )
 
     @property
     def verdict(self) -> str:

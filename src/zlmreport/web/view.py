@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from zlmreport.document.figures.model_diagram import ModelDiagram
-from zlmreport.document.subjects.diagnosis import CandidateRow, DiagnosisRows
+from zlmreport.document.subjects.diagnosis import CandidateRow, DiagnosisRows, list_hidden, list_not_tested
 from zlmreport.document.subjects.fit import say_no_table_takes_away
 from zlmreport.document.subjects.linked import collect_failure, collect_graphs, collect_model_curves
 from zlmreport.errors import InputError
@@ -192,7 +192,7 @@ def collect_diagnosed(
                 "names": [names.name_in(effect) for effect in each.effects],
                 "reason": names.name_in(each.reason),
             }
-            for each in (*rows.hidden, *rows.not_tested)
+            for each in (*list_hidden(diagnosis, language), *list_not_tested(diagnosis, language))
         ],
         "notExcluded": list(rows.not_excluded),
         "notExcludedNames": [names.name_in(each) for each in rows.not_excluded],

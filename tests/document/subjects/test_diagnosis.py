@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from model.hidden_effect import example_diagnosis, example_history
-from zlmreport.document.subjects.diagnosis import DiagnosisRows, make_failure_row
+from zlmreport.document.subjects.diagnosis import (
+    DiagnosisRows,
+    list_hidden,
+    list_not_tested,
+    make_failure_row,
+)
 from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
 from zlmreport.language import Language, Words
 from zlmreport.model.diagnosis.report import write_verdict_statement
@@ -31,16 +36,15 @@ def test_what_is_extrapolated_says_so_in_the_language_asked_for() -> None:
 
 def test_effects_that_could_not_be_tried_are_listed_reason_by_reason() -> None:
     diagnosis = example_diagnosis()
-    rows = DiagnosisRows.of(diagnosis, ENGLISH)
-    reasons = [row.reason for row in rows.not_tested]
+    rows = list_not_tested(diagnosis, ENGLISH)
+    reasons = [row.reason for row in rows]
     assert len(reasons) == len(set(reasons))
-    assert sum(len(row.effects) for row in rows.not_tested) == len(diagnosis.not_testable)
+    assert sum(len(row.effects) for row in rows) == len(diagnosis.not_testable)
 
 
 def test_only_what_the_plan_hides_is_called_hidden() -> None:
     diagnosis = example_diagnosis()
-    rows = DiagnosisRows.of(diagnosis, ENGLISH)
-    assert [row.effects for row in rows.hidden] == [
+    assert [row.effects for row in list_hidden(diagnosis, ENGLISH)] == [
         (each.effect,) for each in diagnosis.visibility if each.is_hidden
     ]
 

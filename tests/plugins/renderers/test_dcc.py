@@ -17,7 +17,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.evaluation.evaluation import Conformity, Decision
 from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 NAMES = {"dcc": "https://ptb.de/dcc", "si": "https://ptb.de/si"}
 #: PTB's schema is not part of this project: who has its folder names it here (dcc.xsd, DCC 3.3.0).

@@ -14,7 +14,7 @@ from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}

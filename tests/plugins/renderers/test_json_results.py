@@ -28,7 +28,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Exclusion, SourceFile
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 

@@ -20,7 +20,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.verification.verify import verify
 from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))

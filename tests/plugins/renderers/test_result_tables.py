@@ -19,7 +19,7 @@ from zlmreport.evaluation.uncertainty.budget import NoBudget
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurand import ANGLE
 from zlmreport.measurement.units import ARCSECOND
-from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, make_harmless
 
 FORMULA = '=HYPERLINK("http://example.com";"1")'

@@ -20,7 +20,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
 from zlmreport.plugin.renderer import Certificate, rounded_pair
-from zlmreport_plugins.renderers.json_results.document import Json, collect_results
+from zlmreport_plugins.renderers.json_results import Json, collect_results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
 _NO_UNIT = "1"

@@ -19,9 +19,9 @@ from zlmreport.plugin.source import (
 from zlmreport.plugin.table import days_of_readings, folded
 from zlmreport_plugins.sources.laser_csv.layouts import (
     count_runs,
+    find_directions,
     find_long_layout,
     find_wide_layout,
-    put_in_order,
     read_heading,
 )
 from zlmreport_plugins.sources.laser_csv.options import (
@@ -58,14 +58,17 @@ class LaserCsv:
             layout = (find_wide_layout if each.layout == "wide" else find_long_layout)(table, each, context)
             cells = each.cells_of(table, [column.index for column in layout.list_number_columns()])
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
-            readings += put_in_order(layout.list_readings(cells, sense), each)
-            if of_table := days_of_readings(cells, layout.time):
-                days.append(of_table)
+            of_table = list(layout.list_readings(cells, sense))
+            readings += find_directions(of_table) if each.direction == "by-order" else of_table
+            if of_days := days_of_readings(cells, layout.time):
+                days.append(of_days)
             problems += [*table.problems, *cells.problems]
             said += [remark for remark in list_remarks(table, layout, each) if remark not in said]
         if options.parts and options.layout == "wide":
             readings.sort(key=lambda reading: (reading.run, -reading.approach))  # as one table lists them
-        provenance = Provenance(self.identifier, (text.source,), tuple(said), days=_join_days(days))
+        provenance = Provenance(
+            self.identifier, (text.source,), tuple(said), days=_join_days(days) if days else None
+        )
         return collect_readings(
             count_runs(readings) if options.runs else readings,
             context.axis,
@@ -75,10 +78,8 @@ class LaserCsv:
         )
 
 
-def _join_days(days: Sequence[ReadingDays]) -> ReadingDays | None:
+def _join_days(days: Sequence[ReadingDays]) -> ReadingDays:
     """Return the first and the last day of several tables."""
-    if not days:
-        return None
     first, last = min(each.first for each in days), max(each.last for each in days)
     return ReadingDays(first, last, is_utc=any(each.is_utc for each in days))
 
@@ -98,5 +99,4 @@ def zlmreport_sources() -> Iterable[DataSource]:
     """Return the reader of tables, and that of two tables of one line."""
     from zlmreport_plugins.sources.laser_csv.reversal import ReversedLaserCsv
 
-    table = LaserCsv()
-    return [table, ReversedLaserCsv(table)]
+    return [LaserCsv(), ReversedLaserCsv()]

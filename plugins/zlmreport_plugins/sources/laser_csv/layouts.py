@@ -160,20 +160,15 @@ def find_long_layout(table: TextTable, options: LaserCsvOptions, context: Source
     )
 
 
-def put_in_order(readings: Iterable[Reading], options: LaserCsvOptions) -> list[Reading]:
-    """Return the readings of a long table with what their order tells, where the job says so.
+def find_directions(readings: Sequence[Reading]) -> Iterator[Reading]:
+    """Yield the readings of a long table with the directions that their order tells.
 
-    Directions: a target above the one before was approached upwards, one below it downwards, and where the
-    same one follows, the axis turned there. Runs: the n-th reading of a target in a direction is of run n.
+    A target above the one before was approached upwards, one below it downwards, and where the same one
+    follows, the axis turned there.
     """
-    found = list(readings)
-    if options.direction == "by-order":
-        targets = [reading.target_position for reading in found]
-        found = [
-            replace(reading, approach=Approach(sense))
-            for reading, sense in zip(found, find_senses(targets), strict=True)
-        ]
-    return found
+    senses = find_senses([reading.target_position for reading in readings])
+    for reading, sense in zip(readings, senses, strict=True):
+        yield replace(reading, approach=Approach(sense))
 
 
 def count_runs(readings: Iterable[Reading]) -> Iterator[Reading]:

@@ -26,7 +26,8 @@ from zlmreport.plugin import (
     Words,
     read_only_floats,
 )
-from zlmreport.plugin.source import DataSource, Provenance, SourceContext
+from zlmreport.plugin.source import Provenance, SourceContext
+from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
 
 _FEWEST = 3
@@ -56,9 +57,6 @@ class ReversedLaserCsv:
     title = Words("Two tables of one line, the artefact turned over")
     options: type[Options] = ReversalOptions
 
-    def __init__(self, table: DataSource) -> None:
-        self._table = table
-
     def read(self, options: ReversalOptions, context: SourceContext) -> MeasurementSet:
         """Read both tables; raise `InputError` with every defect, or if they are of two tests."""
         if context.axis.measurand.identifier != STRAIGHTNESS.identifier:
@@ -67,8 +65,9 @@ class ReversedLaserCsv:
                 "a reversal takes the straightness of an artefact out of a straightness error: "
                 "measurement.error names one, such as EYX",
             )
-        first = self._table.read(options, context)
-        second = self._table.read(options.model_copy(update={"file": options.reversed}), context)
+        table = LaserCsv()
+        first = table.read(options, context)
+        second = table.read(options.model_copy(update={"file": options.reversed}), context)
         _demand_one_test(first, second, options)
         turned = second.deviations()[
             np.where(first.approach == Approach.POSITIVE, 0, 1),

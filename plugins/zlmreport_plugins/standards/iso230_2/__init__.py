@@ -66,22 +66,6 @@ _OF_SCATTER = ("R", "R_fwd", "R_bwd", "A", "A_fwd", "A_bwd")
 _ONE_DIRECTION_ONLY = Words("only the parameters of this direction exist")
 
 
-def check_requirements(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
-    """Yield the edition's requirements, held against the test."""
-    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
-    if edition.long_axis is not None and _is_long_axis_test(measurements):
-        yield from _check_long_axis(edition.long_axis, measurements)
-    else:
-        yield from _check_full_test(edition, measurements)
-    yield no_missing_readings(measurements)
-    yield positions_over_travel(measurements)
-    yield from spacing_against_periods(measurements, Basis.APPLIED)
-    if edition.long_axis is None:
-        yield random_fractions(measurements, "P = N·p + r", Basis.PUBLISHED)
-    else:
-        yield random_fractions(measurements, "P = (i − 1)·p + r", Basis.APPLIED)
-
-
 def _find_axis_length(measurements: MeasurementSet) -> float:
     """Return the length of the axis, m or rad: its travel, or what was measured where none is stated."""
     travel = measurements.axis.travel
@@ -226,9 +210,21 @@ class Iso230Part2:
         of_angle = measurand.identifier == ANGLE.identifier
         return Iso230Part2(self.edition, of_angle=True) if of_angle else self
 
-    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
-        """Hold the edition's test design against the test."""
-        return check_requirements(self.edition, measurements)
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no keys of its own
+        """Yield the edition's requirements, held against the test."""
+        of_long_axis = self.edition.long_axis
+        yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
+        if of_long_axis is not None and _is_long_axis_test(measurements):
+            yield from _check_long_axis(of_long_axis, measurements)
+        else:
+            yield from _check_full_test(self.edition, measurements)
+        yield no_missing_readings(measurements)
+        yield positions_over_travel(measurements)
+        yield from spacing_against_periods(measurements, Basis.APPLIED)
+        if of_long_axis is None:
+            yield random_fractions(measurements, "P = N·p + r", Basis.PUBLISHED)
+        else:
+            yield random_fractions(measurements, "P = (i − 1)·p + r", Basis.APPLIED)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the edition's parameters and R_i by position."""

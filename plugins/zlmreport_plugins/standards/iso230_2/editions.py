@@ -194,7 +194,9 @@ def list_parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quanti
             group=_GROUPS[symbol[0]],
             formula=formula,
             meaning=_TURN if of_angle else MEANINGS[symbol],
-            printed_sign=_find_printed_sign(edition, symbol),
+            printed_sign=-1
+            if symbol == "B_mean" and edition.prints_reversal_as_negative_minus_positive
+            else 1,
             never_below=tuple(
                 each
                 for each in _NEVER_BELOW.get(symbol, ())
@@ -226,10 +228,6 @@ def list_by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
             Words("Bidirectional repeatability at a position"),
         ),
     )
-
-
-def _find_printed_sign(edition: Edition, symbol: str) -> int:
-    return -1 if symbol == "B_mean" and edition.prints_reversal_as_negative_minus_positive else 1
 
 
 def _list_formulas(edition: Edition) -> dict[str, str]:

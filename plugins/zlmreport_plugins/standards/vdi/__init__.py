@@ -13,7 +13,7 @@ where x̄_j↑ lies above x̄_j↓, the general form x̄_j ± ½(U_j + P_sj) is 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -81,16 +81,10 @@ _INDEX_OF_SPREAD = Words("The index mit marks a mean over the positions.")
 _SOURCE = Words("Formulas as in the manual of the program ZLM Position, G 1.3.")
 
 _MEAN = Words("Mean deviation")
-
-
-def list_notes(guideline: Guideline) -> tuple[Words, ...]:
-    """Return the notes of a guideline."""
-    return (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
-
-
-def list_notes_of_one_direction(guideline: Guideline) -> tuple[Words, ...]:
-    """Return the notes on a test in one direction, of which the formulas for both do not hold."""
-    return (_ONE_DIRECTION.given(times=2 * guideline.factor), _INDEX_OF_SPREAD, _SOURCE)
+_RUNS = 5
+_ONE_DIRECTION_ONLY = Words(
+    "the guideline does not provide for this: P, Pa and Ps are formed from this direction, U does not exist"
+)
 
 
 #: Notes that speak of parameters, with the symbols of which one must be reported.
@@ -114,41 +108,40 @@ class VdiGuideline:
         self.designation = guideline.designation
         self.title = guideline.title
         self.quantities = list_quantities(guideline)
-        self.notes = list_notes(guideline)
-        self.notes_of_one_direction = list_notes_of_one_direction(guideline)
+        self.notes: tuple[Words, ...] = (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
+        #: Of a test in one direction the formulas for both do not hold.
+        self.notes_of_one_direction: tuple[Words, ...] = (
+            _ONE_DIRECTION.given(times=2 * guideline.factor),
+            _INDEX_OF_SPREAD,
+            _SOURCE,
+        )
 
-    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
-        """Hold the guideline's requirements against the test."""
-        return check_requirements(self.guideline, measurements)
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no keys of its own
+        """Yield the requirements, held against the test: the numbers as in ZLM Position, G 1.1."""
+        guideline = self.guideline
+        yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
+        yield number_of_runs(measurements, _RUNS, Basis.APPLIED)
+        if guideline.positions_in_all is not None:
+            yield positions_in_all(measurements, guideline.positions_in_all, Basis.PUBLISHED)
+        if guideline.positions_per_metre is not None:
+            yield positions_per_metre(measurements, guideline.positions_per_metre, Basis.PUBLISHED, further=1)
+        yield positions_per_scale_element(
+            measurements, guideline.positions_per_scale_element, Basis.PUBLISHED
+        )
+        yield no_missing_readings(measurements)
+        yield positions_over_travel(measurements)
+        yield from spacing_against_periods(measurements, Basis.APPLIED)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the guideline's parameters, and U_j and P_sj by position."""
         factor = self.guideline.factor
         return Arithmetic(parameters(statistics, factor), positions(statistics, factor))
 
-    def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
-        """Return the guideline's two diagrams."""
-        return _draw_figures(evaluation)
-
-
-_RUNS = 5
-_ONE_DIRECTION_ONLY = Words(
-    "the guideline does not provide for this: P, Pa and Ps are formed from this direction, U does not exist"
-)
-
-
-def check_requirements(guideline: Guideline, measurements: MeasurementSet) -> Iterator[Finding]:
-    """Yield the guideline's requirements, held against the test: its numbers as in ZLM Position, G 1.1."""
-    yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
-    yield number_of_runs(measurements, _RUNS, Basis.APPLIED)
-    if guideline.positions_in_all is not None:
-        yield positions_in_all(measurements, guideline.positions_in_all, Basis.PUBLISHED)
-    if guideline.positions_per_metre is not None:
-        yield positions_per_metre(measurements, guideline.positions_per_metre, Basis.PUBLISHED, further=1)
-    yield positions_per_scale_element(measurements, guideline.positions_per_scale_element, Basis.PUBLISHED)
-    yield no_missing_readings(measurements)
-    yield positions_over_travel(measurements)
-    yield from spacing_against_periods(measurements, Basis.APPLIED)
+    def figures(self, evaluation: Evaluation, options: Options) -> Iterator[Figure]:  # noqa: ARG002 - no keys of its own
+        """Yield both diagrams, as far as the test defines what they show."""
+        graphs = _Graphs(evaluation)
+        yield graphs.draw_means()
+        yield graphs.draw_overall()
 
 
 def mean_deviation(statistics: PositionStatistics) -> FloatArray:
@@ -192,13 +185,6 @@ def parameters(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
 def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
     """Return the columns by position, each of shape (..., position)."""
     return {"U": reversal_span(statistics), "Ps": position_spread(statistics, k)}
-
-
-def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
-    """Yield both diagrams, as far as the test defines what they show."""
-    graphs = _Graphs(evaluation)
-    yield graphs.draw_means()
-    yield graphs.draw_overall()
 
 
 class _Graphs:

@@ -125,14 +125,23 @@ def lay_out_readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer
 
 
 def lay_out_uncertainty_beside_as_found(
-    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
+    keys: AsFound,
+    before: Sequence[Evaluated],
+    after: Sequence[Evaluated],
+    writer: Writer,
+    *,
+    with_bars: bool,
 ) -> Iterator[Section]:
     """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
-    as_left = uncertainty.lay_out_budgets(after[0].budget, [each.evaluation for each in after], writer)
+    as_left, as_found = (
+        uncertainty.lay_out_budgets(
+            of[0].budget, [each.evaluation for each in of], writer, with_bars=with_bars
+        )
+        for of in (after, before)
+    )
     if before[0].budget == after[0].budget:
         yield as_left
         return
-    as_found = uncertainty.lay_out_budgets(before[0].budget, [each.evaluation for each in before], writer)
     state_before, state_after = NAMES[keys.work]
     yield _label_section(as_left, state_after, writer)
     yield _label_section(replace(as_found, key="as-found-uncertainty"), state_before, writer)

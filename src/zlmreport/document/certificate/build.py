@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -85,11 +85,10 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     made_from = list_sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
     of_lines = [(name, _collect_shown(line, of_line)) for name, line, of_line in lines]
-    said = say_of_each(of_lines)
+    said = tuple(say_of_each(of_lines))
     shown = (
         *said,
-        *(each for each in traceability.find_doubts_of_artefacts(job) if each not in said),
-        *find_lines_read_twice(measurements.tests),
+        *(_collect_shown_together(job, measurements, said) if tests else ()),
         *(words for each in evaluated for words in find_contradicting_limits(each.evaluation)),
     )
     if as_found:
@@ -175,6 +174,14 @@ def _collect_shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         *find_disagreements(job, measurements),
         *traceability.find_doubts(job, measurements),
     )
+
+
+def _collect_shown_together(
+    job: Job, measurements: MeasurementSet, said: Collection[Words]
+) -> Iterator[Words]:
+    """Yield the same of several lines together, but for what is said of one of them."""
+    yield from (each for each in traceability.find_doubts_of_artefacts(job) if each not in said)
+    yield from find_lines_read_twice(measurements.tests)
 
 
 def _collect_shown_as_found(

@@ -6,16 +6,15 @@ method (f), the results (m), and the fixed statements (l).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
-
-from pydantic import BaseModel
 
 from zlmreport.document.certificate.cover import place_of_work
 from zlmreport.document.certificate.own_words import find_left_out
 from zlmreport.errors import InputError, Problem, quoted
 from zlmreport.evaluation.uncertainty.reasons import is_placeholder, names_something
+from zlmreport.job.types import list_values
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -162,7 +161,9 @@ def find_missing_items(job: Job) -> Iterator[Problem]:
 
 def _find_placeholders(job: Job) -> Iterator[tuple[str, Problem]]:
     """Yield the keys that state nothing by a dash or the like, each with what is to be done."""
-    for key, text in _list_texts(job.keys, ""):
+    for key, text in list_values(job.keys):
+        if not isinstance(text, str):
+            continue
         parts = key.split(".")
         is_told = _TOLD_ELSEWHERE.intersection(parts) or key.endswith(_TOLD_OF_INSTRUMENTS)
         if parts[0] in _PRINTED and not is_told and is_placeholder(text):
@@ -174,21 +175,6 @@ def _find_placeholders(job: Job) -> Iterator[tuple[str, Problem]]:
                     "state what is so, or leave the key out",
                 ),
             )
-
-
-def _list_texts(value: object, within: str) -> Iterator[tuple[str, str]]:
-    """Yield all texts of some keys with their dotted names."""
-    if isinstance(value, str):
-        yield within, value
-    elif isinstance(value, BaseModel):
-        for name, each in value:
-            yield from _list_texts(each, f"{within}.{name}" if within else name)
-    elif isinstance(value, Mapping):
-        for name, each in value.items():
-            yield from _list_texts(each, f"{within}.{name}" if within else str(name))
-    elif isinstance(value, list | tuple):
-        for number, each in enumerate(value):
-            yield from _list_texts(each, f"{within}.{number}")
 
 
 def demand_mandatory_items(job: Job) -> None:

@@ -76,7 +76,8 @@ def collect_certificates(
         sections += (each for name, part in parts.items() for each in _lay_out_sections(name, part, writer))
         if certificate.layout != "sheet":  # no sheet has it
             sections.append(origin.lay_out_origin_of_several(made_from, parts, generator, plugins, writer))
-        sections += statements.lay_out_opinions(keys, writer)
+        if keys.opinions:
+            sections.append(statements.lay_out_opinions(keys, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
     look = Look(style.accent, style.logo)

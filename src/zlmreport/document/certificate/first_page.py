@@ -8,7 +8,7 @@ page.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -31,33 +31,31 @@ def lay_out_first_page(
 
     `pages`: Evaluations that share their results in brief. `room`: What the page has below its title, points.
     """
-    for behind in _list_ways(of):
+    groups = list(
+        conditions.list_groups_beside_identification(of.job, of.measurements, of.described, of.writer)
+    )
+    for behind in _list_ways(of, [key for key, _ in groups]):
         blocks = cover.lay_out_cover(of, pages, behind)
         if columns.estimate_height(blocks) <= room:
             break
-    left = [group for key, group in _choose_conditions(of) if key in behind.conditions]
+    left = [group for key, group in groups if key in behind.conditions]
     return blocks, tuple(left)
 
 
-def _list_ways(of: Material) -> Iterator[Behind]:
-    """Yield what stands behind, from nothing to all that can; a section that a job leaves out takes none."""
+def _list_ways(of: Material, groups: Collection[str]) -> Iterator[Behind]:
+    """Yield what stands behind, from nothing to all that can; a section that a job leaves out takes none.
+
+    `groups`: The job keys of the conditions that the first page has where there is room.
+    """
     wanted = of.job.keys.certificate.sections
     behind = Behind()
     yield behind
     if wanted is None or "conditions" in wanted:
-        keys = [key for key, _ in _choose_conditions(of)]
         for key in _LEAST_LOOKED_FOR:
-            if key in keys:
+            if key in groups:
                 behind = replace(behind, conditions=behind.conditions | {key})
                 yield behind
     if wanted is None or "uncertainty" in wanted:
         behind = replace(behind, explains_uncertainty=True)
         yield behind
     yield replace(behind, results=True)
-
-
-def _choose_conditions(of: Material) -> list[tuple[str, Facts]]:
-    """Return the groups that the first page has where there is room, with their job keys."""
-    return list(
-        conditions.list_groups_beside_identification(of.job, of.measurements, of.described, of.writer)
-    )

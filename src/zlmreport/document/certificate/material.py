@@ -102,18 +102,26 @@ class LaidOut:
     head: Head = Head.WHOLE
 
 
-def lay_out_uncertainty(of: Material) -> Iterator[Section]:
-    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
+def lay_out_uncertainty(of: Material, *, with_bars: bool = True) -> Iterator[Section]:
+    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements.
+
+    `with_bars`: Whether contributions are drawn, too.
+    """
     keys = of.job.keys.as_found
     if keys:
         from zlmreport.document.certificate.as_found import lay_out_uncertainty_beside_as_found  # noqa: PLC0415 - of few
 
-        yield from lay_out_uncertainty_beside_as_found(keys, of.as_found, of.evaluated, of.writer)
+        yield from lay_out_uncertainty_beside_as_found(
+            keys, of.as_found, of.evaluated, of.writer, with_bars=with_bars
+        )
     elif of.tests:
-        yield measured_lines.lay_out_uncertainty(of.evaluated[0], of.tests, of.writer)
+        yield measured_lines.lay_out_uncertainty(of.evaluated[0], of.tests, of.writer, with_bars=with_bars)
     else:
         yield uncertainty.lay_out_budgets(
-            of.evaluated[0].budget, [each.evaluation for each in of.evaluated], of.writer
+            of.evaluated[0].budget,
+            [each.evaluation for each in of.evaluated],
+            of.writer,
+            with_bars=with_bars,
         )
 
 
@@ -132,14 +140,10 @@ def lay_out_readings(of: Material) -> Iterator[Section]:
         yield lay_out_readings_as_found(keys.as_found, of.as_found, of.writer)
 
 
-def lay_out_origin(of: Material) -> Section:
-    """Return where the numbers come from."""
-    return origin.lay_out_origin(of.sources, of.read, of.generator, of.plugins, of.writer)
-
-
 def lay_out_opinions_and_model(of: Material) -> Iterator[Section]:
     """Yield what is an opinion and no result: the job's, and what the error model says."""
-    yield from lay_out_opinions(of.job.keys, of.writer)
+    if of.job.keys.opinions:
+        yield lay_out_opinions(of.job.keys, of.writer)
     if of.interpretation:
         yield of.interpretation.lay_out_section(of.writer)
 
@@ -156,7 +160,7 @@ def lay_out_in_full(of: Material) -> LaidOut:
             ),
             *lay_out_uncertainty(of),
             *lay_out_readings(of),
-            lay_out_origin(of),
+            origin.lay_out_origin(of),
             *lay_out_opinions_and_model(of),
         ),
     )

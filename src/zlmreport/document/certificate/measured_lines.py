@@ -154,13 +154,19 @@ def _lay_out_readings_of(tests: Sequence[Tested], writer: Writer) -> Section:
     return readings.lay_out_readings(first.measurements, make_writer_of(first, writer), key, lines=len(tests))
 
 
-def lay_out_uncertainty(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
+def lay_out_uncertainty(
+    evaluated: Evaluated, tests: Sequence[Tested], writer: Writer, *, with_bars: bool
+) -> Section:
     """Return the uncertainty of what follows from the lines, and the budget of each; equal ones once."""
-    section = uncertainty.lay_out_budgets(evaluated.budget, (evaluated.evaluation,), writer)
+    section = uncertainty.lay_out_budgets(
+        evaluated.budget, (evaluated.evaluation,), writer, with_bars=with_bars
+    )
     budgets: list[tuple[list[Block], list[Tested]]] = []
     for test in tests:
         own = make_writer_of(test, writer)
-        of_line = list(uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own))
+        of_line = list(
+            uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own, with_bars=with_bars)
+        )
         alike = next((each for each in budgets if _list_tables(each[0]) == _list_tables(of_line)), None)
         if alike:
             alike[1].append(test)

@@ -12,24 +12,16 @@ from zlmreport.language import Language, Words
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.document import Certificate
+    from zlmreport.document.certificate.material import Material
     from zlmreport.document.writer import Writer
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 _TITLE = Words("Origin of the results")
 
 
-def lay_out_origin(
-    sources: Sequence[Source],
-    measurements: Sequence[MeasurementSet],
-    generator: str,
-    plugins: Mapping[str, str],
-    writer: Writer,
-) -> Section:
-    """Return the section that lets anyone evaluate again: files with digests, program and plugins.
-
-    `measurements`: What was read: the axis as left, and as found if it was adjusted.
-    """
-    programs = _list_programs(generator, plugins, writer)
+def lay_out_origin(of: Material) -> Section:
+    """Return the section that lets anyone evaluate again: files with digests, program and plugins."""
+    measurements, writer = of.read, of.writer
     axis = measurements[0].axis
     deviation = _INDICATED if measurements[0].is_indication else axis.measurand.sign_of(axis.letter)
     signs = (_SIGN if axis.measurand.joins_tests or axis.measurand.is_closed else _SIGNS).given(
@@ -42,8 +34,8 @@ def lay_out_origin(
     ]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer), signs)),
-        _lay_out_files(sources, named, writer),
-        programs,
+        _lay_out_files(of.sources, named, writer),
+        _list_programs(of.generator, of.plugins, writer),
     ]
     remarks = tuple(
         say_of_each(

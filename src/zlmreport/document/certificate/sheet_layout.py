@@ -123,7 +123,7 @@ def lay_out(of: Material) -> LaidOut:
     title, lacking = lay_out_details(left, of.writer, whole)
     last_pages = (
         *([Section("details", title, lacking)] if lacking else []),
-        *statements.lay_out_opinions(keys, of.writer),
+        *([statements.lay_out_opinions(keys, of.writer)] if keys.opinions else ()),
     )
     by_line = tuple(lay_out_results_by_line(of, _lay_out_line))
     ended = tuple(_begin_pages(last_pages))

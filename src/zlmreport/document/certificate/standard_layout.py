@@ -10,14 +10,13 @@ from dataclasses import replace
 from typing import TypeAlias, TypeGuard
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
-from zlmreport.document.certificate import columns, conditions, conformity, results, statements
+from zlmreport.document.certificate import columns, conditions, conformity, origin, results, statements
 from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.first_page import lay_out_first_page
 from zlmreport.document.certificate.material import (
     LaidOut,
     Material,
     lay_out_opinions_and_model,
-    lay_out_origin,
     lay_out_readings,
     lay_out_uncertainty,
 )
@@ -74,9 +73,10 @@ def lay_out(of: Material) -> LaidOut:
             *(lay_out_results_by_line(of) if of.tests else ()),
             *map(set_in_smaller_type, _lay_out_further_conditions(of, behind)),
             *lay_out_in_common(pages, of.writer),
-            *map(_drop_graphs, lay_out_uncertainty(of)),
+            # without bars: the table says what they would repeat
+            *lay_out_uncertainty(of, with_bars=False),
             *lay_out_readings(of),
-            set_in_smaller_type(lay_out_origin(of)),
+            set_in_smaller_type(origin.lay_out_origin(of)),
             *map(set_in_smaller_type, lay_out_opinions_and_model(of)),
         ),
         is_compact=True,
@@ -140,11 +140,6 @@ def _lay_out_results(of: Material, pages: Pages, room_of_page: float | None) -> 
         yield from sections
     else:
         yield from (replace(fit_on_a_page(each, room_of_page), new_page=True) for each in sections)
-
-
-def _drop_graphs(section: Section) -> Section:
-    """Return a section whose table says what its bars repeat: that of the uncertainty."""
-    return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
 
 
 def set_in_smaller_type(section: Section) -> Section:

@@ -250,14 +250,9 @@ def make_amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Not
     )
 
 
-def lay_out_opinions(keys: JobKeys, writer: Writer) -> Iterator[Section]:
-    """Yield the opinion_sections of a job's opinions, if it states any."""
-    if keys.opinions:
-        apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
-        yield Section("opinions", writer.say(_OPINIONS), (apart, _lay_out_opinions(keys, writer)))
-
-
-def _lay_out_opinions(keys: JobKeys, writer: Writer) -> Table:
+def lay_out_opinions(keys: JobKeys, writer: Writer) -> Section:
+    """Return the section of a job's opinions."""
+    apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
     columns = tuple(
         Column(writer.say(heading))
         for heading in (
@@ -274,7 +269,8 @@ def _lay_out_opinions(keys: JobKeys, writer: Writer) -> Table:
         )
         for opinion in keys.opinions
     )
-    return Table(writer.say(_OPINIONS), columns, (RowGroup(rows),))
+    title = writer.say(_OPINIONS)
+    return Section("opinions", title, (apart, Table(title, columns, (RowGroup(rows),))))
 
 
 def write_person(person: Person) -> str:

@@ -153,13 +153,19 @@ def say_neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragra
         yield Paragraph(writer.say(named(_NEGLIGIBLE, f"{said}.")))
 
 
-def lay_out_budgets(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
-    """Return the section on the uncertainty of everything that evaluations of one test state."""
-    return Section("uncertainty", writer.say(TITLE), tuple(_lay_out_blocks(budget, evaluations, writer)))
+def lay_out_budgets(
+    budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer, *, with_bars: bool
+) -> Section:
+    """Return the section on the uncertainty of everything that evaluations of one test state.
+
+    `with_bars`: Whether contributions are drawn, too.
+    """
+    blocks = _lay_out_blocks(budget, evaluations, writer, with_bars=with_bars)
+    return Section("uncertainty", writer.say(TITLE), tuple(blocks))
 
 
 def _lay_out_blocks(
-    budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer
+    budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer, *, with_bars: bool
 ) -> Iterator[Block]:
     measurements = evaluations[0].measurements
     axis = measurements.axis
@@ -168,27 +174,27 @@ def _lay_out_blocks(
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
     said = [_METHOD_BY_POSITION.given(method=method) if stops else method]
-    if any(_is_unusual(parameter.coverage_factor) for each in evaluations for parameter in each.parameters):
+    factors = (parameter.coverage_factor for each in evaluations for parameter in each.parameters)
+    usual_least, usual_most = _USUAL_FACTORS
+    if any(not usual_least <= factor <= usual_most for factor in factors if factor is not None):
         said.append(_FACTOR)
     yield Paragraph(" ".join(map(writer.say, said)))
     scatters = any(len(each.runs) > 1 for each in measurements.lines)
     of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
     yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
-        yield from lay_out_own_blocks(budget, axis, writer)
+        yield from lay_out_own_blocks(budget, axis, writer, with_bars=with_bars)
     yield from _list_declared(budget, writer)
 
 
-def _is_unusual(coverage_factor: float | None) -> bool:
-    """Return whether a reader asks why k is not the usual 2."""
-    return coverage_factor is not None and not _USUAL_FACTORS[0] <= coverage_factor <= _USUAL_FACTORS[1]
-
-
-def lay_out_own_blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
+def lay_out_own_blocks(
+    budget: Budget | NoBudget, axis: Axis, writer: Writer, *, with_bars: bool
+) -> Iterator[Block]:
     """Yield the contributions of a budget, as a table and as bars."""
     if isinstance(budget, Budget):
         yield _lay_out_table(budget, writer)
-        yield Graph(draw_budget(budget, axis))
+        if with_bars:
+            yield Graph(draw_budget(budget, axis))
 
 
 def _list_declared(budget: Budget, writer: Writer) -> Iterator[Notice]:

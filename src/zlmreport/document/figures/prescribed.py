@@ -31,6 +31,7 @@ from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import say_with_unit
 
 Mark = TypeVar("Mark")
 
@@ -300,8 +301,8 @@ def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None
 def _describe_arrow(axis: Axis, arrow: Arrow) -> Words:
     return Words("{symbol} = {length} at {x}").given(
         symbol=write_plain(arrow.notation),
-        length=_write_length(axis, arrow.high - arrow.low),
-        x=_write_position(axis, arrow.x),
+        length=say_with_unit(arrow.high - arrow.low, axis.deviation_unit.symbol),
+        x=say_with_unit(arrow.x, axis.position_unit.symbol),
     )
 
 
@@ -310,18 +311,10 @@ def _describe_bracket(axis: Axis, bracket: Bracket) -> Words:
         return _describe_arrow(axis, Arrow(bracket.notation, bracket.low_at, bracket.low, bracket.high))
     return Words("{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}").given(
         symbol=write_plain(bracket.notation),
-        length=_write_length(axis, bracket.high - bracket.low),
-        low_at=_write_position(axis, bracket.low_at),
-        high_at=_write_position(axis, bracket.high_at),
+        length=say_with_unit(bracket.high - bracket.low, axis.deviation_unit.symbol),
+        low_at=say_with_unit(bracket.low_at, axis.position_unit.symbol),
+        high_at=say_with_unit(bracket.high_at, axis.position_unit.symbol),
     )
-
-
-def _write_length(axis: Axis, value: float) -> Words:
-    return deviation_in_words(axis, axis.deviation_unit.to_si(value))
-
-
-def _write_position(axis: Axis, value: float) -> Words:
-    return position_in_words(axis, axis.position_unit.to_si(value))
 
 
 def _join_phrases(phrases: list[Words], between: str) -> Words:

@@ -20,7 +20,7 @@ from zlmreport.document.figures.model_residuals import (
     draw_over_time,
     draw_slopes_over_time,
 )
-from zlmreport.document.subjects.diagnosis import lay_out_diagnosis
+from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, lay_out_unseen
 from zlmreport.document.subjects.fit import lay_out_equations
 from zlmreport.document.subjects.forecast import lay_out_fall, lay_out_left_after_compensation
 from zlmreport.document.subjects.linked import link_graphs
@@ -83,7 +83,10 @@ class Modelled:
 def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     """Yield what is said of the diagnosis, with the graphs that show it."""
     diagnosis, whole = modelled.diagnosis, modelled.history[-1]
-    sections = lay_out_diagnosis(diagnosis, writer.language, modelled.titles, modelled.experiment)
+    sections = (
+        *lay_out_diagnosis(diagnosis, writer.language, modelled.titles, modelled.experiment),
+        *lay_out_unseen(diagnosis, writer.language, modelled.titles),
+    )
     said = {each.key: each.blocks for each in sections}
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
     table, *moving = lay_out_fall(modelled.history, modelled.forecasts[0], writer).blocks

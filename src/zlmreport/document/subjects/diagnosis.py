@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from zlmreport.document.blocks import (
     Align,
@@ -142,9 +143,7 @@ class DiagnosisRows:
     error: Facts  #: Of the model.
     failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
     candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
-    hidden: tuple[HiddenRow, ...]  #: Effects that the plan of the test hides beside this model.
-    not_tested: tuple[HiddenRow, ...]  #: Effects that could not be tried, reason by reason.
-    not_excluded: tuple[str, ...]  #: Those among them that nothing speaks against.
+    not_excluded: tuple[str, ...]  #: Effects that could not be tried, and that nothing speaks against.
     remarks: tuple[str, ...]  #: What was taken for granted.
     #: Whether the verdict is that the first candidate, or one of its equals, is missing.
     names_candidates: bool
@@ -175,8 +174,6 @@ class DiagnosisRows:
             error=list_error_facts(diagnosis.error, axis, language),
             failures=tuple(make_failure_row(each, language) for each in diagnosis.failures),
             candidates=rows(diagnosis.candidates),
-            hidden=tuple(_list_hidden(diagnosis, language)),
-            not_tested=_list_not_tested(diagnosis, language),
             not_excluded=tuple(diagnosis.not_excluded),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
             names_candidates=diagnosis.verdict is Verdict.MISSING,
@@ -190,23 +187,16 @@ def lay_out_diagnosis(
     titles: Mapping[str, Words],
     experiment: Experiment | None = None,
 ) -> tuple[Section, ...]:
-    """Return all that is said of a diagnosis, whoever says it; what is not to be said is left out.
+    """Return what is said of a diagnosis, whoever says it; what is not to be said is left out.
 
     The sections are ``verdict``, ``remainder``, ``assumed``, ``model``, ``failures``, ``candidates``,
-    ``improbable``, ``remedy``, ``experiment``, ``hidden``, ``not-tried`` and ``visibility``.
+    ``improbable``, ``remedy`` and ``experiment``.
 
     `titles`: What effects are called, by identifier.
     `experiment`: What to measure next; None where nothing is to be decided.
     """
     rows, fit = DiagnosisRows.of(diagnosis, language, titles), diagnosis.fit
-
-    def section(key: str, title: Words, *blocks: Block | None) -> Section:
-        return Section(key, title.in_language(language), tuple(each for each in blocks if each))
-
-    def notice(title: Words, items: Iterable[str]) -> Notice | None:
-        said = tuple(items)
-        return Notice(title.in_language(language), said) if said else None
-
+    section, notice = partial(_make_section, language), partial(_make_notice, language)
     serious = [each for each in rows.candidates if each.is_serious]
     others = [each for each in rows.candidates if not each.is_serious]
     excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
@@ -252,15 +242,36 @@ def lay_out_diagnosis(
             EXPERIMENT,
             notice(EXPERIMENT, [experiment.statement.in_language(language)] if experiment else []),
         ),
-        section("hidden", HIDDEN, notice(HIDDEN, (_write_reason(each, language) for each in rows.hidden))),
+    )
+    return tuple(each for each in sections if each.blocks)
+
+
+def lay_out_unseen(
+    diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]
+) -> tuple[Section, ...]:
+    """Return what the test cannot see or try: the sections ``hidden``, ``not-tried`` and ``visibility``.
+
+    `titles`: What effects are called, by identifier.
+    """
+    section, notice = partial(_make_section, language), partial(_make_notice, language)
+    hidden, not_tested = list_hidden(diagnosis, language), list_not_tested(diagnosis, language)
+    sections = (
+        section("hidden", HIDDEN, notice(HIDDEN, (_write_reason(each, language) for each in hidden))),
         section(
-            "not-tried",
-            NOT_TRIED,
-            notice(NOT_TRIED, (_write_reason(each, language) for each in rows.not_tested)),
+            "not-tried", NOT_TRIED, notice(NOT_TRIED, (_write_reason(each, language) for each in not_tested))
         ),
         section("visibility", HIDDEN, _lay_out_visibility(diagnosis, language, titles)),
     )
     return tuple(each for each in sections if each.blocks)
+
+
+def _make_section(language: Language, key: str, title: Words, *blocks: Block | None) -> Section:
+    return Section(key, title.in_language(language), tuple(each for each in blocks if each))
+
+
+def _make_notice(language: Language, title: Words, items: Iterable[str]) -> Notice | None:
+    said = tuple(items)
+    return Notice(title.in_language(language), said) if said else None
 
 
 def _write_reason(row: HiddenRow, language: Language) -> str:
@@ -412,7 +423,8 @@ def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
     return Paragraph(_LOOK.given(at=look.at, measure=look.measure).in_language(language))
 
 
-def _list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
+def list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
+    """Yield the effects that the plan of the test hides beside the model."""
     axis = diagnosis.fit.design.axis
     for each in diagnosis.visibility:
         if each.is_hidden:
@@ -424,7 +436,8 @@ def _list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow
             yield HiddenRow((each.effect,), reason.in_language(language))
 
 
-def _list_not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
+def list_not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
+    """Return the effects that could not be tried, reason by reason."""
     by_reason: dict[str, list[str]] = {}
     for each in diagnosis.not_testable:
         by_reason.setdefault(each.reason.in_language(language), []).append(each.effect)

@@ -34,7 +34,7 @@ from zlmreport.measurement.refractive_index import (
     compute_standard_index,
     refractive_index,
 )
-from zlmreport.measurement.units import MICROMETRE, REFERENCE_TEMPERATURE
+from zlmreport.measurement.units import METRE, MICROMETRE, REFERENCE_TEMPERATURE, say_with_unit
 
 #: Step of the difference quotients: of each condition a small part, that rounding does not reach.
 _STEP = 1e-4
@@ -74,8 +74,10 @@ def is_silent_on_air(job: Job, measurements: MeasurementSet) -> bool:
 
 def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
     """Yield the error of lengths whose instrument did not look at the air, where its state is known."""
+    if not is_blind_to_air(job):
+        return
     state = _find_state(job, measurements)
-    if not is_blind_to_air(job) or any(each is None for each in state):
+    if any(each is None for each in state):
         return
     temperature, pressure, humidity = (each for each in state if each is not None)
     index = refractive_index(temperature, pressure, humidity)
@@ -92,7 +94,7 @@ def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownErro
         source=_UNCOMPENSATED_SOURCE.given(
             index=number_words(float(np.mean(index)), 7),
             assumed=number_words(assumed, 7),
-            length=wording.write_length(length),
+            length=say_with_unit(length, METRE.symbol),
         ),
     )
 
@@ -134,7 +136,7 @@ def list_air_contributions(job: Job, measurements: MeasurementSet, length: float
                 source=_SOURCE.given(
                     sensitivity=float(f"{1e6 * sensitivity:.2g}"),
                     unit=_name_difference_unit(unit.symbol),
-                    length=wording.write_length(length),
+                    length=say_with_unit(length, METRE.symbol),
                 ),
                 contributor=name,
             )

@@ -39,7 +39,14 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet, find_last_digit, find_step
-from zlmreport.measurement.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE, Unit
+from zlmreport.measurement.units import (
+    METRE,
+    MICROMETRE,
+    MICROMETRE_PER_METRE_KELVIN,
+    MILLIMETRE,
+    Unit,
+    say_with_unit,
+)
 
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
@@ -166,7 +173,7 @@ def _list_contributions_of_length(
     if keys.misalignment and "misalignment" in named:
         full_range = compute_misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
         stated = wording.say_full_range("R", keys.misalignment, "mm")
-        source = wording.MISALIGNED.given(length=wording.write_length(length))
+        source = wording.MISALIGNED.given(length=say_with_unit(length, METRE.symbol))
         yield _make_contribution(
             "misalignment", full_range, stated, source, distribution=Distribution.ONE_SIDED
         )
@@ -177,7 +184,7 @@ def _list_contributions_of_length(
         if temperature and expansion is not None and key in named:
             full_range = compute_temperature_range(expansion, length, temperature)
             source = wording.TEMPERATURE.given(
-                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.write_length(length)
+                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=say_with_unit(length, METRE.symbol)
             )
             stated = wording.say_full_range("R(θ)", temperature, "K")
             yield _make_contribution(key, full_range, stated, source, acts=acts)
@@ -197,7 +204,7 @@ def _list_contributions_of_length(
 
 def _say_from_which_difference(set_up: SetUp) -> Words:
     """Return from which difference to 20 °C an error of the coefficient becomes one of the length."""
-    length = wording.write_length(set_up.length)
+    length = say_with_unit(set_up.length, METRE.symbol)
     if not set_up.warms_up or set_up.differences is None:
         return wording.EXPANSION.given(difference=set_up.difference or 0.0, length=length)
     low, high = (_write_shown(float(each)) for each in (set_up.differences.min(), set_up.differences.max()))
@@ -233,7 +240,7 @@ def _list_expansion_in_readings(measurements: MeasurementSet, set_up: SetUp) -> 
         source=wording.UNCORRECTED_SOURCE.given(
             expansion=_write_shown(alpha / MICROMETRE_PER_METRE_KELVIN),
             difference=_write_shown(set_up.difference or 0.0),
-            length=wording.write_length(set_up.length),
+            length=say_with_unit(set_up.length, METRE.symbol),
         ),
     )
 

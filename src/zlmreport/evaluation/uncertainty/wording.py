@@ -9,7 +9,7 @@ from zlmreport.evaluation.evaluation import Least
 from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
-from zlmreport.measurement.units import METRE, Unit, with_unit
+from zlmreport.measurement.units import Unit, say_with_unit
 
 NO_INSTRUMENT = Words("the uncertainty of the measuring instrument is not stated")
 INSTRUMENT_IN_WORDS = Words(
@@ -107,26 +107,16 @@ def say_calibration(certificate: str | None) -> Words:
     return _CALIBRATION.given(certificate=certificate) if certificate else STATED
 
 
-def write_length(value: float) -> Words:
-    """Return a length, m, with its unit."""
-    return Words("{value} m").given(value=METRE.from_si(value))
-
-
 def say_full_range(symbol: str, value: float, unit: str) -> Words:
     """Return a full range as it is stated."""
-    return _VALUE.given(symbol=symbol, value=_write_quantity(value, unit))
+    return _VALUE.given(symbol=symbol, value=say_with_unit(value, unit))
 
 
 def say_standard_uncertainty(value: float, unit: Unit) -> Words:
     """Return a standard uncertainty as it is stated."""
-    return _VALUE.given(symbol="u", value=_write_quantity(value, unit.symbol))
+    return _VALUE.given(symbol="u", value=say_with_unit(value, unit.symbol))
 
 
 def say_expanded_uncertainty(value: float, unit: str, factor: float) -> Words:
     """Return an expanded uncertainty as it is stated."""
-    return _EXPANDED.given(value=_write_quantity(value, unit), factor=factor)
-
-
-def _write_quantity(value: float, unit: str) -> Words:
-    phrase = with_unit("{value}", unit)
-    return Words(phrase).given(value=value)
+    return _EXPANDED.given(value=say_with_unit(value, unit), factor=factor)
