@@ -108,7 +108,8 @@ class Outcome:
     @property
     def wrong(self) -> tuple[str, ...]:
         """Those where what is said is wrong: no cause that has no name yet is among their equals."""
-        unnamed = [each for each in self.drawn.causes if each not in self.built]
+        own = (*self.drawn.causes, *self.drawn.in_stranger)
+        unnamed = [each for each in own if each not in self.built]
         found = []
         for each in self.others:
             own = next((other for other in unnamed if other in self.equals.get(each, frozenset())), None)

@@ -289,12 +289,12 @@ def _find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
     """Yield a sentence for each run that seems to be in another unit than the others."""
     if not np.isfinite(measurements.deviation).any():
         return
-    from zlmreport.model.diagnosis.faults import FaultKind, find_recorded_faults  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.diagnosis.faults import find_faults_of_units  # noqa: PLC0415 - brings the error model
     from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - likewise
 
     observed = make_observations_of(measurements)
-    for each in find_recorded_faults(observed.design, observed.deviation):
-        if each.kind is FaultKind.WRONG_UNIT and each.run is not None:
+    for each in find_faults_of_units(observed.design, observed.deviation):
+        if each.run is not None:
             yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 

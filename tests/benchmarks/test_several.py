@@ -136,7 +136,12 @@ def test_lost_motion_is_the_mean_of_a_gap_that_changes(mean: float, names: tuple
     design = drawn.observed.design
     gap = design.direction * (mean * drawn.sigma + drawn.sigma * np.sin(20 * design.position))
     even = gap - design.direction * (np.mean(design.direction * gap) - mean * drawn.sigma)
-    assert replace(drawn, beside=even).in_stranger == names
+    beside = replace(drawn, beside=even)
+    assert beside.in_stranger == names
+    equals = {"backlash-gradient": frozenset({"backlash"})}
+    built = (*drawn.causes, "backlash-gradient")
+    said = Outcome(beside, built, equals, 1.0, remainder=True, is_placed=True, seconds=2.0)
+    assert said.wrong == (() if names else ("backlash-gradient",))
 
 
 def _left(low: float, high: float, unit: Unit = MILLIMETRE) -> Remainder:

@@ -28,9 +28,11 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test()
@@ -400,3 +402,13 @@ def test_a_set_that_the_readings_do_not_determine_is_not_adequate(monkeypatch: p
     found = diagnose(USUAL, observations(DESIGN, readings), INSTALLED)
     assert found.together == ()
     assert found.verdict is Verdict.UNEXPLAINED
+
+
+def test_a_first_run_that_is_in_the_model_is_no_noise() -> None:
+    design = pendulum_test()  # every target is read in one go: repeats are compared as they are
+    readings = known(design) + 8 * SIGMA * (design.run == 1) + noise(design)
+    assumed, full = (
+        fit(model_of(*USUAL.identifiers, *more), design, readings) for more in ((), ("first-run",))
+    )
+    assert compute_error_numbers(assumed).noise_rms == pytest.approx(3.7 * SIGMA, rel=0.1)
+    assert compute_error_numbers(full).noise_rms == pytest.approx(SIGMA, rel=0.1)

@@ -13,7 +13,12 @@ from zlmreport.measurement.arrays import IntArray
 from zlmreport.model.diagnosis.candidate import Candidate, list_candidates
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import NotTestable, list_effects_to_try
-from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
+from zlmreport.model.diagnosis.error_numbers import (
+    LARGEST_RATIO,
+    ErrorNumbers,
+    choose_scattering,
+    compute_error_numbers,
+)
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_gaps
 from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, find, fit_with_member
 from zlmreport.model.diagnosis.remainder import Remainder, find_irregular_remainder, make_remainder_of_run
@@ -35,8 +40,6 @@ _MOST_READINGS = 20_000
 _MINUTES_EACH, _GIGABYTES_EACH = 8 / 60 / 2100, 0.45 / 2100
 #: Degrees of freedom that a comparison needs to tell anything from noise.
 _FEWEST_DEGREES = 6
-#: χ²/ν up to which what is left is called noise: irregular shares that are noise make it larger than one.
-LARGEST_RATIO = 1.4
 #: Of the scatter of a single reading, what has no name must reach to be told of: less changes no result.
 _LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
@@ -238,7 +241,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
             *find_gaps(observed.design),
             *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
-        lasting_noise=estimate_lasting_floor(fitted.design, fitted.deviation),
+        lasting_noise=estimate_lasting_floor(fitted.design, choose_scattering(fitted)),
         faults=faults,
     )
 
@@ -260,7 +263,7 @@ def _decide_verdict(
 
 def _is_perhaps_noise(error: ErrorNumbers, fitted: Fit) -> bool:
     """Return whether the repeats scatter so much that the error may be their scatter alone."""
-    if _is_noise(error, estimate_lasting_floor(fitted.design, fitted.deviation)):
+    if _is_noise(error, estimate_lasting_floor(fitted.design, choose_scattering(fitted))):
         return True
     ratio, within = error.chi2_per_dof, find_repeats(fitted.design, fitted.residual)
     return ratio is None or f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.fit import Fit, cross_validate
 from zlmreport.model.fitting.repeats import estimate_noise_floor
+
+#: Largest ratio of two variances that are alike.
+LARGEST_RATIO = 1.4
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,10 +24,22 @@ class ErrorNumbers:
 
 def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     """Return how far a fitted model is from the readings."""
-    floor = estimate_noise_floor(fitted.design, fitted.deviation)
+    floor = estimate_noise_floor(fitted.design, choose_scattering(fitted))
     return ErrorNumbers(
         fitted.rms,
         floor,
         (fitted.rms / floor) ** 2 if floor else None,
         cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
     )
+
+
+def choose_scattering(fitted: Fit) -> FloatArray:
+    """Return the deviations whose repeats show the noise, (N,): as measured, whatever the model.
+
+    Where a model explains how repeats differ (a first run that stands off, each target read in one go), it is
+    what it leaves of them: else what has a name counts as noise, and what has none is lost in it.
+    """
+    as_measured = estimate_noise_floor(fitted.design, fitted.deviation)
+    left = estimate_noise_floor(fitted.design, fitted.residual)
+    is_explained = as_measured is not None and left is not None and as_measured**2 > LARGEST_RATIO * left**2
+    return fitted.residual if is_explained else fitted.deviation

@@ -133,7 +133,7 @@ def find_recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFau
         *_find_wrong_targets(design, deviation),
         *_find_faults_of_the_clock(design),
         *_find_faults_of_sensors(design),
-        *_find_faults_of_units(design, deviation),
+        *find_faults_of_units(design, deviation),
     )
 
 
@@ -383,7 +383,7 @@ def _find_faults_of_sensors(design: Design) -> Iterator[DataFault]:
             yield DataFault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
 
 
-def _find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
     sizes = {
         run: float(np.median(np.abs(deviation[design.cycle == run])))

@@ -323,10 +323,10 @@ def needs_passing_time(design: Design) -> Words | None:
 
 def needs_pause(design: Design) -> Words | None:
     """Demand a pause between readings that is long against the time between others."""
-    return None if len(find_pauses(design)) else _NO_PAUSE
+    return None if len(list_moments_after_pauses(design)) else _NO_PAUSE
 
 
-def find_pauses(design: Design) -> FloatArray:
+def list_moments_after_pauses(design: Design) -> FloatArray:
     """Return the moments of the first readings after the three longest pauses, the longest first, s."""
     moments = np.unique(design.time)
     gaps = np.diff(moments)

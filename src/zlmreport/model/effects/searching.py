@@ -12,7 +12,7 @@ import numpy as np
 from zlmreport.job.formula_keys import Search
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Parameter, find_pauses
+from zlmreport.model.effects.effect import Dimension, Parameter, list_moments_after_pauses
 
 #: Values of searched parameters that are tried: at most all together, of one alone, in each of its periods.
 _MOST, _FEWEST, _PER_PERIOD = 400, 12, 4
@@ -137,7 +137,7 @@ _WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
         Search.KINK: lambda design: design.middle + _KINKS * design.length,
         Search.WHOLE_NUMBER: _list_teeth,
         Search.RUN: lambda design: np.unique(design.run)[1:].astype(np.float64),
-        Search.PAUSE: find_pauses,
+        Search.PAUSE: list_moments_after_pauses,
         Search.PLACE: lambda design: design.middle + _PLACES * design.length,
         Search.WIDTH: lambda design: design.length * _WIDTHS,
         Search.PEAK: lambda design: float(design.time.min()) + (_PLACES + 0.5) * design.duration,
