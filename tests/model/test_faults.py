@@ -192,6 +192,11 @@ def test_what_a_curve_in_time_explains_better_is_no_slip_of_a_run() -> None:
     assert run_faults(fitted, changes=400.0) == ()
 
 
+def test_targets_that_lie_micrometres_apart_are_not_taken_for_each_other() -> None:
+    close = replace(_DESIGN, position=_DESIGN.position * 1e-4)
+    assert _kinds(close, _TRUE) == []
+
+
 def test_a_night_between_two_runs_parts_two_sessions() -> None:
     time = _DESIGN.time + 22 * 3600.0 * (_DESIGN.run > 3)
     (said,) = find_gaps(replace(_DESIGN, time=time))

@@ -41,8 +41,9 @@ _TINY = 1e-7
 _STILL, _SMALL, _WILD = 5e-9, 2e-6, 3e-4
 #: Standard deviation of a normal variable over its median absolute deviation.
 _NORMAL = 1.4826
-#: Of the distance between two targets, how far a reading of the wrong one may be off.
-_NEAR = 0.1
+#: Of the distance between two targets, how far a reading of the wrong one may be off; and how many times the
+#: scatter of all deviations it must stand off from them.
+_NEAR, _STANDS_OFF = 0.1, 6.0
 #: Lags of a sensor that are tried, s; evidence ahead of the best effect that surpasses it, and is as good.
 _LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
 #: Squares that may be left, over those of the noise floor.
@@ -344,7 +345,9 @@ def _find_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataF
         return
     spacing = float(np.diff(targets).min())
     off = deviation - np.median(deviation)
-    for place in np.flatnonzero(np.abs(off) > 0.5 * spacing).tolist():
+    # Where targets lie micrometres apart, any deviation is the distance to some of them.
+    least = max(0.5 * spacing, _STANDS_OFF * _NORMAL * float(np.median(np.abs(off))))
+    for place in np.flatnonzero(np.abs(off) > least).tolist():
         other = int(np.argmin(np.abs(targets - design.position[place] - off[place])))
         if abs(targets[other] - design.position[place] - off[place]) < _NEAR * spacing:
             statement = _WRONG_TARGET.given(
