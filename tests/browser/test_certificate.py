@@ -54,7 +54,7 @@ def test_a_reading_is_reached_by_the_keyboard_too(window: Window, file: Path) ->
     page.locator(".plot").nth(1).focus()
     page.keyboard.press("End")
     assert marked(page) == [1, 1]
-    assert "598.035 mm" in page.get_by_role("status").inner_text()
+    assert "598.035\u00a0mm" in page.get_by_role("status").inner_text()
 
 
 def test_a_failure_points_at_its_readings_over_what_shows_them(window: Window, file: Path) -> None:

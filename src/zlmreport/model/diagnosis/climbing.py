@@ -57,7 +57,7 @@ class Scope:
         """Return the same without some effects."""
         return replace(self, left_out=self.left_out.union(names))
 
-    def admits(self, family: Family) -> bool:
+    def is_open_to(self, family: Family) -> bool:
         """Return whether a family is thought of."""
         is_wanted = self.with_names if family.is_named else self.with_forms
         return is_wanted and find_installed_name(family.effect) not in self.left_out
@@ -141,7 +141,7 @@ class Climb:
                 family, choice = contest.families[number], (number, int(scan.best[number]))
                 if not np.isfinite(scan.criterion[number]) or len(names) == listed:
                     break
-                if family.identifier in names or not scope.admits(family):
+                if family.identifier in names or not scope.is_open_to(family):
                     continue
                 names.add(family.identifier)
                 if choice not in seen:
