@@ -94,6 +94,15 @@ def test_causes_are_built_down_to_the_noise_each_by_its_name(number: int) -> Non
 
 
 @pytest.mark.long
+def test_what_is_irregular_does_not_take_in_what_has_a_name() -> None:
+    drawn = drawn_axis(
+        14012, with_stranger=True
+    )  # whole increments of a control, a pitch, a stretch displaced
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert {"compensation-sign", "control-increment"} <= {each.identifier for each in found.together}
+
+
+@pytest.mark.long
 def test_a_search_that_comes_by_sets_that_are_nearly_known_ends() -> None:
     drawn = drawn_axis(12019, with_stranger=True)
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)

@@ -36,6 +36,7 @@ from zlmreport.model.diagnosis.scored_sets import ScoredSets
 from zlmreport.model.effects.effect import Effect
 
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
+#: One beside smooth curves may lack as much.
 _MOST_ALONE, _NEAR = 5, 40.0
 #: How many of the sets of names alone that were passed are looked at so.
 _MOST_PASSED = 3
@@ -121,12 +122,12 @@ class SetSearch:
         that are smooth, where what is irregular takes in every wave.
         """
         if self.has_nameless(best):
-            begun = [(named, self._names)]
+            begun = [(named, self._names, PROMISING)]
             if any(self.contest.parts[number].irregular is not None for number in self._list_loud(best)):
                 regular = self._climb(self._begin(best.members, self._regular), self._regular)
-                begun.append((regular, self._regular))
-            for each, scope in begun:
-                if each.score < best.score + PROMISING:
+                begun.append((regular, self._regular, _NEAR))
+            for each, scope, within in begun:
+                if each.score < best.score + within:
                     end = self._release(self._do_without_each(each, scope))
                     best = min(best, self._climb(end, self._whole), key=find_score)
         return self._do_without_each(best, self._whole)
