@@ -28,7 +28,7 @@ _ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
 _LEAST_OWN = 0.01
 #: Values of a form that are held against installed effects, and the share by which these must have it.
-_SAMPLES, _THE_SAME = 5, 0.98
+_SAMPLES, _THE_SAME = 5, 0.95
 
 #: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
 Entry: TypeAlias = tuple[Effect, FloatArray]
