@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import FloatRect, Page, expect
 
 from browser.pictures import picture
 
@@ -20,6 +20,14 @@ pytestmark = [pytest.mark.early, pytest.mark.long]
 def diagnosed(page: Page, verdict: str) -> None:
     """Wait until the diagnosis of the job as it is has come."""
     expect(page.locator("body")).to_have_attribute("data-state", verdict)
+
+
+def find_plot(page: Page, number: int) -> FloatRect:
+    """Return where a graph lies, once what stands above it is whole: what comes later would move it away."""
+    expect(page.get_by_text("By the whole model")).to_be_visible()
+    box = page.locator(".plot").nth(number).bounding_box()
+    assert box
+    return box
 
 
 def plots(page: Page) -> list[int]:
@@ -168,8 +176,7 @@ def test_the_deviation_is_rescaled_where_one_looks_closer(address: str, window: 
         return plot.locator("text.tick").all_text_contents()
 
     whole = scale()
-    box = plot.bounding_box()
-    assert box
+    box = find_plot(page, 0)
     page.mouse.move(box["x"] + 100, box["y"] + 100)
     page.mouse.down()
     page.mouse.move(box["x"] + 250, box["y"] + 105)
@@ -209,8 +216,7 @@ def test_readings_in_a_box_are_set_aside_together(address: str, job: Path, windo
     page = window(address)
     diagnosed(page, "missing")
     page.get_by_role("button", name="Choose readings").click()
-    box = page.locator(".plot").nth(1).bounding_box()
-    assert box
+    box = find_plot(page, 1)
     page.mouse.move(box["x"] + 52, box["y"] + 10)
     page.mouse.down()
     page.mouse.move(box["x"] + 80, box["y"] + box["height"] - 36)
