@@ -24,6 +24,7 @@ import job_keys
 import least_numbers
 import manual
 import methods
+import modules
 import probing_path
 import rooms
 import sequences
@@ -48,6 +49,7 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "circle-effects": circle_effect_pages.text,
     "methods-drift": methods.drift_text,
     "methods-sight": methods.sight_text,
+    "modules": modules.text,
     "notifier-keys": job_keys.notifiers_text,
     "probing-program-keys": job_keys.probing_programs_text,
     "program-keys": job_keys.programs_text,

@@ -1,4 +1,4 @@
-"""What loggers call their columns, in English and German: times, days, and the state of air and machine."""
+"""Names of columns that loggers write, in English and German: times, days, air and machine."""
 
 from __future__ import annotations
 

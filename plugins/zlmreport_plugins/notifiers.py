@@ -1,4 +1,4 @@
-"""Telling people by mail, with the standard library alone, or by whatever apprise reaches, which is an extra.
+"""Sends news of a fleet: mail by SMTP (subject, sender, password), or apprise, which is an extra.
 
 A password, or an address that holds one, comes from the environment and is in no file and no message.
 """

@@ -1,4 +1,4 @@
-"""Part programs for controls, one dialect beside the other: the motion is the same, and each has its words.
+"""Part programs for LinuxCNC, FANUC, SINUMERIK 840D and HEIDENHAIN: G code, dwells, circles.
 
 A circle is run about the zero of a work offset, as ballbars are set up: no control moves along an arc in
 machine coordinates.

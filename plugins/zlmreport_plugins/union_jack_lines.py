@@ -1,4 +1,4 @@
-"""The eight lines of a union jack, and where they lie on a plate.
+"""The names of the eight lines of a union jack, and where they lie on a plate.
 
 The corners and the middles of the edges are called by the points of the compass; a line is called by the
 points at which it begins and ends, so that NW-SE is a diagonal from one corner to the other.

@@ -1,4 +1,4 @@
-"""A block from the eight points on it: its planes, its size and its centre.
+"""Fits a block of a gauge to the eight points on it: planes, size, centre; refuses one that is askew.
 
 All functions take points of shape (..., 8, 3), batch dimensions first; so the uncertainty is propagated, and
 a thousand calibrations are simulated, by one call.

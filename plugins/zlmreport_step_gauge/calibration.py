@@ -1,4 +1,4 @@
-"""The calibration file of a step gauge: YAML with all facts, or a CSV table of the faces alone."""
+"""Reads the calibration file of a step gauge: YAML with all facts, or a CSV table of the faces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From probed points to deviations: projection, effective radius, temperature, Equations 1 to 3."""
+"""Computes deviations from probed points: projection, effective radius, temperature, Equations 1 to 3."""
 
 from __future__ import annotations
 

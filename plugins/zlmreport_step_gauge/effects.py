@@ -1,4 +1,4 @@
-"""What probing a gauge adds to the error model: the radius of the probe, and a gauge that lies askew."""
+"""Effects of probing a gauge: the radius of the probe, and a gauge that lies askew."""
 
 from __future__ import annotations
 

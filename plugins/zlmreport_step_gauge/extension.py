@@ -1,4 +1,4 @@
-"""The group of job keys `step_gauge`, and what a job with it gets by it."""
+"""The extension ``step_gauge``: its facts and graph in the certificate, and all that it offers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A step gauge as its calibration describes it."""
+"""The data of a step gauge: its faces, blocks, expansion, and where it lies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a calibration with a step gauge: the gauge, where it lies, and how it is probed.
+"""The keys of ``step_gauge`` in a job: the gauge, where it lies, how it is probed, the machine's address.
 
 The temperature and the expansion of the machine's scale are no keys of their own: they stand in
 `environment`, as for any other instrument.

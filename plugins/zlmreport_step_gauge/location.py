@@ -1,4 +1,4 @@
-"""Where a step gauge lies: the line through the centres of its first and its last block."""
+"""Locates a step gauge from its initial points: the line through its first and last block."""
 
 from __future__ import annotations
 

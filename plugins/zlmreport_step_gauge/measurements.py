@@ -1,4 +1,4 @@
-"""From the deviations at the faces of a gauge to a measurement set, and what it says of itself."""
+"""Makes the measurement set of a step gauge, with the remarks and corrections that are printed."""
 
 from __future__ import annotations
 

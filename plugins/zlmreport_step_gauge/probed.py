@@ -1,4 +1,4 @@
-"""The faces as a machine has probed them, in a grid of face and cycle; points without numbers among them."""
+"""Arranges probed points by face and cycle; finds the face of points without numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The set-up of a calibration with a step gauge: all that a job states of it, read and in SI."""
+"""What a job states of its step gauge, read and in SI: expansion, radius, location."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Small tables whose columns have fixed names: faces, initial points, probed points."""
+"""Reads small CSV tables with fixed names of columns: faces, initial points, probed points."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every writer of probing programs must do.
+"""The conformance kit of probing programs.
 
 The checks need a recogniser of its language: a function from the text of a program to the moves that a
 machine makes of it. So the tip is seen to go the planned way, whatever the syntax.

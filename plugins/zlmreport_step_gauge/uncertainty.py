@@ -1,4 +1,4 @@
-"""What a step gauge contributes to the uncertainty: faces, radius, touches, direction, expansion.
+"""Contributions of a step gauge to the uncertainty: faces, radius, touches, direction, expansion.
 
 Every contribution but the faces is zero where nothing is stated or determined, and is then left out.
 """

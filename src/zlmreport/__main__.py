@@ -1,4 +1,4 @@
-"""``python -m zlmreport``."""
+"""Starts the command line: ``python -m zlmreport``."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""What went wrong, where, and what would be right: for the person who can mend it."""
+"""Errors as the user reads them: file:line:column, the value, what would be right, “did you mean”."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Files: read only if they are files, written whole or not at all; the one place that opens one to write it.
+"""Reads and writes files: whole or not at all, journals, locks, inside a folder; messages on what fails.
 
 A file is written under a hidden name in its own folder and pushed to the disk; then it takes the place of
 the one that is there, and the folder is pushed to the disk, so that a power cut leaves either the old file

@@ -1,4 +1,4 @@
-"""What a file that no job describes holds, and the job that reads it as it is."""
+"""``zlmreport look``: what a file that no job describes holds, and the job that is written for it."""
 
 from __future__ import annotations
 

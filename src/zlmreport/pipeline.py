@@ -1,4 +1,4 @@
-"""From a job to files: the only page that knows the whole order.
+"""Makes the files of a job: read, evaluate, fit, compose, render; the one place that knows the order.
 
 Each step takes what the step before it made and hands on something new; nothing points back.
 """

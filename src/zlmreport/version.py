@@ -1,4 +1,4 @@
-"""The release of the program."""
+"""The number of the release."""
 
 import datetime as dt
 

@@ -1,4 +1,4 @@
-"""The effects of drives and structure on circles that come with zlmreport."""
+"""The effects of circles that come with zlmreport, in the order in which they are offered."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What drives make of a circle: lags that shrink and turn it, and what gives way to acceleration."""
+"""Effects of drives on a circle: servo lag, its mismatch, dynamic cross talk, compliance."""
 
 from __future__ import annotations
 

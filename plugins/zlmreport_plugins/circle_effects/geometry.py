@@ -1,4 +1,4 @@
-"""What the geometry of a machine makes of a circle, alike in both senses."""
+"""Effects of geometry on a circle: scale mismatch, squareness, bow, cyclic error."""
 
 from __future__ import annotations
 

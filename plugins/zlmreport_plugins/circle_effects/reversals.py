@@ -1,4 +1,4 @@
-"""What happens where an axis turns: lost motion, play across, spikes, stick-slip."""
+"""Effects at reversals on a circle: backlash, over-compensation, lateral play, spikes, stick-slip."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What belongs to the set-up of a ballbar: where it stands, how long it is, how both drift."""
+"""Effects of a ballbar's set-up: its centre, its length (radius), the drift of its length."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What effects of two axes share: differences, of which the mean of all axes is nobody's."""
+"""Differences between axes, for effects that two axes share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An oscillation of the machine while a circle is run."""
+"""The effect of a vibration of the machine on a circle."""
 
 from __future__ import annotations
 

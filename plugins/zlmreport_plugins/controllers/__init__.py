@@ -1,1 +1,1 @@
-"""Controls for which compensation tables are written: one page each."""
+"""Controls for which compensation tables are written."""

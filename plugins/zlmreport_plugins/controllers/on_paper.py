@@ -1,4 +1,4 @@
-"""Formats of compensation tables that are known from paper: none of them was tried on its control.
+"""Tables for Siemens, ISG, FANUC, Mitsubishi, HEIDENHAIN, Etalon, Beckhoff: not tried on a control yet.
 
 ISG, Siemens and Mitsubishi document format and sign; of the others the sign or the file is not confirmed. All
 are written with ``--unconfirmed`` only, and each says so on the sheet.

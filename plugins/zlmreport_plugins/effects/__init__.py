@@ -1,4 +1,4 @@
-"""The effects that come with zlmreport: catalogues by subject, and a polynomial, which no formula says."""
+"""Loads the catalogues of effects beside it, and the polynomial."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A polynomial over the position: the one effect here that no formula says, for its order is chosen."""
+"""The effect ``polynomial``: a polynomial of chosen order over the position, which no catalogue can say."""
 
 from __future__ import annotations
 

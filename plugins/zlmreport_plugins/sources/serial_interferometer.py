@@ -1,4 +1,4 @@
-"""Data source ``serial-interferometer``: readings that were captured live, from their journal."""
+"""Data source ``serial-interferometer``: readings captured live, from a journal; remarks on the capture."""
 
 from __future__ import annotations
 

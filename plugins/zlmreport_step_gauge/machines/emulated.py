@@ -1,4 +1,4 @@
-"""A coordinate measuring machine that is not there, and a step gauge that lies on it.
+"""An emulated measuring machine with a step gauge on it: its errors, its travel, what its probe touches.
 
 The machine has errors: what it shows of a point is not where the point is. Its probe touches boxes, which
 stand anywhere in its volume. A touch is found from the sphere and the boxes themselves, and no knowledge of a

@@ -1,4 +1,4 @@
-"""Probing a step gauge live, and the command that emulates the machine, as the command line has them."""
+"""Commands of live probing: what is told meanwhile, and the one that emulates a machine."""
 
 from __future__ import annotations
 

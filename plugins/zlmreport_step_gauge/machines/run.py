@@ -1,4 +1,4 @@
-"""Runs a planned path on a live machine, and collects its points.
+"""Runs a planned path on a live machine, keeps its points in a journal, and goes on after a break.
 
 A face that is not found is noted, and the path goes on: the tip draws back the way it came. Anything else
 that the machine calls an error ends the run. Every point is on the disk before the next move, and the same

@@ -1,4 +1,4 @@
-"""A session with an I++ DME server: one command after the other, each to its end, and its answers.
+"""A session with an I++ DME server: commands, answers, errors with advice, how long it may be silent.
 
 ``TTTTT &`` acknowledges a command, ``TTTTT # …`` brings data, ``TTTTT ! Error(…)`` an error, and ``TTTTT %``
 says that the command is done. T is the tag of the command: 00001 to 99999, E0001 to E9999 for one that is

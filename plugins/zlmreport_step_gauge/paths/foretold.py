@@ -1,4 +1,4 @@
-"""What a planned path says of itself before it is run: in sentences, as JSON, as a table of its moves.
+"""What ``plan`` tells of a probing path: sentences, JSON, the table of moves, and the drawing.
 
 Its views are drawn below each other, in the style of the graphs.
 """

@@ -1,4 +1,4 @@
-"""The path of a probe over a step gauge, as a measuring machine is to carry it out."""
+"""The data of a probing path: travels, touches, speeds, duration, settings."""
 
 from __future__ import annotations
 

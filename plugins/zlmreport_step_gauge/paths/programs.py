@@ -1,4 +1,4 @@
-"""Part programs for measuring machines: DMIS, the commands of I++ DME, and the code of Pahk and Kim."""
+"""Probing programs: DMIS, I++ DME commands, and the MV/MS code of Pahk and Kim."""
 
 from __future__ import annotations
 

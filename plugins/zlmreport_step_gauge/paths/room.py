@@ -1,4 +1,4 @@
-"""Holds a path against what is in its way: the gauge itself, and the end of the machine's travel."""
+"""Refuses a path that collides with the gauge or leaves the machine's travel."""
 
 from __future__ import annotations
 

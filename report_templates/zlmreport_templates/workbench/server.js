@@ -1,4 +1,4 @@
-// Asks the server. Every answer is values; a refusal is an error with sentences for people.
+// Requests to the server of the workbench. Every answer is values; a refusal is an error with sentences for people.
 
 /** What stands before the addresses of a job: nothing, or its place in a folder of jobs. */
 export const ROOT = location.pathname.match(/^\/jobs\/[^/]+/)?.[0] ?? "";

@@ -1,4 +1,4 @@
-"""The command line: a module for a command, or for a few that are read together.
+"""Starts each command by its module; exit codes after Ctrl-C, of a closed pipe, of errors.
 
 This module is all that ``--version`` and ``--help`` load; a command's own module, and with it all that is
 slow to load, comes when the command is given.

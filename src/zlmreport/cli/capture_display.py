@@ -1,4 +1,4 @@
-"""Where an operator watches a capture: a terminal, a file of lines, or another program."""
+"""What an operator sees of a capture, on a terminal or in lines; the keys to press, the bell, the bar."""
 
 from __future__ import annotations
 

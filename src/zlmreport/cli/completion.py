@@ -1,4 +1,4 @@
-"""What may follow on the command line: asked for by the Tab key of a shell, found by the parsers."""
+"""Completion by the Tab key of a shell: commands, options, names of plugins, files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The commands that extensions bring."""
+"""Runs the commands that large plugins (extensions) bring."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A night of a fleet: what is due is made, and said: in a log, and on a terminal by how far it is."""
+"""``zlmreport fleet``: a night, with its log (text or JSON), progress, forecast, summary and exit code."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``zlmreport fleet report``, ``backup``, ``rebuild``: what is made of a ledger, and the ledger itself."""
+"""``zlmreport fleet report``, ``backup``, ``rebuild``: the overview anew, a ledger copied or made again."""
 
 from __future__ import annotations
 

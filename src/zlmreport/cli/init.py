@@ -1,4 +1,4 @@
-"""``zlmreport init``: a job to begin with; ``zlmreport look``: what a file of measurements holds."""
+"""``zlmreport init``: a job or a machine file to begin with; ``look``: what a file of measurements holds."""
 
 from __future__ import annotations
 

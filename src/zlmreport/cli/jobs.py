@@ -1,4 +1,4 @@
-"""The same done with every job of a command line, and what is read of it: lines, ``zlmreport/summary/1``."""
+"""One command for several jobs: their exit code, findings and values as lines, ``zlmreport/summary/1``."""
 
 from __future__ import annotations
 

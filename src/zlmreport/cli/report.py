@@ -1,4 +1,4 @@
-"""``zlmreport JOB.yaml``: certificates of jobs, signed if that is asked for; ``check``: all but the files."""
+"""``zlmreport JOB.yaml``: makes certificates, asks for the password of a signature; ``check``: no files."""
 
 from __future__ import annotations
 

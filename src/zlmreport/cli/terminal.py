@@ -1,4 +1,4 @@
-"""Writing to a terminal: columns that line up, colours where somebody sees them, nothing that it obeys."""
+"""What all commands print by: colours, wrapping, columns, the line of progress, control characters shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A command in a process of its own, and one that waits for it: so that none goes without a word.
+"""Runs a command in a child process, so that a plugin that crashes or exits gets a message and exit code 2.
 
 A plugin may end the process in which it works, by mistake or not: with exit code 0, for example, and without
 its certificate. What waits here has loaded no plugin. It knows from the other whether it came to its end, and

@@ -1,4 +1,4 @@
-"""What is said, block by block and in one language; a certificate, a terminal and a page give it a shape.
+"""The blocks of which all that is said consists: paragraph, notice, facts, table, graph, formulas, section.
 
 Every text here is data: whoever lays it out sets it as it stands and interprets nothing in it. Symbols are
 kept apart as `Symbol`, because they are set in italics and subscripts.

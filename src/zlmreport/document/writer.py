@@ -1,4 +1,4 @@
-"""Writing words and values for one document: its language, its axis's units, its decimals, its marks.
+"""Writes values for one document: language, units of the axis, decimals, value with U, dates, marks.
 
 Values and their uncertainties are rounded together, alike in every table.
 """

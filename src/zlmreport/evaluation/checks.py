@@ -1,4 +1,4 @@
-"""Requirements that several standards share, each a function from a test to a `Finding`."""
+"""Requirements that standards share (targets, runs, directions, intervals), each giving a `Finding`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a series of readings is another one once more: as it is, moved by a constant, or but for a digit.
+"""Copied readings: a series that is another one as it is, moved by a constant, or but for a digit.
 
 Two series of one axis differ by its scatter. Where the last digit shows that, the differences of two honest
 series are hardly ever all but one the same; where it does not, two honest series look like copies, and

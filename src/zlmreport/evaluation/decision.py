@@ -1,4 +1,4 @@
-"""Whether a value keeps its limit, when the value is only known to within its uncertainty.
+"""Decision rules with guard bands and risk: whether a value keeps its limit, given its uncertainty.
 
 A limit binds the amount of a value: |y| ≤ TL. A decision rule keeps a guard band w from the limit, accepts
 up to TL − w, and says what is stated beyond (ILAC-G8:09/2019; JCGM 106:2012, clauses 7 and 8).

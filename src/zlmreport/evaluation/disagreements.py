@@ -1,4 +1,4 @@
-"""What a job states at two places and otherwise each time, and days that lie too far apart.
+"""Warnings where a job states one thing at two places and otherwise each time, or days too far apart.
 
 Nothing of it is refused, for each may have its reason: a reader is told, and the laboratory asked.
 """

@@ -1,4 +1,4 @@
-"""From a measurement set and a standard to an evaluation."""
+"""Evaluates a measurement set by a standard, and doubts values that its readings cannot give."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a standard asks and reports: requirements, quantities, values with what is decided on them."""
+"""The data of an evaluation: findings, quantities, parameters with decisions, columns by position."""
 
 from __future__ import annotations
 

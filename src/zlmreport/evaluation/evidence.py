@@ -1,4 +1,4 @@
-"""What the readings themselves show, held against what the job states of them.
+"""Warnings on the readings themselves: outliers, drift, copies, turned runs, stray targets, coarse steps.
 
 Nothing is changed or set aside for it: the document says what its reader, or an assessor, would see in the
 readings too. Sentences are yielded for what chance hardly makes; each test has its own bound.

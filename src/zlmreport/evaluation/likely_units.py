@@ -1,4 +1,4 @@
-"""Values whose size lets one think that another unit was meant: 68.2 °C, a limit of 0.02 µm, an axis C in mm.
+"""Warnings on values that suggest another unit: 68.2 °C, a limit of 0.02 µm, an axis C in mm.
 
 Nothing is refused or changed for that: who knows the machine is told, with the unit that would fit.
 """

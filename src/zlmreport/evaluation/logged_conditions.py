@@ -1,4 +1,4 @@
-"""What was logged beside the readings, where the log has a gap, ends early, or its sensors contradict."""
+"""Warnings on logs beside the readings: gaps, a late begin, an early end, sensors that contradict."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether one target stands apart from a curve that all others make: a defect there, or another place."""
+"""One target that stands apart from the curve of all others: a defect there, or another place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether the chain of calibrations that a job states holds: dates, certificates, the accredited scope.
+"""Warnings on traceability: dates of calibrations, missing certificates, ranges, the accredited scope.
 
 A calibration certificate is refused where the chain is broken by the job's own words; what is merely not
 said, or old, is marked on its first page, as all of it is in a measuring report.

@@ -1,4 +1,4 @@
-"""Runs that were measured or written the wrong way round: their reversal, or their sign, is not the others'.
+"""Runs written the wrong way round: the reversal or the sign of one is not that of the others.
 
 Of a run whose directions were interchanged the reversal has the other sign; of one whose deviations have the
 wrong sign the curve mirrors that of the others. Where that happened to a whole direction, the two run counter

@@ -1,4 +1,4 @@
-"""What a certificate was made from, files and programs, and what of it has changed since."""
+"""What a certificate was made from (files, programs, by digest), and what has changed since."""
 
 from __future__ import annotations
 

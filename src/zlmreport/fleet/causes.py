@@ -1,4 +1,4 @@
-"""Effects of the error model over a fleet: what a step came with, and what machines of one type share."""
+"""What a step of a parameter came with (effects of the model), and what machines of one type share."""
 
 from __future__ import annotations
 

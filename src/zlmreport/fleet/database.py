@@ -1,4 +1,4 @@
-"""The database of a ledger, in SQLite or PostgreSQL: its tables, and the lock for one night at a time.
+"""The database of a ledger, in SQLite or PostgreSQL: its tables, its format, the lock of a night.
 
 The lock is gone when its holder is, however that ended.
 """

@@ -1,4 +1,4 @@
-"""Steps and drifts, told apart, and tested over a whole fleet so that many tests make few false alarms.
+"""Which steps and drifts are named over a whole fleet, so that many tests make few false alarms.
 
 Steps come first (`zlmreport.fleet.steps`), and a drift is looked for in what follows the last of them.
 

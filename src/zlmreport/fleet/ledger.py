@@ -1,4 +1,4 @@
-"""The ledger of a fleet: every certificate with what it states, and the nights that write to it."""
+"""The ledger of a fleet, read and written: certificates, what they state, nights, what was told."""
 
 from __future__ import annotations
 

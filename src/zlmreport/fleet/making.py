@@ -1,4 +1,4 @@
-"""One certificate of a fleet, from its job to bytes and to what the ledger keeps; nothing is written.
+"""Makes one certificate in a worker, as bytes and as the ledger's entry; its limits, drafts.
 
 This is what runs in a worker: a process of this machine, or of another.
 """

@@ -1,4 +1,4 @@
-"""What is new on a morning, and the ways to tell people of it.
+"""What is new on a morning (failed, changed, overdue …), as a message, and the ways to tell people.
 
 Each event is a line, known by a subject, so that it is told once. Each way is a notifier of a plugin with
 its own keys, as the fleet file names it.

@@ -1,4 +1,4 @@
-"""What concerns a whole night and no single job: what is not there of jobs, folders and certificates."""
+"""Notices on a whole night: jobs or folders gone, nothing to do, a wrong clock, a night that got stuck."""
 
 from __future__ import annotations
 

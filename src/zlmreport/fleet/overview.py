@@ -1,4 +1,4 @@
-"""The overview of a fleet: one page of HTML that somebody opens each morning.
+"""The overview of a fleet as a page of HTML: its sections, tables, tiles and what needs somebody.
 
 What needs somebody, worst first; every machine with its axes and their latest values; how to read it all.
 """

@@ -1,4 +1,4 @@
-"""The words of the overview."""
+"""Every phrase of the overview: headings, captions, columns, explanations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the ledger keeps of each certificate: what it is about, what it states, and where its files are."""
+"""What the ledger keeps of a certificate: machine, axis, parameters, due date, names of its files."""
 
 from __future__ import annotations
 

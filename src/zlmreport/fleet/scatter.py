@@ -1,4 +1,4 @@
-"""How much the tests of an axis scatter: what they say themselves, and what the other axes of a fleet say.
+"""How much the tests of an axis scatter, learned from these and from the other axes of a fleet.
 
 Four tests know little of their scatter, but hundreds of axes with four tests each know which scatters there
 are, and how often: perhaps many axes that hardly scatter and a few that scatter four times as much. So no

@@ -1,4 +1,4 @@
-"""The state of a fleet on a morning, out of its ledger."""
+"""The state of a fleet on a morning: what failed, is overdue or soon due, not met, changed, drifting."""
 
 from __future__ import annotations
 

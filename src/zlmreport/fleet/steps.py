@@ -1,4 +1,4 @@
-"""Steps: which test of an axis differs from those before it by more than its tests scatter.
+"""Steps of a parameter: which test of an axis differs from those before by more than the scatter.
 
 The scatter between tests is that of the axis itself, with what the whole fleet knows of it in view
 (`zlmreport.fleet.scatter`). A test is named if so large a difference from the mean of those before it is

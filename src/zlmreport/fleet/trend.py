@@ -1,4 +1,4 @@
-"""A parameter over the years: its calibrations, the line through them, and whether they rise by chance.
+"""A parameter over the years: the line through its calibrations, its p-value, when it meets a limit.
 
 Calibrations weigh by their stated uncertainties, wᵢ = 1/Uᵢ². How much they scatter is told by the series
 itself and not by U: what is common to all of them, such as the error of one and the same interferometer,

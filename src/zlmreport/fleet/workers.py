@@ -1,4 +1,4 @@
-"""Who makes certificates: processes of this machine, or those of many that a Dask scheduler has.
+"""Workers that make certificates, on this machine or by Dask; their limits of time and memory.
 
 The first are kept warm, renewed, missed when killed, stopped when late; the others see the same files.
 """

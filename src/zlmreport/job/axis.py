@@ -1,4 +1,4 @@
-"""The axis of a job in SI, with its tables."""
+"""Turns the axis of a job into SI, and reads its tables (compensation, angular errors)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The plugins that a file names, each with its own keys: sources, effects, programs, extensions."""
+"""Finds the plugins that a job names (source, effects, programs, control …) and checks their keys."""
 
 from __future__ import annotations
 

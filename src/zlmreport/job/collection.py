@@ -1,4 +1,4 @@
-"""A job that makes one document of several jobs: which they are, and what it says for all of them."""
+"""A job that makes one document of several jobs (``measurements``): what it says for all of them."""
 
 from __future__ import annotations
 

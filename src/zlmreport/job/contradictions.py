@@ -1,4 +1,4 @@
-"""Holding keys against the model that describes them, and against each other."""
+"""Checks a job: each value against its key, and keys that contradict each other, with messages."""
 
 from __future__ import annotations
 

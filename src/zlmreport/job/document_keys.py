@@ -1,4 +1,4 @@
-"""The keys of a job file on the document itself: what ISO/IEC 17025:2017 asks of it beside its results."""
+"""Keys of a job on the document: laboratory, customer, certificate, dates, style, signature, output."""
 
 import operator
 import re

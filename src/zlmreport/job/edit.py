@@ -1,4 +1,4 @@
-"""Editing a job in place: a list of it is changed, such as the effects of its model, and nothing else.
+"""Changes a list in a job file, such as its effects, in place: comments and layout stay.
 
 An edit is made in memory first, so that what it would come to can be tried; it is written only if the file
 is still the one that was read.

@@ -1,4 +1,4 @@
-"""Editing what a job lists or does not state: parameters, readings, a pitch, the customer, parts of U."""
+"""Changes single items of a job file in place: a parameter, an excluded reading, a value not stated yet."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a job on what is made of readings, standards to error model; and of a test still to be done."""
+"""Keys of a job on evaluation: standards, limits, decision rule, uncertainty, model, plan, programs."""
 
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self, TypeAlias

@@ -1,4 +1,4 @@
-"""A job file together with the files that it extends, and the defaults that it builds on unnamed."""
+"""What ``extends`` takes over from other files, and defaults of a fleet's jobs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the values of a YAML file stand in its text, from the first character to the last.
+"""Where each value of a YAML file begins and ends in its text, for changes in place.
 
 A tree of values says what a file means; this says how it is written, so that one value can be changed while
 everything around it stays as its writer left it.

@@ -1,4 +1,4 @@
-"""A fleet file: its keys, and what it describes, checked."""
+"""The keys of a fleet file, checked: jobs, output, ledger, limits, log, notify, workers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Formulas of parameters and readings: parsed, held against their units, computed; never executed.
+"""The language of formulas: functions, constants, units; parsed and computed, never executed.
 
 A formula is a text of numbers, names, the four operations, powers and a few functions. It becomes a tree of
 frozen values, of which each name and each operation is known: nothing in it can call anything else.

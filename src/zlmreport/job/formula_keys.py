@@ -1,4 +1,4 @@
-"""The keys of an effect that is written as a formula: in a job, or as an entry of a catalogue of effects."""
+"""Keys of an effect that is written as a formula: parameters, units, ranges, needs, words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A formula held against the units of what stands in it, and parted into what is solved and searched."""
+"""Checks a formula's units and names, and parts it into linear and searched parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a job needs to know of the plugins that it names; `zlmreport.plugin.registry.Registry` answers."""
+"""Protocols: what a job needs to know of installed plugins, as the registry answers it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A job that has been read and checked: what the rest of the program works with."""
+"""The `Job`: a job that was read and checked, as all other rooms get it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a job file, with what they mean; `zlmreport schema` publishes this page.
+"""The top level of the keys of a job file: its groups in order, with what they mean.
 
 Units are those of the contract with users (mm, °, µm, ″, °C, hPa); `zlmreport.job.loading` turns them
 into the SI values of the core.

@@ -1,4 +1,4 @@
-"""Writing in a list of a file, such as ``model.effects``: an item more, less or changed, or a new list.
+"""Writes into a list of a YAML text: an item more, less or changed, or a new list.
 
 Nothing else of the text changes: comments, order, quotes, indentation and line ends stay as they are. What
 is added follows its neighbours: a line of its own where they have one, in brackets where they stand in

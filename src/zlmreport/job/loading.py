@@ -1,4 +1,4 @@
-"""From a job file to a checked job, with its axis and tolerances in SI."""
+"""Loads a job file: reads, checks, chooses plugins, converts axis and limits to SI."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a job file on the machine, its axis, and how the readings were taken and are corrected."""
+"""Keys of a job on the measurement: machine, axis, source, instrument, environment, corrections."""
 
 from typing import Annotated, Any, Literal, TypeAlias
 

@@ -1,4 +1,4 @@
-"""From YAML to a tree of values with places.
+"""Reads YAML with the place of each value; limits of size, hidden characters, messages on broken YAML.
 
 Events are read one by one, so that what is too deep or too large is refused where it becomes so, before
 it costs anything. No value is interpreted: YAML would take a serial number 00123 for 83, and ``no`` for

@@ -1,4 +1,4 @@
-"""What a job says was measured, and whether its axis, its standards and its other keys go with that."""
+"""Which quantity a job says was measured (positioning, straightness …), and whether other keys fit it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a model refuses, gathered by value, and said to the person who can mend it."""
+"""The messages on wrong and unknown keys of a job: what was expected, bounds, the nearest name."""
 
 from __future__ import annotations
 

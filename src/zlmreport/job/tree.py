@@ -1,4 +1,4 @@
-"""What a job file says, value by value, each with its place: a tree that nothing has interpreted yet."""
+"""The values of a YAML file as a tree with places, before anything is checked."""
 
 from __future__ import annotations
 

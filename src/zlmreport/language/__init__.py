@@ -1,4 +1,4 @@
-"""The languages a certificate is written in, and text that exists in each of them.
+"""The languages of a certificate, and `Words`: a phrase in English that is translated when it is written.
 
 A sentence that reaches a page is written once, in English, at its place in the code: `Words`. What it is in
 other languages stands in a catalogue of translations, a file for each language (`catalogues`).

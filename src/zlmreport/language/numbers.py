@@ -1,4 +1,4 @@
-"""Numbers for sentences, written in the manner of whatever language the sentence is said in."""
+"""Numbers inside sentences, with the decimal sign of the sentence's language."""
 
 from __future__ import annotations
 

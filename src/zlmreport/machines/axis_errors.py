@@ -1,4 +1,4 @@
-"""Where the errors of the axes come from: jobs that measured them, certificates of this program, statements.
+"""The errors of a machine's axes, from jobs, certificates of this program, or stated values.
 
 Each becomes an `AxisErrorCurve`: means with their covariance. What of the uncertainty budget the readings of
 a test share is carried on as shared: along the length, at each position, between the directions.

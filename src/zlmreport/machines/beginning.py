@@ -1,4 +1,4 @@
-"""A machine file to begin with, from files of readings: a job for each, and what nobody but the user knows.
+"""``zlmreport init --machine``: a machine file and its jobs from files of readings, and what to fill in.
 
 What a file or its name tells is written; what it leaves open stands as a commented line, marked with what to
 fill in. Nothing is guessed in silence.

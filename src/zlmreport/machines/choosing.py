@@ -1,4 +1,4 @@
-"""Which form of an effect fits circles best, and its searched values between two of the grid."""
+"""The best form of an effect for circles: its searched values, also between those of the grid."""
 
 from __future__ import annotations
 

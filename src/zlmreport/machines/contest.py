@@ -1,4 +1,4 @@
-"""The contest: which effect, or which curve without a name, explains best what the model leaves.
+"""The contest of a machine: which effect, or curve without a name, explains best what the model leaves.
 
 Evidence is 2·ln of a Bayes factor against the model alone: the likelihood averaged over the sizes that an
 effect may have, over its forms and searched values, and over the noise. A curve without a name is a random

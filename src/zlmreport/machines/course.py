@@ -1,4 +1,4 @@
-"""Where the tool went in a test, in which direction it was sensed, and what was read.
+"""A circle or a line of a test of a machine: where the tool went, the direction sensed, the readings.
 
 A circle, a line and a diagonal are one thing: positions of the machine, the directions in which its
 axes moved, the direction in which the deviation was sensed. What only a circle has (angle, sense, radius)

@@ -1,4 +1,4 @@
-"""Whether circles that were run again, with tables across axes in effect, show what the tables promised.
+"""Whether circles run again, with tables across axes loaded, show what the tables promised.
 
 What changed between two circles is held against what the tables take away of them: a least-squares part of 1
 says that they act as they should, −1 that their sign is wrong, 0 that they are not in effect. The centre of

@@ -1,4 +1,4 @@
-"""From a machine to the tables of a control: which control, which sign, the files, what they will leave."""
+"""Makes tables across axes for a control: which control, which sign, a trial, the files, the forecast."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A component error over its axis, as it was measured, with its covariance.
+"""A component error as a curve over its axis, with its covariance.
 
 A curve is known at its nodes and linear between them; where both directions of travel were measured, each
 has its own. Nothing is extrapolated: beyond the nodes the end value stands and `find_outside` says so. All

@@ -1,4 +1,4 @@
-"""All circles of a machine side by side, and thinned.
+"""The readings of all circles of a machine side by side, thinned, without those near reversals.
 
 Readings are averaged in their order, so that a turn keeps at most some 180 of them: more would not tell even,
 low orders any better, for irregular geometry is alike in all of them.

@@ -1,4 +1,4 @@
-"""What the name of a file of readings says of them: which of the 21 errors, or which circle.
+"""Which of the 21 errors, which circle or diagonal a file holds, by its name.
 
 People call their files ``X straightness vertical.csv`` or ``ballbar_XY_R150_F1000_ccw.csv``. What is taken
 from a name is a proposal, and what it leaves open is said.

@@ -1,4 +1,4 @@
-"""A machine: its chain, what is known of its 21 errors, and the tests that it is held against."""
+"""A machine: its chain of axes, its 21 errors, bounds of errors that nobody measured; its prediction."""
 
 from __future__ import annotations
 

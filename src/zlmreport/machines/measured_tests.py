@@ -1,4 +1,4 @@
-"""Tests of a whole machine as their jobs have them: circles, and lines in other places."""
+"""Reads tests of a whole machine from their jobs: circles, and lines in other places."""
 
 from __future__ import annotations
 

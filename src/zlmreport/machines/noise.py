@@ -1,4 +1,4 @@
-"""What scatters on a circle: along the path, and as irregular geometry that all turns share.
+"""The scatter of circles: noise along the path, and irregular geometry that all turns share.
 
 V = σ²·(1 + p·exp(−Δφ/6°) within a turn + k(Δθ)·(g + h·s·s′) within a plane) + what else is known to be
 uncertain: the errors of the axes, and the angle at which each turn began. White noise alone would take

@@ -1,4 +1,4 @@
-"""The next run of a ballbar: which one tells apart what this plan cannot, in how many minutes, how likely.
+"""The next run of a ballbar: which circle decides between effects, in how many minutes, how likely.
 
 Of two effects A and B, let the circles show A as it was estimated. With one run more, the part of A's curve
 that B cannot imitate has the squared length κ in units of the noise; the difference of their evidence is

@@ -1,4 +1,4 @@
-"""What is left of a test beside its prediction: root mean squares, scatter, and where it leaves its band."""
+"""Residuals of a test of a machine: RMS, scatter, and arcs where it leaves the band of the prediction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The circles of a machine against what its axes and its model's effects predict, all fitted together."""
+"""The fit of a machine's model: all its circles against axes and effects, together."""
 
 from __future__ import annotations
 

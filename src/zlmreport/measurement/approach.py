@@ -1,4 +1,4 @@
-"""Direction of approach."""
+"""Direction of approach: positive or negative, with its sign and its arrow."""
 
 from __future__ import annotations
 

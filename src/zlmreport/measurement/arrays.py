@@ -1,4 +1,4 @@
-"""Array types, and arrays that nobody can alter behind a frozen value."""
+"""Types of arrays, read-only arrays, decimals of numbers."""
 
 from __future__ import annotations
 

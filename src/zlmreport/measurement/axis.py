@@ -1,4 +1,4 @@
-"""The machine axis under test."""
+"""The machine axis under test: its kind, letter, travel, units of positions and deviations, heading."""
 
 from __future__ import annotations
 

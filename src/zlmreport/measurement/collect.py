@@ -1,4 +1,4 @@
-"""From the readings of a file to a measurement set, and what a set must hold to be a test of an axis."""
+"""Puts the readings of a file in order as a measurement set, and refuses what is no test of an axis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the header of a table to columns that have a meaning and a unit, and their cells."""
+"""Reads the header and the cells of a table: meaning and unit of a column, decimal sign, thousands."""
 
 from __future__ import annotations
 

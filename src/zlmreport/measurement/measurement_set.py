@@ -1,4 +1,4 @@
-"""Readings of an axis in the order in which they were taken, each with its conditions."""
+"""The measurement set: readings in the order of time with their conditions; limits of each condition."""
 
 from __future__ import annotations
 

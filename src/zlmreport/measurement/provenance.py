@@ -1,4 +1,4 @@
-"""Where readings come from, and what was done to them."""
+"""Where readings come from and what was done to them: files, corrections, exclusions, averages, days."""
 
 from __future__ import annotations
 

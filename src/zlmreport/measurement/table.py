@@ -1,4 +1,4 @@
-"""From lines to a table: delimiter, quotation marks, header, units, a table on its side; no cell is read."""
+"""Splits lines into a table: delimiter, quotation marks, header, units, a table on its side."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Text files of measurements: whatever is wrong with a file is said before anything is made of it."""
+"""Opens text files of measurements: encoding, largest size, longest line; refuses what is no text."""
 
 from __future__ import annotations
 

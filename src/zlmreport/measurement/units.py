@@ -1,4 +1,4 @@
-"""Units of the quantities that enter and leave, printed and spelled; between the two all is SI."""
+"""Units, how they are printed and spelled, and their conversion to SI."""
 
 from __future__ import annotations
 

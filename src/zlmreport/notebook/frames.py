@@ -1,4 +1,4 @@
-"""Tables as frames of the library that is there, and frames as columns."""
+"""Tables as data frames (pandas, polars, pyarrow), frames as columns, tables as HTML."""
 
 from __future__ import annotations
 

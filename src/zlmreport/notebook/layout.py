@@ -1,4 +1,4 @@
-"""Blocks in a notebook, as HTML."""
+"""Blocks shown as HTML in a notebook."""
 
 from __future__ import annotations
 

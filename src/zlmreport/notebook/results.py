@@ -1,4 +1,4 @@
-"""Readings evaluated by a standard, for notebooks."""
+"""``evaluate`` for notebooks: parameters, findings and graphs of a standard."""
 
 from __future__ import annotations
 

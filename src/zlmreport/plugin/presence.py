@@ -1,4 +1,4 @@
-"""Which plugin is at work: so that one with which the whole process goes can be named by who is left.
+"""Notes which plugin is at work, so that it can be named if it ends the process.
 
 A plugin can end its process, be ended by a signal, close what others write to, or fork. No exception tells of
 that. So the boundary notes whom it calls in memory that another process may share, and looks after each call

@@ -1,4 +1,4 @@
-"""A certificate with one of everything, for the tests of renderers."""
+"""A sample certificate with one of everything, for the tests of renderers."""
 
 from __future__ import annotations
 

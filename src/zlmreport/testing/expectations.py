@@ -1,4 +1,4 @@
-"""How a check says what it expects."""
+"""How a check of the conformance kit fails: `expect`, and its messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests that are tried: from a printed table, simulated, without deviations, and as poor as they come."""
+"""Sample tests for the kit: printed, simulated, good ones, and as poor as they come."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A file of a certificate by itself: its results, its digital certificate, its page, its workbook.
+"""Verifies a single file of a certificate: results, digital certificate, HTML, CSV, workbook.
 
 Only the PDF carries what a certificate was made from. So such a file is held against the PDF that lies beside
 it: it is made again from what that carries, and compared byte by byte. Without one, nothing of it is decided;

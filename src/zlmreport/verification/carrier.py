@@ -1,4 +1,4 @@
-"""A PDF that somebody sent: opened without trust, and what it carries, within bounds.
+"""Opens a PDF that somebody sent, without trust: limits of size and pages, its attachments.
 
 Streams are unpacked as they are: what is damaged is refused, and what has no end is cut off.
 """

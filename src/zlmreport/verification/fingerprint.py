@@ -1,4 +1,4 @@
-"""Whether parts of two PDFs are the same, whatever their objects are numbered and however they are packed."""
+"""Digests of parts of PDFs, whatever their objects are numbered and however they are packed."""
 
 from __future__ import annotations
 

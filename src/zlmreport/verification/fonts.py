@@ -1,4 +1,4 @@
-"""Whether two embedded fonts show the same: a font that draws a 3 for a 2 leaves a page's text as it is.
+"""Whether two embedded fonts draw the same glyphs: one that draws a 3 for a 2 is found.
 
 A font is closed: every entry of it, its encoding and its map from codes to glyphs, must be that of the
 font printed again. Only what depends on the library that packs it may differ: its name's prefix, which other

@@ -1,4 +1,4 @@
-"""What a reader takes letters for, and what in a text nobody can tell by looking: Unicode's lists.
+"""Letters that look like others (Unicode), and invisible ones, in texts of a certificate.
 
 UTS #39 (Unicode Security Mechanisms) lists letters that look alike, and UAX #24 the script of each.
 """

@@ -1,4 +1,4 @@
-"""What a page draws, mark by mark in the order of painting, whatever libraries wrote it.
+"""Reads a page's drawing mark by mark: paths, text, images, with tolerances; whatever library wrote it.
 
 Only the operators that the project's renderers use are understood; any other is refused. So two pages that
 were written by other libraries can be compared by what they show: each glyph by its outline and its text,

@@ -1,4 +1,4 @@
-"""Words that somebody else wrote: quoted as such, with what nobody can tell by looking.
+"""Finds free texts of a laboratory in a certificate, quoted because nobody can verify them.
 
 No reading gives them, and nothing computes them again. So they may say anything; what says a result, or that
 one is met, leaves a certificate undecided, and whoever reads it decides.

@@ -1,4 +1,4 @@
-"""The pages of a certificate against the pages that its attachments give when they are printed again."""
+"""Compares the pages of a certificate with the pages that its attachments give, printed again."""
 
 from __future__ import annotations
 

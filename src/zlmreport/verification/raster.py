@@ -1,4 +1,4 @@
-"""The second line: both documents as a viewer draws them, whatever they are built of.
+"""Compares both documents pixel by pixel, as a viewer draws them; the resolution and tolerances.
 
 PDFium, the engine of Chromium, knows nothing of what is compared elsewhere: its text and its pixels must be
 the same, or something is seen that the comparison of the structure overlooked.

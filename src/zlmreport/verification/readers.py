@@ -1,4 +1,4 @@
-"""What readers of other makers see in a file: its pages and its attachments, also where they have to mend it.
+"""Compares what other PDF readers see (pypdf, PDFium, qpdf, poppler, MuPDF): pages and attachments.
 
 Which objects a file holds is said twice: by its table, and by the objects themselves. Some viewers believe
 the one and some the other, and each puts a damaged file together in its own way. So every reader is asked

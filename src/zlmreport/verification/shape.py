@@ -1,4 +1,4 @@
-"""How a PDF is built: nothing may be there that the same certificate, printed again, does not have.
+"""Refuses objects in a PDF that the same certificate, printed again, does not have.
 
 The document that is printed again is the list of what is allowed: which entries its dictionaries have, of
 what kind they are, and which names they have as values. A form, a script, a layer, a box that pages inherit,

@@ -1,4 +1,4 @@
-"""The way from a place on a page to its element of the structure, against the way back.
+"""Whether a tagged PDF's structure and its pages point to each other alike.
 
 The structure says both: each element lists the places that belong to it, and a table lists for each place its
 element. A screen reader follows the one, and a program that is asked what stands at a place the other.

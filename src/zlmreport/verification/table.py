@@ -1,4 +1,4 @@
-"""The tables of a PDF against its raw bytes: each object once, where the table says, and nothing besides.
+"""Checks the cross-reference tables of a PDF against its raw bytes: each object once, nothing besides.
 
 Some viewers believe the table that says where objects stand; others, and all of them where a table is
 damaged, put the file together anew from what they find in it. So the two must be the same: one header, one

@@ -1,4 +1,4 @@
-"""Objects of a PDF in its raw bytes, read strictly: what two readers might take differently is refused.
+"""Parses PDF objects from raw bytes, strictly: refuses what two readers might take differently.
 
 A reader that mends what it reads shows a file as it thinks that it was meant. Here nothing is mended: a key
 that stands twice, a comment, a number with two signs is an error, and so is anything between an object and

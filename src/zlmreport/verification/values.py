@@ -1,4 +1,4 @@
-"""The results file against the one that the attached readings give: value by value."""
+"""Compares the results file with that of the attached readings, value by value; tolerances."""
 
 from __future__ import annotations
 

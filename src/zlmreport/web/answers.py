@@ -1,4 +1,4 @@
-"""What every page of a file on the bench is answered: shell and files, changes, diagnosis, what is made."""
+"""What the pages of a job and of a machine answer alike: files, changes, diagnosis, what is made."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the server answers on a job: the job as values, steps of its model, changes, the certificate."""
+"""The server of a job's workbench: its addresses, the steps of its model, changes, the certificate."""
 
 from __future__ import annotations
 

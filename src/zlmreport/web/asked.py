@@ -1,4 +1,4 @@
-"""What the page asks for: what a certificate would lack."""
+"""The fields that a page asks for because a certificate would lack them: customer, instrument, U."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a page can have made: documents, a compensation table, a second test held against it, the next job."""
+"""What the page can have made (documents, table, confirmation, next job), as a command of the terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A periodic effect on one of its periods: sixty waves laid over each other are one wave that can be read."""
+"""The graph of a periodic effect folded on one of its periods."""
 
 from __future__ import annotations
 

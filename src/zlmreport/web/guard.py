@@ -1,4 +1,4 @@
-"""Who may ask: the browser on this computer that was given the token, and no page of anybody else.
+"""Who may use the workbench: token, cookie, host, origin; headers of security; largest request.
 
 The workbench writes files. So it listens on the loopback address alone; asks every request for the cookie
 that only the address in the terminal hands out; refuses any other name of the host (a foreign page that has

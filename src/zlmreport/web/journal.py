@@ -1,4 +1,4 @@
-"""What was clicked, line by line in a file beside the job: for people who ask, and for undo.
+"""The history of the workbench, in a file beside the job: what was clicked, undo and redo.
 
 A line is never altered. An undo is a line of its own, and puts back the bytes that were replaced; so does
 what takes an undo back. Either is offered only while the job is still as the last line left it.

@@ -1,4 +1,4 @@
-"""What the page calls effects: identifiers on a page in English, titles on any other."""
+"""How the page names effects: by identifier in English, by title in other languages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What stands beside the graphs: error, effects with parameters, the fall of the error, the standards."""
+"""The values of the panels beside the graphs: error, effects, fall of the error, standards, exclusions."""
 
 from __future__ import annotations
 

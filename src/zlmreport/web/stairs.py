@@ -1,4 +1,4 @@
-"""A model that was built, as a staircase: what would come in or go out, and how far the error falls.
+"""A built model as a staircase: what would come in or go out, and how far the error falls.
 
 Nothing of it stands in the job: a step is taken by a click, as any other change of the model.
 """

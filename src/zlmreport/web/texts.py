@@ -1,4 +1,4 @@
-"""The words of the page that do not depend on a job: headings, buttons, what a reading is described by."""
+"""The fixed words of the workbench: headings, buttons, labels, what is said while something is made."""
 
 from __future__ import annotations
 

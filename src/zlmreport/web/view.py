@@ -1,4 +1,4 @@
-"""All that the page shows of a job and of its diagnosis, as values for a browser."""
+"""All values that the page of a job shows, collected."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The laser interferometer displays µMD0, µMD1 and µMD2."""
+"""The laser interferometer displays µMD0, µMD1 and µMD2: keys, decoding, wavelength, faults."""
 
 from __future__ import annotations
 

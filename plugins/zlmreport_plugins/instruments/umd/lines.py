@@ -1,4 +1,4 @@
-"""The lines of the µMD displays: fields, the low-speed channel in them, and what the models differ in."""
+"""The lines of the µMD displays: fields, low-speed channel, differences of models; the emulated display."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values with unit and uncertainty as D-SI 2.2.1 writes them.
+"""XML of a DCC: values with unit and uncertainty as D-SI 2.2.1 writes them.
 
 Numbers stand with all digits of the double, as in the results file: rounding is for pages.
 """

@@ -1,4 +1,4 @@
-"""The results file: every number of a certificate at full precision, for programs.
+"""The results file (JSON): every number of a certificate at full precision, for programs.
 
 Micrometres, or seconds of arc on a rotary axis; positions in millimetres or degrees; symbols in ASCII.
 What a test does not define is absent: there is no NaN, and no zero in its place. The format is published

@@ -1,4 +1,4 @@
-"""The results as tables: one value a row, for pandas, R and whoever draws graphs; or a workbook.
+"""The formats ``csv`` (one value a row) and ``xlsx`` (a workbook with charts): columns, sheets, cells.
 
 The numbers are those of the results file, digit by digit; cells of the workbook hold them whole and show them
 with the digits that a document prints. Readings are what the file says that they were read from, without the

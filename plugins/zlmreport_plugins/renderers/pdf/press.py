@@ -1,4 +1,4 @@
-"""WeasyPrint, set up once in a process.
+"""Prints by WeasyPrint: PDF/A and PDF/UA, colour profile, fonts, attachments, graphs as vectors.
 
 Fonts and style sheets are shared by all documents: parsing them takes longer than setting a page, and every
 new font configuration costs memory that WeasyPrint 70 never gives back.

@@ -1,4 +1,4 @@
-"""The structure of a tagged PDF as WeasyPrint 70 leaves it, and what a reader of tables needs besides.
+"""Mends the structure of a tagged PDF as WeasyPrint 70 leaves it: headings, cells, descriptions.
 
 And what a PDF says of itself in its metadata: WeasyPrint claims one kind of conformance a file, `identify`
 claims PDF/UA-1 beside PDF/A-3a. All works on the objects of a pydyf PDF before it is written.

@@ -1,4 +1,4 @@
-"""Fonts with the glyphs of a document alone, taken out in one way on every machine.
+"""Embeds fonts with the glyphs of the document alone, alike on every machine.
 
 WeasyPrint 70 takes them out by HarfBuzz where the system has its library for that, and by fontTools where it
 has none: other bytes for the same job. fontTools comes with the program, so it is always the one; and no time

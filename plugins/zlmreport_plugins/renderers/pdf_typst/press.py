@@ -1,4 +1,4 @@
-"""Typst, set up once in a process: the template and the fonts are shared by all documents.
+"""Runs Typst with template and fonts; packs the objects of its PDF into compressed streams.
 
 Its files are a classic PDF, each object in the clear; `packed` puts them into compressed streams.
 """

@@ -1,4 +1,4 @@
-"""Texts for their places, and letters with their marks.
+"""Text for Typst: where long words part, letters with marks (x̄), letters that no font has.
 
 Typst itself never parts a word, so a word that is wider than its place is told where it may be. And a letter
 and its mark are set one after the other, each with its place: set as one piece of text they look the same,

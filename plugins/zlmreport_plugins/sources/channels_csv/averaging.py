@@ -1,4 +1,4 @@
-"""A channel that was read often becomes averages over equal intervals of time, the same for all channels."""
+"""Averages a channel that was read often over equal intervals of time, the same for all channels."""
 
 from __future__ import annotations
 

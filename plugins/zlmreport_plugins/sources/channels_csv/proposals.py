@@ -1,4 +1,4 @@
-"""By which keys a logger's file may be read: whose columns are called otherwise, in English or German."""
+"""Guesses which column of a logger's file is which channel, by English and German names."""
 
 from __future__ import annotations
 

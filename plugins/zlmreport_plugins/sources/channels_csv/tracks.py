@@ -1,4 +1,4 @@
-"""What a table of channels holds: the readings of each channel with their times, in either layout.
+"""Reads the channels of a table with their times, in either layout.
 
 Long: a row is one reading of one channel. Wide: a row is one moment, and each channel has a column.
 """

@@ -1,4 +1,4 @@
-"""Many readings of a turn become averages over equal arcs; what the averages leave out is looked at first.
+"""Averages many readings of a turn over equal arcs, and looks for vibration that this would hide.
 
 A ballbar reads a thousand times a second. Averages over arcs keep the path and lose what is faster: so the
 readings are searched for a vibration at their full rate, and how much the averages leave out is told.

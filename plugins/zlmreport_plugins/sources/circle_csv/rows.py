@@ -1,4 +1,4 @@
-"""From a table to the rows of a circle: its columns, their cells, and whether they are what they say."""
+"""Reads the rows of a table of circles: columns, angles, senses, and whether units are as stated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The readings of one turn in one sense: where on the circle each was taken, and which are evaluated."""
+"""The readings of one turn in one sense: its angles, its overlap, which readings are evaluated."""
 
 from __future__ import annotations
 

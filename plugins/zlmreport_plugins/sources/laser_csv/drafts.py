@@ -1,4 +1,4 @@
-"""A proposal in the making: where the table stands, how its numbers are written, which units it names."""
+"""What a guess about an unknown table consists of: place, decimal sign, units, words for missing readings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Columns with their units, and the two layouts: a reading a row, or a target a row and a run a column."""
+"""Reads the two layouts of a table: a reading a row, or a target a row and a run a column."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the columns of a table that somebody else laid out may be, by their names and numbers."""
+"""Guesses what a column of an unknown table is, by its name (in several languages) and its numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a table in a job, and the names by which columns, runs and directions go."""
+"""The keys of a table in a job; names of columns, runs and directions (up, forward, ↑, +)."""
 
 from __future__ import annotations
 

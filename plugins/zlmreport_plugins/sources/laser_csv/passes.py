@@ -1,4 +1,4 @@
-"""Directions and runs of a table that somebody else laid out: named, told by the order, or by its parts."""
+"""Guesses directions and runs of an unknown table: by names, by order, or by its parts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Keys by which a table that somebody else laid out may be read, and what only its author can say."""
+"""Proposes the keys by which an unknown table may be read, and asks what only its author can say."""
 
 from __future__ import annotations
 

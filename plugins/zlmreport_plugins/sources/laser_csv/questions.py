@@ -1,4 +1,4 @@
-"""What only the author of a table can say, asked by ``zlmreport look``: no file tells it."""
+"""The questions on a table that ``zlmreport look`` asks its author (sign, unit, direction, grade …)."""
 
 from __future__ import annotations
 

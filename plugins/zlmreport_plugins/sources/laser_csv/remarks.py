@@ -1,4 +1,4 @@
-"""What a reader of the results must know of the table that they come from."""
+"""Remarks on a table that the certificate prints: which columns were read, other conditions in the file."""
 
 from __future__ import annotations
 

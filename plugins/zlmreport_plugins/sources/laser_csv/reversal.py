@@ -1,4 +1,4 @@
-"""Two tables of one line: the artefact as it lay, and turned over, so that its own straightness drops out.
+"""Straightness by reversal: two tables, of the artefact as it lay and turned over.
 
 A mirror is turned by 180° about the beam (optical reversal), a straightedge over its long edge. Readings
 stand in the axis's own sense in both tables: what the axis does comes twice with the same sign, what the

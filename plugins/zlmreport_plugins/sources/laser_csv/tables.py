@@ -1,4 +1,4 @@
-"""Where tables of readings stand in a file that nobody described: sheet, delimiter, header, last row."""
+"""Finds tables of readings in a file that nobody described: sheet, delimiter, header, last row."""
 
 from __future__ import annotations
 

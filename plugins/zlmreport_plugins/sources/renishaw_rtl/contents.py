@@ -1,4 +1,4 @@
-"""What a test file holds: its sections and their keys, the target positions, the runs."""
+"""The parts of a ``.rtl`` or ``.rta`` file: sections, keys, target positions, runs."""
 
 from __future__ import annotations
 

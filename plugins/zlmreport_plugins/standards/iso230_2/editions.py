@@ -1,4 +1,4 @@
-"""What tells the editions of ISO 230-2 apart; their parameters and columns as they define and print them."""
+"""The editions of ISO 230-2 as data: names, symbols, coverage factors, formulas, columns by position."""
 
 from __future__ import annotations
 

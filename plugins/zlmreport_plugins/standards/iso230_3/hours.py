@@ -1,4 +1,4 @@
-"""The hours over which a drift is taken, and what readings over time give in them."""
+"""The interval of time over which a drift is taken (ISO 230-3), and the ranges in it."""
 
 from __future__ import annotations
 

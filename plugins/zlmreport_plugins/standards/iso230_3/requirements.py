@@ -1,4 +1,4 @@
-"""What ISO 230-3 asks of a test of the drift by the environment, held against the readings."""
+"""Requirements of ISO 230-3: duration, gaps, sensors, temperatures, one clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What tells the two guidelines apart, and the parameters of both with their columns by position."""
+"""The two VDI guidelines as data: parameters, factors, wording, columns by position."""
 
 from __future__ import annotations
 

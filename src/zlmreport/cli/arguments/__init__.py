@@ -1,4 +1,4 @@
-"""The commands with their options, and what is said of an option or a command that there is not."""
+"""The list of all commands, the overview without one, and what is said of a command that there is not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The commands from readings to documents: certificates, checks, the error model, fleets."""
+"""Options and help of check, init, look, new, plugins, verify, model, machine, surface, fleet, workbench."""
 
 from __future__ import annotations
 

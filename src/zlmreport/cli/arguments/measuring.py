@@ -1,4 +1,4 @@
-"""The commands of tests to come: planned, captured, simulated, tried on instruments that are not there."""
+"""Options and help of the commands plan, compensate, emulate, simulate and capture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parser of a command, and what stands after its options: positions, faults and ports."""
+"""The parser of every command; options that hold positions, faults or ports; and its messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A checked job and its evaluations become a document."""
+"""Builds the document of a job: its layout, its sections in order, title, letterhead, who made it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Facts of the measurement and its surroundings: a name, a value that may not be stated, whose it is."""
+"""Facts of measurement and environment, as rows of name and value: days, method, runs, temperatures."""
 
 from __future__ import annotations
 

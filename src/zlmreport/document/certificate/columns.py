@@ -1,4 +1,4 @@
-"""How a table's columns and groups of facts share the page, and how much of it blocks take.
+"""Widths of the columns of tables and facts, sizes of type in them, and how many lines blocks take.
 
 The tables have a fixed layout, which a page takes in a fraction of the time of one that measures every
 cell; so the widths are reckoned here, from the letters in the cells.

@@ -1,4 +1,4 @@
-"""What was measured, how, with what, and under which conditions."""
+"""The section on what was measured, and how: machine, axis, instruments, environment, corrections."""
 
 from __future__ import annotations
 

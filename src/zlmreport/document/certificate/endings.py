@@ -1,4 +1,4 @@
-"""What stands last before a page that begins anew, or before the end: enough of it stays together.
+"""Page breaks: how much of the last blocks before a new page stays together, so that no page is near empty.
 
 Otherwise such a page has as little on it as happens to be left over: a small table, or the last rows of one.
 """

@@ -1,4 +1,4 @@
-"""What the first page of a compact document holds, where not everything has room on it.
+"""The first page of a compact document: which conditions find room there, and which stand behind.
 
 Who and what, the results in brief, the decision rule and the statements stand together, whatever a job
 states. What is long stands behind, and the page says where: first conditions of the measurement, group by

@@ -1,4 +1,4 @@
-"""What a standard wants reported of a test beside its results, held against what the job states.
+"""What a standard wants reported with a test (temperature, compensation …), held against what the job states.
 
 Nothing is refused for it: what the job does not tell is an open finding of the standard.
 """

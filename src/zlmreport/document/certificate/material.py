@@ -1,4 +1,4 @@
-"""What a document is made of, the sections that no layout makes its own way, and the layout ``full``."""
+"""What all layouts get to lay out, the sections that they share, and the layout ``full``."""
 
 from __future__ import annotations
 

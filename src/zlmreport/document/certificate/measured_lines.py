@@ -1,4 +1,4 @@
-"""What is said of each of several measured lines whose evaluations a document joins: a section for each."""
+"""Sections on each of several measured lines (as for squareness) whose evaluations a document joins."""
 
 from __future__ import annotations
 

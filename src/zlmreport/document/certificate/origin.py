@@ -1,4 +1,4 @@
-"""Where the numbers of a document come from: files, programs, and what the reader of them should know."""
+"""The section on origin: files with digests, programs, and remarks of sources on what they read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A laboratory's own look: its typeface, templates and logo, read and checked before anything is printed.
+"""A laboratory's own typeface, templates and logo: read, and refused if too large or unfit for printing.
 
 A logo is recognised by its first bytes, without being unpacked.
 """

@@ -1,4 +1,4 @@
-"""The single readings, as they were taken."""
+"""The section with the single readings, and the sentence on missing ones."""
 
 from __future__ import annotations
 

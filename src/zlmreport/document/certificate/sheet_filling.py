@@ -1,4 +1,4 @@
-"""What of all that a sheet has to say beside verdict, graph and parameters stands on the page.
+"""The layout ``sheet``: which sentences and facts find room beside the graph, and which are left out.
 
 A page with room for everything holds everything: facts in two columns as many as go, the others as running
 text. Where there is less, it keeps what matters most to somebody at the machine: what is to be noted, who and

@@ -1,4 +1,4 @@
-"""Statements beside the results: what they hold for, what was set aside or amended, what is an opinion."""
+"""Statements: what the results hold for, traceability, exclusions, amendments, next date, opinions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values of parameters in a table: with their uncertainties, their limits, and what is stated of these."""
+"""The table of parameters: columns of value, U, k, limit and conformity, and what stands in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The graph of conformity: every value that has a limit, with its uncertainty, in percent of its limit."""
+"""Bar graphs: values in percent of their limits, and contributions to the uncertainty."""
 
 from __future__ import annotations
 

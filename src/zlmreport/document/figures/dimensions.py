@@ -1,4 +1,4 @@
-"""Where dimension lines and their labels stand: in the margin, and beside a target.
+"""Where dimension lines (brackets and arrows) and their labels stand, in the margin and at a target.
 
 All places are points from the lower left corner of the drawing, y upwards.
 """

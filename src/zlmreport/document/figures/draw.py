@@ -1,4 +1,4 @@
-"""Drawing a figure: as a series of shapes, from back to front, and these on a canvas."""
+"""Draws a figure: grid, axes, curves, bands, readings, bars, arrows, legend, from back to front."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where everything in a figure stands: margins computed from what they hold, then scales, then panels.
+"""Layout of a figure: its width and heights, margins, titles of axes, distance of panels.
 
 All places are points from the lower left corner of the drawing, y upwards.
 """

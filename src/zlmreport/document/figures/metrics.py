@@ -1,4 +1,4 @@
-"""How far a text moves the pen: advance widths, kerning and ligatures of the bundled faces, by HarfBuzz.
+"""Widths of text in the bundled fonts (HarfBuzz), and labels of symbols with subscripts.
 
 No library that draws is needed; each font file is read once, when its first text is set.
 """

@@ -1,4 +1,4 @@
-"""From a fitted error model to marks of its graphs: values in SI go in, units of the page come out."""
+"""Graphs of an error model: its curve with U over the travel, means, scatter; the estimate."""
 
 from __future__ import annotations
 

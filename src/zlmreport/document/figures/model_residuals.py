@@ -1,4 +1,4 @@
-"""Where a model fails: readings against model, and what is left over position, run, time and conditions."""
+"""Graphs of residuals over position, run, time and conditions; the bar chart of how the error falls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where everything in and beside a panel stands, once its frame is known.
+"""Layout of a panel: where brackets, limit lines, values and the legend stand.
 
 All places are points from the lower left corner of the drawing, y upwards.
 """

@@ -1,4 +1,4 @@
-"""Values over an angle, on a nominal circle: the panel as a Cartesian one, with circles and rays for a grid.
+"""Circular graphs: values over the angle, magnified on a nominal circle, with circles and rays for a grid.
 
 A deviation is drawn outwards from the nominal circle, magnified: the circles of the grid tell how far.
 Angles are in degrees, from the right, anticlockwise. So whatever can draw lines can draw such a panel.

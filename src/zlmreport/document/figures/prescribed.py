@@ -1,4 +1,4 @@
-"""From an evaluation to the marks of its prescribed graphs.
+"""The graphs that a standard prescribes, and as found beside as left; with their alternative texts.
 
 A standard says which curves, bands, arrows and brackets it wants and hands over values in SI; a `Diagram`
 brings them into the units of the page and leaves out what this test does not define. So a graph of a

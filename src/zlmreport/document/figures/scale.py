@@ -1,4 +1,4 @@
-"""Limits and ticks of an axis: plain numbers, no drawing."""
+"""Axes of graphs: limits, round ticks, which targets are labelled; numbers only, no drawing."""
 
 from __future__ import annotations
 

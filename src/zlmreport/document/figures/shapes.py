@@ -1,4 +1,4 @@
-"""What a drawn figure is made of: outlines, marks and labels, each where it stands on the drawing.
+"""Colours, line widths, dashes, marks and sizes of type of graphs; and the shapes that a figure consists of.
 
 A sketch is a series of them, from back to front; `zlmreport.document.figures.draw` puts it on a canvas.
 Places are points from the lower left corner of the drawing, y upwards.

@@ -1,4 +1,4 @@
-"""A map of values over two axes: tiles from light to dark, with values written on them.
+"""Maps of values over two axes: tiles with their colours, and values written on them.
 
 The colours grow darker evenly from yellow to blue: they tell the same in grey, and to those who do not tell
 red from green.

@@ -1,4 +1,4 @@
-"""A picture of a body from lines: both coordinates on one scale, and values written at places of it."""
+"""Wire pictures of a body (a surface plate): both coordinates on one scale, values written at places."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The annex on the error model: what the laboratory thinks the deviations come from.
+"""The annex of a certificate on the error model: what the laboratory thinks the deviations come from.
 
 An opinion, and marked as one (ISO/IEC 17025:2017, 7.8.7): it stands on pages of its own, after all results.
 """

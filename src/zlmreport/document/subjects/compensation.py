@@ -1,4 +1,4 @@
-"""The sheet beside a compensation table: for who loads it at the control."""
+"""The sheet beside a compensation table, for who loads it; and what a second test confirmed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The readings beside the model as values, one by one, for documents in which they can be pointed at."""
+"""Readings and model as values for linked graphs, in the workbench and in certificates as HTML."""
 
 from __future__ import annotations
 

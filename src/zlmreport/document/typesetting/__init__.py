@@ -1,1 +1,1 @@
-"""The Certificate set as HTML: the one place that uses Jinja."""
+"""Certificates set as HTML by templates; the only user of Jinja."""

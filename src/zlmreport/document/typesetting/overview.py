@@ -1,4 +1,4 @@
-"""A fleet's overview as one self-contained page: style, typeface and graphs inside, nothing loaded."""
+"""What the templates of a fleet's overview are given, and its style sheet and script."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ class OverviewSectionContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewToolsContext:
-    """What a reader searches, chooses and orders axes by."""
+    """Search, choices and order of the axes, above their table."""
 
     template: ClassVar[str] = "overview_tools.html"
     #: search and example: Label of the field, and what may stand in it.
@@ -183,7 +183,7 @@ class OverviewLegendContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewContext:
-    """The whole overview."""
+    """The overview of a fleet: head, headline, tiles, sections, trends."""
 
     template: ClassVar[str] = "overview.html"
     language: str  #: ISO 639-1 code.

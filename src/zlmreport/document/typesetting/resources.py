@@ -1,4 +1,4 @@
-"""Style sheets, fonts, scripts and the files of the workbench's page, as the package of templates has them.
+"""Finds style sheets, fonts, scripts and the files of the workbench's page in the package of templates.
 
 The script of linked graphs is bundled from the workbench's modules, so both draw alike. It is wrapped so that
 the document stays XML as well.

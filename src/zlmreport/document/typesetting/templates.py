@@ -188,7 +188,7 @@ class LetterheadContext:
 
 @dataclass(frozen=True, slots=True)
 class DocumentContext:
-    """The whole document."""
+    """The document: head with metadata and style, title, cover, sections, texts for the page margins."""
 
     template: ClassVar[str] = "document.html"
     #: What stands beside its blocks: titles, words of the page margins, metadata of the file.

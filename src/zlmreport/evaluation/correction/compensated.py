@@ -1,4 +1,4 @@
-"""What an instrument has corrected before it displayed a reading: by the job, or by the file it wrote."""
+"""Whether an instrument has corrected for the air before it displayed: by the job, or by its file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a parameter would come out in another test of the same axis by the same plan.
+"""The interval of a parameter in another test of the same axis by the same plan (its scatter included).
 
 This is about the axis and its scatter, and not about the measuring set-up: five readings know a standard
 deviation to a third, so the next test's R differs from this one's by far more than U. Pairs of tests are

@@ -1,4 +1,4 @@
-"""The uncertainty budget of a measuring set-up: its contributions, and which readings share them.
+"""The uncertainty budget: contributions, distributions, coverage factor; misalignment and expansion.
 
 The formulas are those of the contributors that ISO/TR 230-9:2005 lists for ISO 230-2, in this project's own
 words; each takes a full range R of possible values, so that u = R/√12 (JCGM 100, 4.3.7). Lengths in m, angles

@@ -1,4 +1,4 @@
-"""Drift of the environment: a process in time, of which a test of an axis at rest tells the range only.
+"""The contribution of environmental drift: simulated in time from the range of a test at rest.
 
 Nobody knows whether the next test sees a ramp, slow waves, a random walk or plain noise of that range. These
 are the kinds that are simulated, and U of a parameter is that of the kind which disturbs it most: so y ± U

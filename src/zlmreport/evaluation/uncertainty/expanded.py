@@ -1,4 +1,4 @@
-"""Evaluations with the uncertainty of everything that they state."""
+"""Adds U to all parameters, means and changes of evaluations."""
 
 from __future__ import annotations
 

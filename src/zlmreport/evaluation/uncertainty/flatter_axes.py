@@ -1,4 +1,4 @@
-"""Axes that are flatter than their readings, where the instrument errs as much as the axis.
+"""Simulated axes flatter than the readings, for U where the instrument errs as much as the axis.
 
 Errors that differ from position to position widen a range. They have done so in the readings already, and
 widen what was read less when they are drawn a second time: an axis that is flatter than its readings show is

@@ -1,4 +1,4 @@
-"""Along which curves an instrument errs: a laser, a gauge, a body that lines are held against, as a mirror.
+"""Shapes of an instrument's error along the axis: of a laser, a gauge, a straightedge or mirror.
 
 Its certificate gives one number, and the curve is whatever it is. What errs at each position by itself leaves
 a slope that many positions know well; what is bent by half a wave does not. An error of a whole wave or two

@@ -1,4 +1,4 @@
-"""The budget of what follows from several measured lines: each line has its own, and all are one for it."""
+"""The budget of what follows from several measured lines, such as squareness: those of the lines joined."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether readings scatter with longer tails than a normal distribution, and how far they then reach.
+"""Readings that scatter with longer tails than a normal distribution, and how U then reaches farther.
 
 Two things make some readings of a test lie farther out than the others: places that scatter more, and tails.
 They are told apart by their marginal likelihoods (Bayes' theorem): variances of places that are drawn from

@@ -1,4 +1,4 @@
-"""Whether what a laboratory gives as a reason is one: a dash is not, and neither is the claim itself."""
+"""Words that are no reason or reference, such as a dash or "negligible", where a job must give one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What only a circular test has in its budget: errors smooth over the angle, a calibrated length, centring.
+"""The budget of a circular test: errors smooth over the angle, calibrated length, centring.
 
 An instrument that is carried round a circle errs by its balls, its magnets and its scale: by curves that are
 smooth over the angle, and alike in both senses. They are taken as made of the second to the fourth harmonic,

@@ -1,4 +1,4 @@
-"""Random errors of contributions: one for a whole test, or one for each of its readings."""
+"""Random errors of contributions drawn: one for a whole test, or one for each of its readings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a calibration certificate must state of its uncertainty and does not: it is refused, and told how.
+"""Refuses a calibration certificate whose job leaves contributions to U unstated; says what to state.
 
 A report with an incomplete budget says so wherever it states U. Refused is also a certificate of a length
 whose temperature nobody knows, or whose expansion is most of its U.

@@ -1,4 +1,4 @@
-"""The way to the visit ahead: from its side, into its tolerance, and through it where no reading is taken."""
+"""Whether the axis comes to the next target from the right side, runs through it, or is too slow there."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A display that fails: switched to another unit, without its counts, by what no axis can do."""
+"""A display that fails during a capture: frozen, in another unit, without its counts."""
 
 from __future__ import annotations
 

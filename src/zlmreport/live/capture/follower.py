@@ -1,4 +1,4 @@
-"""Follows an axis along its visit list and says what happens; it knows no port, no clock and no file."""
+"""Follows an axis along its visit list, reading by reading, and gives events; no port, no clock, no file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A journal: each record is on the disk before anything else happens.
+"""Writes and reads the journal of a capture: each record on the disk at once, check sums, resuming.
 
 Read again: what is whole in it, what was torn off at its end, and what is damaged.
 """

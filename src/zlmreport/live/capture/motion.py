@@ -1,4 +1,4 @@
-"""The motion of the axis from afar, and that of the program: where each turns round."""
+"""Where the axis turned round, and where the planned program does: so that both can be compared."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a job to its capture: its keys, what is visited, when a reading is taken, and where it is written."""
+"""The keys of a capture and their defaults: instrument, journal, tolerance, standstill; the plan to visit."""
 
 from __future__ import annotations
 

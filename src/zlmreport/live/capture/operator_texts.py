@@ -1,4 +1,4 @@
-"""What an operator reads while a test is captured: a line for what happened, and what to do next.
+"""Every sentence that an operator reads while capturing: what happened, and what to do next.
 
 At a terminal in English, on a page in its language: the sentences stand here once.
 """

@@ -1,4 +1,4 @@
-"""Where the program is: the history of stops held against the visit list.
+"""Which visit of the plan a stop is, as a probability, where visits were missed, repeated or not seen.
 
 Each stop is explained in all the ways that could have led to it: the program went on, visits went unseen, the
 operator went back over a target, somebody began anew elsewhere, or it is no stop of the program at all. What

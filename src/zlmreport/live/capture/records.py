@@ -1,4 +1,4 @@
-"""What stands in a journal: its first line, and an event in each of the others."""
+"""The records of a journal: its header, and how each event is written and read."""
 
 from __future__ import annotations
 

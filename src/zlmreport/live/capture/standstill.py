@@ -1,4 +1,4 @@
-"""Readings in time: which way the axis moves, when it stands still, and whether a reading is plausible."""
+"""When an axis stands still, which way it moves, and the mean of a standstill."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How an axis stays where a reading was taken, until it goes on."""
+"""A standstill that goes on after its reading was taken: a later mean may replace it."""
 
 from __future__ import annotations
 

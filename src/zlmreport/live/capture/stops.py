@@ -1,4 +1,4 @@
-"""What a stop is, held against the list of visits and against what was read before it."""
+"""What a stop is: a target, the datum, a worse repetition, a wrong unit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The visits of a plan, numbered for good, and the limits that a stop at one must keep."""
+"""The visits of a plan in order, and the settings of a stop: standstill, averaging, motion, gaps."""
 
 from __future__ import annotations
 

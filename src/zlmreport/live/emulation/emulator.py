@@ -1,4 +1,4 @@
-"""Emulated instruments: what they are, the axis before them, and what goes wrong there."""
+"""The axis before an emulated instrument, its noise, and faults: beam lost, frozen and so on."""
 
 from __future__ import annotations
 

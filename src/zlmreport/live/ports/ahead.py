@@ -1,4 +1,4 @@
-"""Readings that are stored as they come, by a thread that does nothing else."""
+"""Reads a port in a thread, so that no reading is lost while the program does something else."""
 
 from __future__ import annotations
 

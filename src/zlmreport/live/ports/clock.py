@@ -1,4 +1,4 @@
-"""When a reading was taken: by the instrument's own count, and not by when somebody came to read it."""
+"""Times of readings: by the instrument's own count of samples, or by when its lines came."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an instrument sends, unasked or as answers; and when it is given up."""
+"""Questions and answers of an instrument, their rhythm, and after how long a silence it is given up."""
 
 from __future__ import annotations
 

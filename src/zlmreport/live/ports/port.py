@@ -1,4 +1,4 @@
-"""A port of any kind that pyserial opens, the keys that name it, and the connection to what is there."""
+"""Opens any port of pyserial, serial or network; its keys such as baud rate; messages where it fails."""
 
 from __future__ import annotations
 

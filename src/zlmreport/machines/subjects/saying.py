@@ -1,4 +1,4 @@
-"""Words and numbers in one language, in the units that people read."""
+"""Numbers with units, and plain tables, for what is said of a machine."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tests of a machine beside their prediction: sizes, numbers of standards, where they differ, curves."""
+"""Tests of a machine beside their prediction: tables of sizes and numbers, graphs of circles and lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is known of an axis from a test, and what of it a table may take away.
+"""What a table may take away of the deviations of a test: means or model, with their uncertainty.
 
 From the means alone a table takes what they show, scatter included. With a fitted error model it takes the
 effects that position and direction decide, and what the means show beyond the model as far as that exceeds

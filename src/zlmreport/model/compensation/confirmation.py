@@ -1,4 +1,4 @@
-"""Whether a second test shows what the table of the first one promised, and if not, what went wrong."""
+"""Whether a second test confirms the forecast of a table, and if not: sign, half, shifted."""
 
 from __future__ import annotations
 

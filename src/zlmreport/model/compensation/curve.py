@@ -1,4 +1,4 @@
-"""What a table is to compensate: the mean deviations of a test, and the table on a grid.
+"""The mean deviations that a table is to take away, and the table itself on its grid.
 
 One sign for all: e = actual − nominal. A controller turns it where it has to, and nowhere else.
 """

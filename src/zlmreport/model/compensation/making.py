@@ -1,4 +1,4 @@
-"""A table in the words of a control: where it has its rows, and why there; with its forecast.
+"""Where a table has its rows, and why there (a control's limits, periods); the files by the control.
 
 Without a stated step the rule is: no more rows than the targets support, no fewer than keep what the lines
 between them miss below the uncertainty of a mean, and never more than the control takes. Targets show waves

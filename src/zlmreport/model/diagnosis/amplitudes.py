@@ -1,4 +1,4 @@
-"""The amplitudes of all parts of the covariance beside a set: noise, and random curves without a name.
+"""Searches the amplitudes of noise and of nameless curves beside a set of effects.
 
 A part after another gets its best level, all others as they are, until none gains anything. Of smooth curves
 all levels are looked at, of irregular shares those next to the one there is.

@@ -1,4 +1,4 @@
-"""Blocks of columns: what each explains of the readings, and likelihoods averaged.
+"""Linear algebra of blocks of columns: what each explains of the readings.
 
 A block may hold columns that depend on each other, or on what stands beside them; these count once, or not at
 all.

@@ -1,4 +1,4 @@
-"""A build as the results file of `zlmreport model build --json`: full precision, micrometres or ″."""
+"""``zlmreport model build --json``: the steps of a build as values."""
 
 from __future__ import annotations
 

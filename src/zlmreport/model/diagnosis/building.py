@@ -1,4 +1,4 @@
-"""Building a model: diagnosis after diagnosis, each effect that has evidence of its own added, in one go.
+"""Builds a model: diagnosis after diagnosis, each effect with evidence of its own is added.
 
 What a person would do who follows the advice: add what is named, look again, take out what has proved a
 makeshift, and stop where nothing is left that has a name.

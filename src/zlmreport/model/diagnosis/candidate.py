@@ -1,4 +1,4 @@
-"""Effects that a model may lack, each a candidate: what it explains, how sure it is, what is asked of it."""
+"""Candidates that a model may lack: what each explains, its questions, how to tell them apart."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A climb from set to set: moves that raise the evidence, until none does.
+"""The search from set to set of effects: add, drop, exchange, until the evidence rises no more.
 
 Effects come in, go out and take each other's places; also in pairs where something without a name is left.
 """

@@ -1,4 +1,4 @@
-"""Columns over the readings of a test, and their products under a covariance: what a contest works with.
+"""Columns over the readings and their products under a covariance, kept for the contest's speed.
 
 Every column stands as error contrasts: whatever the job's model can imitate is taken out of it. Products of
 columns are computed once and kept; a set of effects beside any amplitudes of what has no name is then a

@@ -1,4 +1,4 @@
-"""What a diagnosis says: how well the model describes the readings, where it fails, and what it lacks."""
+"""Runs a diagnosis: its verdict, its thresholds, where the model fails, what it lacks, what is next."""
 
 from __future__ import annotations
 

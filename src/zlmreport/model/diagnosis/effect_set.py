@@ -1,4 +1,4 @@
-"""A set of effects that stand in a model together, with the amplitudes of what has no name beside them."""
+"""A set of effects in the contest, with the nameless curves beside it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far a fitted model is from the readings, beside their noise."""
+"""χ²/ν and RMS of a fitted model beside the noise."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What contends for a place in a set: installed effects and forms without a name, each with all its values.
+"""What takes part in the contest: forms of installed effects and nameless ones, with all grid values.
 
 What they could add depends on the plan of the test and on the model, not on what was measured; so it is made
 once, and every set of deviations, measured or simulated, is held against the same.

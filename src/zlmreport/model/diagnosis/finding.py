@@ -1,4 +1,4 @@
-"""What a contest comes to: the effects that belong in, each with evidence of its own, and what is left.
+"""The outcome of a contest: effects with evidence of their own, in order, and what could replace each.
 
 Whether anything is missing at all is held against chance. Then sets are searched; an effect is named where
 the readings ask for it beside everything else, that which has no name included, and its rivals are named with

@@ -1,4 +1,4 @@
-"""Forms without a name: what a course along the axis or in time can look like, each written as a formula.
+"""Nameless shapes tried as formulas: bump, saw, wave, kink, step, plateau, bow, fading.
 
 Bump, saw, wave, kink, step, bow, fading and a late beginning are laid along the axis or in time, for both
 directions alike, opposite, or in one of them. They stand for causes that nobody has installed: in a contest

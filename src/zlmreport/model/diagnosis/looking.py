@@ -1,4 +1,4 @@
-"""Where to look for what has no name, and what to measure that would tell more of it than another guess.
+"""Where to look for what has no name, and what to measure next: the advice in sentences.
 
 What stays at its place when it is measured again at closer targets is in the machine; what moves with the
 time, the direction or the set-up shows itself where everything else stands still. So each course asks for a

@@ -1,4 +1,4 @@
-"""What has no name: random curves along the axis, in time, from run to run, each with one amplitude.
+"""Nameless random curves along the axis, in time, from run to run: their amplitudes and their price.
 
 Beside every set of named effects something may act that nobody knows. It is no polynomial that swallows what
 has a name, but a random curve: its many coefficients are not fitted but averaged over, and only its amplitude

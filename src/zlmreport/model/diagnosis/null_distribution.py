@@ -1,4 +1,4 @@
-"""What chance alone would give: the contest made on simulated tests of the same plan, model and noise.
+"""p-values of a diagnosis, from contests on simulated tests in which nothing is missing.
 
 Every searched parameter gives chance one more opportunity, so plain tests and criteria raise false alarms.
 Here every family is tried on deviations that hold nothing but a set of effects, and beside it the amplitudes

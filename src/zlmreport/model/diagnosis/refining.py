@@ -1,4 +1,4 @@
-"""Between the values of a grid: where the searched parameters of a set's effects are best."""
+"""Refines searched parameters of a set's effects between the values of the grid."""
 
 from __future__ import annotations
 

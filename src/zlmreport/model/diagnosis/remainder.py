@@ -1,4 +1,4 @@
-"""What is left beside a set of effects and is no noise: how large, where, of what shape; and a start.
+"""What remains unexplained: how large, where, of what shape, and a formula to begin with.
 
 It is what forms without a name and random curves explain at the readings, on the average of all that these
 allow. The form that follows it best is proposed as a formula that a job can try and keep: a start, no cause.

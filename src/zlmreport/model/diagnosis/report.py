@@ -1,4 +1,4 @@
-"""A diagnosis as the results file of `zlmreport model diagnose --json`: full precision, micrometres or ″."""
+"""``zlmreport model diagnose --json``: the diagnosis as values, and the sentences of its verdict."""
 
 from __future__ import annotations
 

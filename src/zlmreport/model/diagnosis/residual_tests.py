@@ -1,4 +1,4 @@
-"""All tests of the residuals of a model: of means and scatter, of order, of time and of periods."""
+"""The tests of residuals: lack of fit, direction, run, conditions, order, time, periods; their sentences."""
 
 from __future__ import annotations
 

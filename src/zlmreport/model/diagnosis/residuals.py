@@ -1,4 +1,4 @@
-"""The residuals of a fit, made independent, and what a test of them says that they did not pass."""
+"""Residuals made independent, the names of their tests, p-values, and what a failed test says."""
 
 from __future__ import annotations
 

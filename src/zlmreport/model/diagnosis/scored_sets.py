@@ -1,4 +1,4 @@
-"""Sets of a contest with their scores: what a search makes small, the best of each kind kept.
+"""Keeps scores of sets of effects while a search goes on.
 
 A set is scored by its evidence, the coefficients of its effects, their searched parameters and σ averaged
 over (`set_costs`), the amplitudes of all nameless parts chosen anew for each set.

@@ -1,4 +1,4 @@
-"""What the effects of a set cost: prior odds, coefficients, searched parameters, unusual values.
+"""The price of a set of effects: prior odds, coefficients, searched parameters, unusual values.
 
 Spike and slab (T. J. Mitchell and J. J. Beauchamp, J. Amer. Statist. Assoc. 83 (1988) 1023): the coefficients
 of an effect are averaged over, so that each costs the more the better the readings determine it.

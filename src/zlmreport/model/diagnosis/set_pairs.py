@@ -1,4 +1,4 @@
-"""Two effects that explain much together, of which neither explains anything alone.
+"""Pairs of effects that explain much together and nothing alone.
 
 A lever of the guide's angle brings a slope with it: beside the slope it explains all, without it nothing. A
 search that takes in one effect at a time comes by neither.

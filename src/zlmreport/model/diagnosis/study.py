@@ -1,4 +1,4 @@
-"""A job's error model beside its readings: what every command and the certificate's annex begin with."""
+"""The study of a job's model that commands, workbench and annex begin with: fit, diagnosis, build."""
 
 from __future__ import annotations
 

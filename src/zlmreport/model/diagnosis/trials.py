@@ -1,4 +1,4 @@
-"""Many sets of deviations against one contest: what effects and what has no name would add to each."""
+"""The contest on many sets of deviations at once, for simulated tests."""
 
 from __future__ import annotations
 

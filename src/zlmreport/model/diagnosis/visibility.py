@@ -1,4 +1,4 @@
-"""What a plan of a test can see of each effect beside a model; nothing needs to be measured for it."""
+"""Which effects a plan of a test can tell and which it hides; no readings are needed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The error model of an axis: effects added up."""
+"""The error model of an axis as a sum of effects: terms, links between parameters, identifiers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where and how each reading of some circles was taken: what effects of circles are functions of."""
+"""Where and how fast each reading of circles was taken: what effects of circles are functions of."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A test without its deviations: everything that an effect may depend on.
+"""The design of a test without its deviations: positions, directions, times, conditions by reading.
 
 The design is known before anything is measured, so the same value serves the fit of a test, the simulation
 of one, and the question what a planned test would be able to see.

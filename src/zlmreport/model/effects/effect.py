@@ -1,4 +1,4 @@
-"""What an effect is: one physical cause of deviations, its parameters, and what it needs of a test.
+"""The interface of an effect: parameters with ranges, needs of a test, and why one cannot be tested.
 
 Each of the functions that begin with ``needs`` says in words what is missing, or returns None. An effect
 joins its needs by ``or``, the first that is not met answers::

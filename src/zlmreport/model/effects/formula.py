@@ -1,4 +1,4 @@
-"""Effects that are written as formulas, without Python: in a job, or in a catalogue of effects."""
+"""An effect that a formula defines: its parameters, forms and what is said of it."""
 
 from __future__ import annotations
 

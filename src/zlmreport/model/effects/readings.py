@@ -1,4 +1,4 @@
-"""What a test gives for the names that stand in formulas: readings, logs, tables and keys of the axis."""
+"""What each name in a formula stands for: readings, logs, tables and keys of the axis."""
 
 from __future__ import annotations
 

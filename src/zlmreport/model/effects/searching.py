@@ -1,4 +1,4 @@
-"""Where a search for a parameter begins: the values that a test can tell, by what is searched for."""
+"""The grid of values from which a searched parameter starts: periods, places, time constants."""
 
 from __future__ import annotations
 

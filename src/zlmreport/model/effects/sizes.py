@@ -1,4 +1,4 @@
-"""What the size of a parameter says: whether it is usual, what is asked of it, and whether it has a name."""
+"""Whether the size of a parameter is usual, and the question that an unusual one raises."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Values in sentences: rounded for reading, in the unit of the axis, in the reader's decimal sign."""
+"""Deviations, positions and times in the sentences on a model, rounded and with their unit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blunders: single readings that stand off, set aside and never altered.
+"""Finds outliers (blunders): single readings that stand off, which are set aside and never altered.
 
 A chip under the probe, a broken beam, a key pressed too early. A reading is judged by the scatter at its own
 place, and last of all: what a model explains is none, and what has a pattern, in a run, at a target, from

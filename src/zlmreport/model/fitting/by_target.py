@@ -1,4 +1,4 @@
-"""What is irregular from target to target, taken target by target.
+"""Algebra of a covariance that falls apart into one block for each target.
 
 Readings of other targets share nothing of it, so its covariance falls apart into small blocks, and what is
 done with it costs no more for each of a hundred targets than for each of ten (M. A. Woodbury).

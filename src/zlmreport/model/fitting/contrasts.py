@@ -1,4 +1,4 @@
-"""Error contrasts: what is left of the readings when a model's columns are projected out.
+"""Error contrasts: the readings with a model's columns projected out; whitening; restricted estimates.
 
 Restricted likelihood and comparison see nothing else, so the base model is removed once and for all. In this
 space V(φ) is the unit matrix plus parts of low rank, and every product with its inverse is one with r × r

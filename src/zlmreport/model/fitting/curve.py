@@ -1,4 +1,4 @@
-"""Where the curve of a model is drawn: so that what is drawn is what the model says, at any scale.
+"""At which positions the curve of a model is drawn, so that no wave or joint is lost.
 
 A wave that is sampled at fewer positions than it has periods is drawn as another wave. So a curve has several
 positions in each period, and one on either side of a joint; where the travel holds more periods than a page

@@ -1,4 +1,4 @@
-"""The error of the measuring instrument: one and the same in all readings, however many are taken.
+"""Uncertainty of fitted parameters: coverage factor, plausibility, the instrument's common error.
 
 M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equations (7) to (9):
 U(x) = diag(u²(P_i)) + u²(δ)·i·iᵀ. The second term changes no estimate and no residual of a model with a

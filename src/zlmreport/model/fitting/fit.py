@@ -1,4 +1,4 @@
-"""The fit: parameters of the error model with their covariance, and the deviation anywhere on the travel.
+"""Fits the parameters of a model with their covariance; predicts the deviation; cross-validation.
 
 Generalized least squares on single readings, never on means: x = Σ C(θ)·γ + ε, Var ε = σ²·V(φ). The noise φ
 is that of restricted maximum likelihood for the model at hand, θ is searched by variable projection, and the

@@ -1,4 +1,4 @@
-"""The best values on the grids of searched parameters: those of two terms at a time.
+"""The best grid values of searched parameters, two terms at a time.
 
 A step at a wrong place bends the wave beside it, and the bent wave holds the step there: where one term is
 searched after another, the end hangs on the order in which a job names its effects. So terms get their values

@@ -1,4 +1,4 @@
-"""What scatters, and with what: the covariance of the readings of a test.
+"""The noise model: which sources of scatter are tried, and in which ratios.
 
 Readings of one target share its irregular geometry, those of one run its displacement, neighbours in time
 the slow drift between them; 210 readings of 21 targets are no 210 independent ones. So

@@ -1,4 +1,4 @@
-"""From a measurement set to what the error model works on: a design, and the deviations beside it."""
+"""From a measurement set to the fit's input: overrun, smoothed logs, readings thinned, doubts about logs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pauses: nights between the runs of one test, in which no reading says what the axis did."""
+"""Pauses: nights between the runs of one test; how long an interval is one."""
 
 from __future__ import annotations
 

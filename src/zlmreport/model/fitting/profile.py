@@ -1,4 +1,4 @@
-"""How far each parameter can go while all others follow: intervals from the profile of the likelihood.
+"""Confidence intervals of parameters from the profile of the likelihood.
 
 A parameter is held at a value and the others are fitted anew; the deviance rises by what the readings are
 then described worse. The interval ends where it has risen by k², k the coverage factor of the parameter: at

@@ -1,4 +1,4 @@
-"""Repeats: what the readings of one cell, a target approached from one direction, say of the scatter.
+"""The scatter of repeats (one target, one direction): noise floor, resolution, tests of equal spread.
 
 The spread of five readings says little about their scatter: taken as a weight, as it comes, it gives
 intervals that hold in 83 % of all cases instead of 95 %. So the variances are pooled; only where a test

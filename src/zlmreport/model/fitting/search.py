@@ -1,4 +1,4 @@
-"""Searched parameters by variable projection.
+"""Solves and refines searched (nonlinear) parameters by variable projection.
 
 G. H. Golub and V. Pereyra, SIAM Journal on Numerical Analysis 10 (1973) 413. For any value of θ the linear
 parameters are solved, so only the residual sum of squares as a function of θ is searched: over the grids of

@@ -1,4 +1,4 @@
-"""Several tests of one axis held against one model: what they share, and what each has of its own.
+"""Several tests of one axis in one fit: what they share, and the zero of each.
 
 A row of an effect's columns depends on its own reading alone. So the readings of several tests stand below
 one another, and an effect has the same parameters in all of them: what one temperature leaves open, two

@@ -1,4 +1,4 @@
-"""A plane from jobs: each job measures one line of it."""
+"""``zlmreport surface``: a plane from jobs, each a line; compared, reported as JSON."""
 
 from __future__ import annotations
 

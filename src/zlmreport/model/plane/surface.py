@@ -1,4 +1,4 @@
-"""The deviation over a plane of two axes.
+"""Fits the surface of deviations over two axes: cubic terms, their coefficients, U anywhere.
 
 M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (13):
 

@@ -1,4 +1,4 @@
-"""From a job to the experiment that decides between effects, and from this to the job that carries it out."""
+"""The job of a second test that decides between effects in question (``plan --decide``)."""
 
 from __future__ import annotations
 

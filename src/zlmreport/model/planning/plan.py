@@ -1,4 +1,4 @@
-"""The plan of a test: what a job leaves open is chosen, and named as chosen.
+"""Makes the plan of a test and its defaults: targets, method, feed, dwell, runs; named as assumed.
 
 Targets and runs are as few as meet the requirements of the standards, and what custom adds. What a plan sees
 of an effect depends on the course of its condition, not on its size: conditions that nobody has measured yet

@@ -1,4 +1,4 @@
-"""The motion of a planned test, as a control carries it out, and what programs share whatever the control."""
+"""The planned motion as a control moves it: feeds, dwells, texts and names that all part programs share."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the effects in question would do in a test: its design, and readings with each as the truth."""
+"""Simulates what rival effects would do in a planned test."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Target positions that a person can type and an axis can reach, and the phases of periods they see."""
+"""Chooses target positions: random fractions, digits to type, usual overrun, phases of periods."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each method of a plugin must answer; anything else is told in a sentence and goes no further.
+"""Checks what each method of a plugin answers, and says what is wrong with it.
 
 An answer may be handed on as something else that says the same: a generator as a tuple, so that nothing of it
 runs later, and an array as one that nobody can alter.

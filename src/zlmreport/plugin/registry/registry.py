@@ -1,4 +1,4 @@
-"""The plugins there are, by kind and name; each is loaded when it is asked for."""
+"""The installed plugins by kind and name; messages where one is missing, or provided twice."""
 
 from __future__ import annotations
 
