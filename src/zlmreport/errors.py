@@ -1,4 +1,4 @@
-"""Errors as the user reads them: file:line:column, the value, what would be right, “did you mean”."""
+"""Errors as users read them: file:line:column, value, what would be right, “did you mean”; exit codes."""
 
 from __future__ import annotations
 

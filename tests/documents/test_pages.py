@@ -97,3 +97,14 @@ def test_every_place_that_the_page_on_the_architecture_sends_to_is_there() -> No
     assert len(rows) >= 20
     assert all(places)
     assert not [place for each in places for place in each if not (ROOT / place).exists()]
+
+
+def test_the_page_of_modules_has_every_module() -> None:
+    page = (DOCS / "reference" / "modules.md").read_text("utf-8")
+    names = re.findall(r"^\| `([^`]+)` \|", page, re.MULTILINE)
+    listed = {f"{name}__init__.py" if name.endswith("/") else name for name in names}
+    folders = [
+        ROOT / name for name in ("src/zlmreport", "plugins/zlmreport_plugins", "plugins/zlmreport_step_gauge")
+    ]
+    modules = {path.relative_to(folder).as_posix() for folder in folders for path in folder.rglob("*.py")}
+    assert modules - listed == set()

@@ -1,4 +1,4 @@
-// What the pages of a job and of a machine have alike: one click after the other, what is wrong, what is under way.
+// What the pages of a job and of a machine have alike: clicks, the keys of undo, what is wrong, what is under way.
 
 import { fill, h, said } from "./dom.js";
 import { languageChoice } from "./languages.js";

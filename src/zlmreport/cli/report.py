@@ -1,4 +1,4 @@
-"""``zlmreport JOB.yaml``: makes certificates, asks for the password of a signature; ``check``: no files."""
+"""``zlmreport JOB.yaml``: makes certificates, asks for the password; ``check``: no files, fewer trials."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a fleet leaves to others: samples for Prometheus, a calendar of due tests (RFC 5545), and priors.
+"""What a fleet writes for others: metrics and sign of life (Prometheus), a calendar (RFC 5545), priors.
 
 The node exporter of Prometheus collects its text format from files: metres, radians and seconds, as it has
 its units; no sample carries a time, which the collector would refuse. Priors are what the tests of the fleet

@@ -1,4 +1,4 @@
-"""The keys of a fleet file, checked: jobs, output, ledger, limits, log, notify, workers."""
+"""The keys of a fleet file, checked: jobs, output (names of its files), ledger, limits, log, notify."""
 
 from __future__ import annotations
 

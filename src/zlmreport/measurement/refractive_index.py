@@ -1,4 +1,4 @@
-"""The refractive index of air: by how much a laser interferometer errs that does not know its air.
+"""The refractive index of air by its state, and standard air: by how much an interferometer errs.
 
 The equation is Edlén's as updated by Birch and Downs (Metrologia 30, 1993, 155-162; 31, 1994, 315-316), its
 term for water vapour scaled with temperature as NIST does, so that it holds on a shop floor too (Stone and

@@ -1,4 +1,4 @@
-"""What a verification found, statement by statement."""
+"""What a verification found: verdict, statements, compared values, quoted texts."""
 
 from __future__ import annotations
 

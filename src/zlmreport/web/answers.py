@@ -1,4 +1,4 @@
-"""What the pages of a job and of a machine answer alike: files, changes, diagnosis, what is made."""
+"""What all pages answer alike: files, changes, diagnosis, what is made; title, words without script."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Options and help of check, init, look, new, plugins, verify, model, machine, surface, fleet, workbench."""
+"""Options and help of JOB.yaml, check, init, new, verify, model, machine, fleet, and ``--version``."""
 
 from __future__ import annotations
 

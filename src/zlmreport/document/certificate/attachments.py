@@ -1,4 +1,4 @@
-"""The files that travel inside a certificate: what it was made from, and its results for programs.
+"""The files that travel inside a certificate: sources and results; how many, how large, their names.
 
 With them anyone can evaluate it again; `zlmreport verify` does.
 """

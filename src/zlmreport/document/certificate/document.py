@@ -1,4 +1,4 @@
-"""The certificate in one language: its sections, its look, and what it was made of."""
+"""The certificate as data: head, letterhead, words of page margins (page 1 of 3), look, sections."""
 
 from __future__ import annotations
 

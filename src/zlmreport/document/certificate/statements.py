@@ -1,4 +1,4 @@
-"""Statements: what the results hold for, traceability, exclusions, amendments, next date, opinions."""
+"""Titles of documents; statements on validity, traceability, exclusions, amendments, next date, opinions."""
 
 from __future__ import annotations
 
