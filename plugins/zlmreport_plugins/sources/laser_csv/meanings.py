@@ -1,4 +1,4 @@
-"""Guesses what a column of an unknown table is, by its name (in several languages) and its numbers."""
+"""Guesses what a column of an unknown table is, by its name (English, German) and its numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The layout ``sheet``: which sentences and facts find room beside the graph, and which are left out.
+"""The layout ``sheet``: which sentences and facts find room on the page, and which go to the details.
 
 A page with room for everything holds everything: facts in two columns as many as go, the others as running
 text. Where there is less, it keeps what matters most to somebody at the machine: what is to be noted, who and

@@ -1,4 +1,4 @@
-"""Whether an instrument has corrected for the air before it displayed: by the job, or by its file."""
+"""What an instrument has corrected itself (air, expansion) before it displayed: by the job, or its file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The axis before an emulated instrument, its noise, and faults: beam lost, frozen and so on."""
+"""The axis before an emulated instrument, its noise, and faults: lost beam, garbled lines, no cable."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds plugins: the installed ones by their entry points, others in files that the user names.
+"""Finds plugins: installed ones by entry points, others in files; the variables ``ZLMREPORT_…PLUGINS``.
 
 An entry point for each object, in the group of its kind and named by its identifier (``"iso230-2:2014" =
 "zlmreport_plugins.standards.iso230_2"``): so a run loads what it names, and a listing all.
