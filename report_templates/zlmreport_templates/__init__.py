@@ -1,1 +1,1 @@
-"""Templates, style sheet and fonts of the certificates."""
+"""Templates, style sheets, fonts and scripts of certificates, of the overview and of the workbench."""

@@ -1,1 +1,1 @@
-"""Built-in renderers."""
+"""The formats that come with zlmreport: PDF by two ways, HTML, JSON, CSV, a workbook, DCC."""

@@ -1,1 +1,1 @@
-"""Built-in sources."""
+"""The data sources that come with zlmreport: tables, loggers, circles, plates, Renishaw, ecmc, journals."""

@@ -1,1 +1,1 @@
-"""Built-in standards."""
+"""The standards that come with zlmreport: ISO 230-1 to -4 and -6, NMTBA, VDI, the union jack."""

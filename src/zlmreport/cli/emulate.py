@@ -1,4 +1,4 @@
-"""``zlmreport emulate``: an instrument that is not there, on a line."""
+"""``zlmreport emulate``: an instrument that is not there, on a line; its axis moves and shakes."""
 
 from __future__ import annotations
 

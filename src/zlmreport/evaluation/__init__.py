@@ -1,1 +1,1 @@
-"""The core that standards share: statistics by position, parameters, requirements, evaluations."""
+"""Statistics by position, requirements, decision rules, corrections, uncertainty; warnings on readings."""

@@ -1,1 +1,1 @@
-"""What a live instrument gives, and what all instruments share: ports, lines, the rhythm of questions."""
+"""A measurement under way: ports of instruments, a capture along a plan, instruments that are emulated."""

@@ -1,1 +1,1 @@
-"""Graphs as data, and the one module that draws them."""
+"""Graphs as data, their layout, and the one drawing of them."""
