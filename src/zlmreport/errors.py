@@ -8,6 +8,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+#: Exit codes of what was done, and is not as it should be; those of errors stand with their classes.
+NOT_MET = 1  #: A stated limit or a forecast is not met; what a certificate says does not hold.
+INCOMPLETE = 4  #: Of a fleet: jobs failed, or something is not there that should be.
+UNDECIDED = 5  #: Something of a certificate could not be compared.
+
 #: Letters of a foreign text that a message shows.
 _LONGEST_QUOTE = 60
 

@@ -21,7 +21,7 @@ from zlmreport.document.subjects.compensation import (
     make_compensation_sheet,
 )
 from zlmreport.document.writer import Writer
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import NOT_MET, InputError, Place
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.files import Document, write_new
 from zlmreport.job.choices import choose_controller_of
@@ -207,7 +207,7 @@ def _confirm(options: Namespace, registry: Registry) -> int:
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
         how = f"zlmreport {show_path(both)}" if both else "--output DIR writes the job"
         print(f"the certificate of both tests, as found and as left: {how}")
-    return 0 if found.verdict is ConfirmationVerdict.HELD else 1
+    return 0 if found.verdict is ConfirmationVerdict.HELD else NOT_MET
 
 
 def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) -> Document:

@@ -18,7 +18,7 @@ from types import TracebackType
 from typing import Any, Self, TextIO
 
 from zlmreport.cli.terminal import collect_problem, make_visible, print_json, show_path, write_duration
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place
 from zlmreport.files import confine
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import Order, foretell, spend_night
@@ -30,7 +30,6 @@ from zlmreport.version import __version__
 
 SCHEMA = "zlmreport/night/1"
 
-_FAILED = 4
 _MINUTE = 60
 INTERRUPTED = 128 + signal.SIGINT
 #: What the bar counts: jobs that were due.
@@ -93,7 +92,7 @@ class _Watcher:
     @property
     def exit_code(self) -> int:
         """What the shell is told."""
-        return _FAILED if self.notices or any(self.counts[what] for what in _NOT_DONE) else 0
+        return INCOMPLETE if self.notices or any(self.counts[what] for what in _NOT_DONE) else 0
 
     def note_notice(self, notice: NightNotice) -> None:
         self.notices.append(notice)

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from zlmreport.cli.terminal import make_visible, show_path
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place
 from zlmreport.files import Document, write
 from zlmreport.fleet.basis import write_path_in
 from zlmreport.fleet.exports import write_calendar, write_metrics
@@ -21,8 +21,6 @@ from zlmreport.fleet.state import FleetState, Rules, describe_state
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, load_fleet
 from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import find_plugins
-
-_INCOMPLETE = 4
 
 
 def report(options: Namespace) -> int:
@@ -83,4 +81,4 @@ def rebuild(options: Namespace) -> int:
     count = len(rebuilt.numbers)
     are = "is" if count == 1 else "are"
     print(f"{count_in_words(count, 'certificate')} {are} in the ledger; the next night compares each")
-    return _INCOMPLETE if rebuilt.problems else 0
+    return INCOMPLETE if rebuilt.problems else 0

@@ -27,7 +27,7 @@ from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import is_mixed, limit
 from zlmreport.document.writer import Writer, write_with_uncertainty
-from zlmreport.errors import InputError, ZlmreportError, as_problems
+from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
 from zlmreport.job.parse import count_in_words
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from zlmreport.plugin.registry import Registry
 
 
-_NOT_MET = 1
 SCHEMA = "zlmreport/summary/1"
 
 #: In letters: the width of a terminal that has none, between two columns, and what is always shown of a name.
@@ -118,7 +117,7 @@ class JobResult:
         """Return the exit code of this job alone."""
         if self.error:
             return self.error.exit_code
-        return _NOT_MET if fail_on_nonconformity and self.conforms is False else 0
+        return NOT_MET if fail_on_nonconformity and self.conforms is False else 0
 
 
 def load_all(paths: Sequence[Path], registry: Registry, formats: tuple[str, ...] = ()) -> list[JobResult]:

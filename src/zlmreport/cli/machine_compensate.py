@@ -8,7 +8,7 @@ from typing import Any
 
 from zlmreport.cli.terminal import show_path
 from zlmreport.document.blocks import Section
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import NOT_MET, InputError, Place
 from zlmreport.files import write_new
 from zlmreport.language import Language
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
@@ -65,7 +65,8 @@ def compensate(
 
 def find_exit_code(values: Mapping[str, Any]) -> int:
     """Return 1 for tables that circles do not confirm, by the values of an action; 0 for all else."""
-    return int(values.get("schema") == CONFIRMATION_SCHEMA and values["verdict"] != CrossVerdict.HELD.value)
+    is_confirmation = values.get("schema") == CONFIRMATION_SCHEMA
+    return NOT_MET if is_confirmation and values["verdict"] != CrossVerdict.HELD.value else 0
 
 
 def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> list[str]:

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.cli.terminal import Colour, lay_out_table, make_visible, print_json, say as said, show_path
 from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates
-from zlmreport.errors import Place
+from zlmreport.errors import NOT_MET, UNDECIDED, Place
 from zlmreport.language import Words
 from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.registry import find_plugins
@@ -29,8 +29,8 @@ from zlmreport.version import __version__
 
 _CODES = {
     VerificationOutcome.HOLDS: 0,
-    VerificationOutcome.DOES_NOT_HOLD: 1,
-    VerificationOutcome.UNDECIDED: 5,
+    VerificationOutcome.DOES_NOT_HOLD: NOT_MET,
+    VerificationOutcome.UNDECIDED: UNDECIDED,
 }
 _HOLDS = {
     VerificationOutcome.HOLDS: True,

@@ -14,12 +14,14 @@ import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from zlmreport.errors import ZlmreportError
+
 if TYPE_CHECKING:
     from zlmreport.plugin.presence import Presence
 
 #: Of what the command notes of itself; its first byte says that it came to its end, the second its exit code.
 _HEAD, _ROOM = 2, 2048
-_FAILED = 2
+_FAILED = ZlmreportError.exit_code
 #: Passed on to the command; the others come from the terminal, which tells both.
 _PASSED_ON = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2")
 _DEATH_OF_PARENT = 1

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place, Problem
 from zlmreport.files import Document, find_confinement, write
 from zlmreport.fleet.basis import CertificateBasis, Disk, find_program_versions, say_changes, write_path_in
 from zlmreport.fleet.exports import make_priors, write_heartbeat
@@ -91,7 +91,7 @@ def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[PlannedJob, .
 class MissingError(AccessError):
     """Something is not there that was there in an earlier night, and nothing is done before it is."""
 
-    exit_code = 4
+    exit_code = INCOMPLETE
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,10 +35,11 @@ from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, group_by_axi
 from zlmreport.fleet.overview_cells import CellWriter, Names, make_key_of
 from zlmreport.fleet.overview_trend import show_trend_in_full
 from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
-from zlmreport.fleet.state import SOON, DueDate, FailingJob, FleetState
+from zlmreport.fleet.state import DueDate, FailingJob, FleetState
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, compute_level_of
 from zlmreport.fleet.trend import Calibration, Series, fit_line_through
 from zlmreport.fleet.trend_graph import Period, draw_trend
+from zlmreport.job.days import SOON
 from zlmreport.language import Language, Words, join_parts
 from zlmreport.version import __version__
 

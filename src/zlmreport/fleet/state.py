@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import date, datetime, timedelta
+from datetime import date, datetime
 
 from zlmreport.fleet.drifts import Trend, judge_trends
 from zlmreport.fleet.records import MODEL, LedgerEntry, NightNotice, PastNight, State, compute_due_date
 from zlmreport.fleet.trend import Series, list_series_of, select_standing
-
-#: What is due within this time may be planned now.
-SOON = timedelta(days=90)
+from zlmreport.job.days import SOON
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,6 @@
-"""Days that a job states and that have not come yet: nobody has measured, or issued anything, then.
+"""Days to come: a job that states one as past is refused; what is due soon; the day by the clock.
+
+Nobody has measured, or issued anything, on a day that has not come yet.
 
 What a document says does not depend on the clock, so that the same job gives the same bytes on any day; the
 clock only decides whether a job is made at all.
@@ -17,6 +19,8 @@ from zlmreport.version import RELEASED
 
 #: What a job says of the future.
 _OF_THE_FUTURE = frozenset({"due", "next_due"})
+#: What is due within this time may be planned now.
+SOON = dt.timedelta(days=90)
 #: Where it is another day already.
 _ELSEWHERE = dt.timedelta(days=1)
 

@@ -142,13 +142,15 @@ SectionName = Literal[
 #: What a document has after its first page.
 Sections: TypeAlias = list[SectionName | OwnText] | None
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
+#: Colour of headings and lines where a job states none; the style sheets have it, too.
+ACCENT = "#0d4a63"
 #: Of text on white (WCAG 2.2, 1.4.3).
 _LEAST_CONTRAST = 4.5
 
 
 def _require_readable(colour: str) -> str:
     if not _COLOUR.fullmatch(colour):
-        raise ValueError(f"{quoted(colour)} is no colour; write red, green and blue as in #0d4a63")
+        raise ValueError(f"{quoted(colour)} is no colour; write red, green and blue as in {ACCENT}")
     parts = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
     linear = (each / 12.92 if each <= 0.04045 else ((each + 0.055) / 1.055) ** 2.4 for each in parts)
     luminance = sum(map(operator.mul, (0.2126, 0.7152, 0.0722), linear))
@@ -172,7 +174,7 @@ class Style(JobPart):
     """The look of the document."""
 
     accent: Annotated[str, AfterValidator(_require_readable)] = Field(
-        "#0d4a63",
+        ACCENT,
         json_schema_extra={"pattern": "^#[0-9A-Fa-f]{6}$"},
         description="Colour of headings and of the lines that part them.",
         examples=["#5c1a33"],

@@ -44,6 +44,11 @@ class Unmeasured:
     bound: float  #: Half the width of its range, m or rad.
     is_assumed: bool  #: Whether this program assumed the bound, the file stating none.
 
+    @property
+    def variance(self) -> float:
+        """Of what lies anywhere within the bound: bound²/3 (JCGM 100, 4.3.7), m² or rad²."""
+        return self.bound**2 / 3.0
+
 
 @dataclass(frozen=True, slots=True)
 class Machine:
@@ -116,8 +121,7 @@ def predict(machine: Machine, course: ToolCourse) -> TestPrediction:
         outside |= curve.find_outside(place) & (np.abs(gain) > 0)
     bound = np.zeros(count)
     for each in machine.unmeasured:
-        # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.
-        bound += (each.bound * _compute_gain(each.name, machine, None, course, tool)) ** 2 / 3.0
+        bound += each.variance * _compute_gain(each.name, machine, None, course, tool) ** 2
     return TestPrediction(
         values,
         _compress(np.concatenate(factors, axis=1)),

@@ -150,5 +150,5 @@ def _compute_relative(
         gain = weights(each.name, machine.chain, ErrorLine({}), together, machine.tool)
         # A squareness error is one number at both places; of a curve each place has its own.
         from_there = gain[:-1] - gain[-1] if each.name in SQUARENESS else gain[:-1]
-        unknown += each.bound**2 / 3.0 * np.sum(from_there**2, axis=1)
+        unknown += each.variance * np.sum(from_there**2, axis=1)
     return values[:-1] - values[-1], factor[:-1] - factor[-1], np.sqrt(unknown)

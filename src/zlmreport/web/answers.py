@@ -15,16 +15,14 @@ from starlette.routing import Route
 from zlmreport.document.typesetting.resources import find_page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import ZlmreportError
-from zlmreport.language import Language, Words, accepted_language
+from zlmreport.language import Language, accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
 from zlmreport.web.commands import Wanted
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.making import Making, draw_page
-from zlmreport.web.texts import collect_texts
+from zlmreport.web.texts import NO_SCRIPT, TITLE, collect_texts
 
 OTHER_PAGE = "the request is none of a page of this version"
-_TITLE = Words("Workbench")
-_NO_SCRIPT = Words("The workbench needs JavaScript, which comes from this computer alone.")
 
 
 class LoadedFile(Protocol):
@@ -230,8 +228,8 @@ def answer_with_shell(language: Language, name: str) -> Response:
     """Return a page of the workbench, which fills itself; `name` is that of the file or the folder."""
     context = WorkbenchContext(
         language=language.value,
-        title=f"{_TITLE.in_language(language)} · {name}",
-        needs_script=_NO_SCRIPT.in_language(language),
+        title=f"{TITLE.in_language(language)} · {name}",
+        needs_script=NO_SCRIPT.in_language(language),
     )
     return HTMLResponse(render(context))
 

@@ -17,6 +17,7 @@ from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.errors import AccessError, InputError, ZlmreportError
 from zlmreport.job.contradictions import find_last_day
+from zlmreport.job.days import SOON
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
@@ -26,8 +27,6 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.verification.carrier import find_results_in
 from zlmreport.web.bench import PLACE, Bench, make_stamp_of
 
-#: What is due within this time may be planned now.
-SOON = dt.timedelta(days=90)
 _SUFFIXES = {".yaml", ".yml"}
 _SCHEMA = re.compile(r"^schema:\s*[\"']?zlmreport/(job|machine)/", re.MULTILINE)
 _MACHINE = "machine"

@@ -15,6 +15,8 @@ from zlmreport.machines.subjects.cross_tables import TABLES
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict
 from zlmreport.web.capture_texts import CAPTURE_TEXTS
 
+TITLE = Words("Workbench")
+NO_SCRIPT = Words("The workbench needs JavaScript, which comes from this computer alone.")
 _CONFIRMED = {
     ConfirmationVerdict.HELD: "held",
     ConfirmationVerdict.WRONG_SIGN: "wrongSign",

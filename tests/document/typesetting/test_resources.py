@@ -16,6 +16,7 @@ from zlmreport.document.typesetting.resources import (
     style_sheet,
     write_font_faces,
 )
+from zlmreport.job.document_keys import ACCENT
 
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
 
@@ -69,3 +70,9 @@ def test_a_style_sheet_asks_for_no_font_feature(sheet: str) -> None:
 
 def test_style_sheets_follow_each_other_as_named() -> None:
     assert style_sheet("A4", "Letter") == f"{style_sheet('A4')}\n{style_sheet('Letter')}"
+
+
+def test_a_colour_stands_for_the_usual_one_wherever_a_style_sheet_has_that() -> None:
+    usual = style_sheet("certificate")
+    assert usual.count(ACCENT) > 1
+    assert style_sheet("certificate", accent="#5c1a33") == usual.replace(ACCENT, "#5c1a33")

@@ -9,6 +9,7 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Literal
 
 from zlmreport.document.blocks import Block, Graph, Section
+from zlmreport.job.document_keys import ACCENT
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ class Look:
     its style sheet ``style.css`` among them.
     """
 
-    accent: str = "#0d4a63"
+    accent: str = ACCENT
     logo: Literal["left", "right"] = "right"
     typeface: Typeface | None = None
     templates: tuple[tuple[str, str], ...] = ()

@@ -20,6 +20,7 @@ from markupsafe import Markup
 
 from zlmreport.document.certificate.document import Linked, Look
 from zlmreport.document.certificate.own_look import STYLE_SHEET
+from zlmreport.job.document_keys import ACCENT
 
 #: The package whose templates, styles and scripts are used, and no others.
 PACKAGE = "zlmreport_templates"
@@ -50,14 +51,10 @@ def read_font(name: str) -> bytes:
     return (files(PACKAGE) / "fonts" / name).read_bytes()
 
 
-#: Colour of headings as the style sheets have it.
-_ACCENT = "#0d4a63"
-
-
-def style_sheet(*names: str, accent: str = _ACCENT) -> str:
+def style_sheet(*names: str, accent: str = ACCENT) -> str:
     """Return the style sheets of these names, one after the other, with headings and lines in a colour."""
     sheets = ((files(PACKAGE) / "styles" / f"{name}.css").read_text("utf-8") for name in names)
-    return "\n".join(sheets).replace(_ACCENT, accent)
+    return "\n".join(sheets).replace(ACCENT, accent)
 
 
 def write_font_faces(address: Callable[[FontFace], str]) -> str:

@@ -7,8 +7,8 @@ loaded before it is needed.
 
 from __future__ import annotations
 
-from zlmreport.plugin.registry.candidate import DISABLE, FailedPlugin, Plugin
-from zlmreport.plugin.registry.find import FILES, find_plugins
+from zlmreport.plugin.registry.candidate import DISABLE, FILES, FailedPlugin, Plugin
+from zlmreport.plugin.registry.find import find_plugins
 from zlmreport.plugin.registry.registry import Offer, Registry, collect
 
 __all__ = ["DISABLE", "FILES", "FailedPlugin", "Offer", "Plugin", "Registry", "collect", "find_plugins"]

@@ -1,4 +1,4 @@
-"""A plugin that is loaded when somebody asks for it: where it comes from, and why it does not work."""
+"""A plugin, loaded when asked; where it comes from, why it fails; the variables ``ZLMREPORT_…PLUGINS``."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from zlmreport.plugin.presence import PRESENCE
 
 #: Environment variable that switches plugins off.
 DISABLE = "ZLMREPORT_DISABLE_PLUGINS"
+#: Names files that are plugins, parted as in PATH.
+FILES = "ZLMREPORT_PLUGINS"
 
 _LONGEST_REASON = 300
 

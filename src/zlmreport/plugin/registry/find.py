@@ -1,4 +1,4 @@
-"""Finds plugins: installed ones by entry points, others in files; the variables ``ZLMREPORT_…PLUGINS``.
+"""Finds plugins: installed ones by entry points, others in files that the user names.
 
 An entry point for each object, in the group of its kind and named by its identifier (``"iso230-2:2014" =
 "zlmreport_plugins.standards.iso230_2"``): so a run loads what it names, and a listing all.
@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.plugin.hooks import hookimpl
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugin.registry.candidate import DISABLE, Plugin, PluginCandidate, say_reason_of
+from zlmreport.plugin.registry.candidate import DISABLE, FILES, Plugin, PluginCandidate, say_reason_of
 from zlmreport.plugin.registry.registry import Registry
 
 if TYPE_CHECKING:
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 #: Entry points of this group name modules that offer several things, and are loaded to know what.
 GROUP = "zlmreport"
-#: Names files that are plugins, parted as in PATH.
-FILES = "ZLMREPORT_PLUGINS"
 #: What the name of a catalogue of effects ends with.
 _CATALOGUES = frozenset({".yaml", ".yml"})
 
