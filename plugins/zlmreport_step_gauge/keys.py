@@ -1,4 +1,4 @@
-"""The keys of ``step_gauge`` in a job: the gauge, where it lies, how it is probed, by which machine.
+"""The keys of ``step_gauge`` in a job, with their defaults: the gauge, where it lies, how it is probed.
 
 The temperature and the expansion of the machine's scale are no keys of their own: they stand in
 `environment`, as for any other instrument.

@@ -1,4 +1,4 @@
-"""What an operator sees of a capture, on a terminal or in lines; the keys to press, the bell, the bar."""
+"""What an operator sees of a capture; orders that are typed, or sent by a program; the bell, the bar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A capture that another program shows and steers: JSON lines out, orders in."""
+"""A capture that a program shows and steers: JSON lines out, orders in as they are typed at a terminal."""
 
 from __future__ import annotations
 

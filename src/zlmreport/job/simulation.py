@@ -1,4 +1,4 @@
-"""A simulation file: its keys, in the units of a job, and what it describes, checked."""
+"""A simulation file: its keys in users' units, how many targets and readings it may have; checked."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Blocks shown as HTML in a notebook."""
+"""Sections of ``document/subjects/`` shown in a notebook: their blocks as HTML, graphs left out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The order of a verification: open, evaluate again, print again, compare."""
+"""The order of a verification: open, evaluate, print, compare; what is said of days and signatures."""
 
 from __future__ import annotations
 

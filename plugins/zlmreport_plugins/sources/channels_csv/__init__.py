@@ -1,4 +1,4 @@
-"""Data source ``channels-csv``: channels over time, displacements beside temperatures, as data loggers write.
+"""Data source ``channels-csv``: channels over time as loggers write; conditions between their times.
 
 One channel becomes a measurement set: that which has the name of the test. The target positions are times, s
 from the first reading of the file; there is one run, in the positive sense, as time goes on. Temperatures and

@@ -1,4 +1,4 @@
-"""Options and help of JOB.yaml, check, init, new, verify, model, machine, fleet, and ``--version``."""
+"""Options and help of JOB.yaml and of all commands that ``measuring.py`` has not; ``--version``."""
 
 from __future__ import annotations
 

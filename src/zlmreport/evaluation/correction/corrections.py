@@ -1,4 +1,4 @@
-"""The corrections of readings: for air, for dead path, for the material's expansion to 20 °C; exclusions.
+"""Corrections for air, dead path, expansion to 20 °C; conditions between those logged; exclusions.
 
 The instrument counts half wavelengths. From its datum on it has counted n·(Dp + D) − n₀·Dp in vacuum
 units: n is the index of the air now, n₀ that when it was set to zero, Dp the dead path, D the displacement.

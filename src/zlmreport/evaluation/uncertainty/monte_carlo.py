@@ -1,4 +1,4 @@
-"""Monte Carlo: the budget carried to U of every parameter of every standard (JCGM 101:2008); trials.
+"""U of every parameter by Monte Carlo (JCGM 101:2008): how many trials, and the least U that is stated.
 
 Each trial adds errors, drawn from the budget, to the readings, and evaluates the test again by the
 standard's own arithmetic. So a standard needs no formula of its own for its uncertainties, whoever wrote it.

@@ -1,4 +1,4 @@
-"""Opens any port of pyserial, serial or network; its keys such as baud rate; messages where it fails."""
+"""Opens any port of pyserial; keys of all instruments: port, sign, scale, timeout, rate; what went wrong."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""p-values of a diagnosis, from contests on simulated tests in which nothing is missing.
+"""p-values of a diagnosis: the chance of a false alarm, all searches together, by simulated tests.
 
 Every searched parameter gives chance one more opportunity, so plain tests and criteria raise false alarms.
 Here every family is tried on deviations that hold nothing but a set of effects, and beside it the amplitudes

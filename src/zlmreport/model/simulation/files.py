@@ -1,4 +1,4 @@
-"""Simulations as files: the description that is read, its limits; the table and the job that are written."""
+"""From a simulation file to what is simulated; the table of readings and the job that are written."""
 
 from __future__ import annotations
 
