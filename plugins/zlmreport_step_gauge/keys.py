@@ -1,4 +1,4 @@
-"""The keys of ``step_gauge`` in a job, with their defaults: the gauge, where it lies, how it is probed.
+"""Keys of ``step_gauge`` in a job, and their defaults: gauge, place, probing; its machine on the network.
 
 The temperature and the expansion of the machine's scale are no keys of their own: they stand in
 `environment`, as for any other instrument.

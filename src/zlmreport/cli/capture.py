@@ -1,4 +1,4 @@
-"""``zlmreport capture``: readings from a live instrument, along the plan, into a journal."""
+"""``zlmreport capture``: readings of an instrument into a journal; what ``check`` says before that."""
 
 from __future__ import annotations
 

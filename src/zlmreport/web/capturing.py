@@ -1,4 +1,4 @@
-"""The capture of a job from its page: the command of the terminal, steered, in a process of its own.
+"""The capture of a job from its page: the command, steered, in a process of its own; its last lines.
 
 What the process prints is the present moment; what was taken is read from the journal, as after any other
 capture. So the page may be closed and opened, and a busy server delays what is seen and nothing that is read.

@@ -1,4 +1,4 @@
-"""The two VDI guidelines as data: parameters, factors, wording, columns by position."""
+"""The two VDI guidelines as data: parameters, which is never below which, factors, wording, columns."""
 
 from __future__ import annotations
 

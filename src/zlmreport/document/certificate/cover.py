@@ -1,4 +1,4 @@
-"""The first page: who, for whom, what, when, and the results in brief."""
+"""The first page: who, for whom, what, when, the results in brief, and warnings under their headings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a figure is drawn on: strokes, fills and labels; and the SVG of it, in which text stays text."""
+"""What a figure is drawn on: strokes, fills, labels, faces of type; its SVG, in which text stays text."""
 
 from __future__ import annotations
 

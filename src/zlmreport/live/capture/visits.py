@@ -1,4 +1,4 @@
-"""The visits of a plan in order, and the settings of a stop: standstill, averaging, motion, gaps."""
+"""The visits of a plan in order, where the axis begins; settings of a stop: standstill, motion, gaps."""
 
 from __future__ import annotations
 

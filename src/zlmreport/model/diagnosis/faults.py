@@ -1,4 +1,4 @@
-"""Faults of the data that look like effects: a swapped direction, a wrong unit, a lagging sensor.
+"""Faults of the data that look like effects: wrong direction, target, unit or clock; a lagging sensor.
 
 A run is held against the others, as it stands and as it would be without a slip: directions exchanged, signs
 turned, every reading moved by one target. Only a slip that takes away most of what repeats differ by, and far
