@@ -336,6 +336,9 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     remedy = page.locator(".candidate .tell strong").first
     expect(remedy).to_be_visible()
     assert remedy.inner_text().rstrip(" ").endswith("\N{NO-BREAK SPACE}:")
+    unseen = page.locator("ul.hidden li").all_text_contents()
+    assert any("\N{NO-BREAK SPACE}: " in each for each in unseen)
+    assert [each for each in unseen if re.search(r"\S[:;] ", each)] == []
 
 
 def test_what_a_certificate_lacks_is_filled_in_on_the_page(address: str, job: Path, window: Window) -> None:

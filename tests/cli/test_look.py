@@ -137,6 +137,28 @@ def test_file_that_nobody_reads_is_told_with_its_name(content: bytes, table: Any
         look_at(path, REGISTRY)
 
 
+@pytest.mark.parametrize(
+    ("file", "told"),
+    [
+        (
+            "rotary-axis/c-axis.csv",
+            "5 targets from 0° to 40°; 10 runs, both directions; deviations −82.08″ to 145.44″;",
+        ),
+        (
+            "circle/circle-xy.csv",
+            "600 angles from 0° to 359.4°; 2 turns, both senses; deviations −12.2 to 11.3 µm;",
+        ),
+        (
+            "linear-axis/y-axis.csv",
+            "9 targets from −20 to 20 mm; 5 runs, both directions; deviations −48.74 to 64.66 µm;",
+        ),
+    ],
+)
+def test_what_a_file_holds_is_told_in_its_terms_and_units(shop: Shop, file: str, told: str) -> None:
+    output = shop.run("look", str(ROOT / "configs" / file)).output
+    assert told in " ".join(output.split())
+
+
 def test_file_that_is_not_there_is_told(shop: Shop) -> None:
     run = shop.run("look", "none.csv")
     assert (run.code, run.output) == (3, "")

@@ -8,6 +8,7 @@ import pytest
 
 from cli.commands import Shop
 from cli.model_jobs import change, keep, opened
+from environments import ROOT
 from model.hidden_effect import LAST
 
 
@@ -30,6 +31,12 @@ def refused(shop: Shop, *arguments: str) -> str:
 def test_a_job_without_effects_is_told_how_to_begin(shop: Shop, action: str) -> None:
     change(shop, (f"    - offset\n    - scale-error\n{LAST}", ""), ("effects:", "effects: []"))
     assert refused(shop, action, "job.yaml").endswith("begin with: zlmreport model add job.yaml offset")
+
+
+def test_a_circle_is_sent_to_the_model_of_its_machine(shop: Shop) -> None:
+    run = shop.run("model", "diagnose", str(ROOT / "configs/circle/certificate.yaml"))
+    assert (run.code, run.output) == (2, "")
+    assert "found by 'zlmreport machine diagnose', from a machine file" in run.messages
 
 
 def test_an_unknown_effect_is_answered_with_the_nearest(shop: Shop) -> None:

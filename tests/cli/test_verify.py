@@ -57,6 +57,13 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
 
 
 @pytest.mark.long
+def test_a_french_certificate_is_told_with_the_spaces_of_french(run: Run, tmp_path: Path) -> None:
+    french = LABORATORY.replace("kind: report", "kind: report, language: fr")
+    head = run(issue(lay_out(tmp_path, laboratory=french)))[1].splitlines()[0]
+    assert head.startswith("report.pdf  confirmé : cohérent, origine inconnue  ")
+
+
+@pytest.mark.long
 def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> None:
     german = LABORATORY.replace("kind: report", "kind: report, language: de")
     pdf = issue(lay_out(tmp_path / "de", laboratory=german))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import datetime as dt
+import re
 import threading
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -253,3 +255,24 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
             "zlmreport_fleet_heartbeat_timestamp_seconds": began,
             "zlmreport_fleet_at_work": is_at_work,
         }
+
+
+def test_in_french_a_space_stands_before_colons_and_semicolons_of_the_news() -> None:
+    values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
+    rising = [5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1]
+    entries = [*history(values), *history(rising, axis="Y")]
+    entries += [
+        replace(each, parameters=(*each.parameters, replace(each.parameters[0], symbol="E")))
+        for each in history(rising, axis="B")
+    ]
+    entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
+    clock = NightNotice(About.CLOCK, same("l’horloge …"))
+    last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
+    state = describe_state("Atelier", entries, [], last, Rules(365))
+    keys = SimpleNamespace(name="Atelier", keys=SimpleNamespace(language=Language.FRENCH))
+    message = write_digest(keys, tuple(find_news_of(state, Language.FRENCH)))  # type: ignore[arg-type]
+    text = f"{message.title}\n{message.text}"
+    assert re.findall(r".*\S[:;?!](?=\s).*", text) == []
+    assert text.startswith("Atelier\N{NO-BREAK SPACE}: 1 ")
+    assert "Horloge\N{NO-BREAK SPACE}: l’horloge …" in text
+    assert "\N{NO-BREAK SPACE}; E + " in text

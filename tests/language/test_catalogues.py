@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import ast
 import importlib.util
 import re
 import sys
+from collections.abc import Iterator
 from functools import cache
 from gettext import GNUTranslations
+from itertools import pairwise
 from pathlib import Path
 from types import ModuleType
 
 import pytest
 
-from zlmreport.language import Language, Words, accepted_language, named, same
+from zlmreport.language import Language, PartRow, Words, accepted_language, named, same
 
 _TOOL = Path(__file__).parents[2] / "docs/generate/translations.py"
 OTHERS = [each for each in Language if each is not Language.ENGLISH]
 _PLACE = re.compile(r"\{(\w*)\}")
+_ROOT = Path(__file__).parents[2]
+#: A sign before which French has a space; and one at the end of what stands before a place.
+_PARTING, _PARTED = re.compile(r"[:;?!]"), re.compile(r"[:;] ?$")
 
 
 @cache
@@ -132,3 +138,47 @@ def test_in_french_no_line_begins_with_a_sign_that_has_a_space_before_it() -> No
 )
 def test_a_name_is_parted_from_what_is_said_of_it_as_in_the_language(language: Language, text: str) -> None:
     assert named("A", same("b")).in_language(language) == text
+
+
+@pytest.mark.parametrize(
+    ("language", "text"), [(Language.FRENCH, "a\N{NO-BREAK SPACE}; 2,5 b"), (Language.GERMAN, "a; 2,5 b")]
+)
+def test_parts_of_a_line_are_parted_as_in_the_language(language: Language, text: str) -> None:
+    assert PartRow(("a", Words("{n} b").given(n=2.5))).in_language(language) == text
+
+
+def _joined_by_hand(code: str) -> Iterator[str]:
+    """Yield what is said in some language and has a sign beside it that stands in the code."""
+    for each in ast.walk(ast.parse(code)):
+        if not isinstance(each, ast.JoinedStr):
+            continue
+        text = ast.unparse(each)
+        said = [_is_said(part) for part in each.values]
+        for (first, is_first), (second, is_second) in pairwise(zip(each.values, said, strict=True)):
+            behind = is_first and isinstance(second, ast.Constant) and _PARTING.match(str(second.value))
+            before = is_second and isinstance(first, ast.Constant) and _PARTED.search(str(first.value))
+            if behind or before:
+                yield text
+
+
+def _is_said(part: ast.expr) -> bool:
+    """Whether a part of a text is said in a language that is not English alone."""
+    calls = (each.func for each in ast.walk(part) if isinstance(each, ast.Call))
+    names = {each.attr if isinstance(each, ast.Attribute) else getattr(each, "id", "") for each in calls}
+    return bool(names & {"say", "in_language"}) and "ENGLISH" not in ast.unparse(part)
+
+
+def test_no_sign_that_french_parts_is_joined_by_hand() -> None:
+    found = {}
+    for folder in ("src/zlmreport", "plugins"):
+        for path in (_ROOT / folder).rglob("*.py"):
+            # What else a terminal prints is English.
+            if path.parent.name != "cli" or path.name == "verify.py":
+                found[path.name] = list(_joined_by_hand(path.read_text(encoding="utf-8")))
+    assert {name: texts for name, texts in found.items() if texts} == {}
+
+
+def test_what_is_joined_by_hand_is_found() -> None:
+    code = 'f"{say(title)}: {name}", f"{name}; {words.in_language(language)}", f"{name}: {say(title)}"'
+    assert len(list(_joined_by_hand(code))) == 3
+    assert list(_joined_by_hand('f"{words.in_language(Language.ENGLISH)}: {name}", f"{a}: {b}"')) == []

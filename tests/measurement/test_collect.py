@@ -246,7 +246,7 @@ def test_a_rotary_axis_speaks_of_its_own_units() -> None:
         for index, each in enumerate([reading(2), reading(3)])
     ]
     assert complaints(readings, Axis("C", AxisKind.ROTARY))[0].startswith(
-        "x.csv:2:1: the deviation, 41252.9612 ″, is larger than the smallest target interval, 10 °; "
+        "x.csv:2:1: the deviation, 41252.9612″, is larger than the smallest target interval, 10°; "
     )
 
 

@@ -22,7 +22,7 @@ def _said(course: Course, language: Language = Language.ENGLISH) -> tuple[str, s
 
 def test_what_is_smooth_along_the_axis_is_measured_at_closer_targets_there() -> None:
     at, measure = _said(Course.PLACE)
-    assert at == "the residuals over the position, about 250 mm"
+    assert at == "the residuals over the position, around 250 mm"
     assert "two runs with a target every 12.7 mm from 149.3 mm to 350.7 mm" in measure
 
 

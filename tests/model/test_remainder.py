@@ -78,6 +78,7 @@ def test_a_bump_is_found_at_its_place_with_its_width(at: float, width: float, si
     assert left.high == pytest.approx(at + width / 2, abs=0.25 * width)
     assert left.size == pytest.approx(size * UM, rel=0.3)
     assert left.share > 0.4
+    assert re.fullmatch(r"around \d+ mm", left.where.in_language(Language.ENGLISH))
 
 
 CASES: dict[str, Callable[[], FloatArray]] = {

@@ -19,7 +19,7 @@ from zlmreport.model.diagnosis.report import list_in_words, write_verdict_statem
 LEFT = Remainder(
     rms=1.234e-6,
     share=0.3,
-    where=same("about 250 mm"),
+    where=same("around 250 mm"),
     low=0.2,
     high=0.3,
     unit=MILLIMETRE,
@@ -75,7 +75,7 @@ def test_what_is_left_beside_a_name_is_told_after_it() -> None:
     statement = said(remainder=LEFT)
     assert statement.startswith("Missing effect: screw-pitch.")
     assert statement.endswith(
-        "Beside that something is left without a name: a bump, about 250 mm; root mean square 1.2 µm."
+        "Beside that something is left without a name: a bump, around 250 mm; root mean square 1.2 µm."
     )
 
 
@@ -94,7 +94,7 @@ def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
     assert said(verdict=Verdict.UNEXPLAINED, remainder=LEFT) == (
-        "Something is left that no installed effect explains: a bump, about 250 mm; root mean square 1.2 µm."
+        "Something is left that no installed effect explains: a bump, around 250 mm; root mean square 1.2 µm."
     )
 
 

@@ -39,7 +39,17 @@ export function said(phrase, values) {
 
 /** Return a name and what is said of it, as the language of the page parts them. */
 export function named(name, text = "") {
-  return `${name}${document.documentElement.lang === "fr" ? "\u00a0" : ""}: ${text}`;
+  return `${name}${space()}: ${text}`;
+}
+
+/** Return two parts of a line, as the language of the page parts them. */
+export function beside(first, second) {
+  return `${first}${space()}; ${second}`;
+}
+
+/** Return what stands before a colon and a semicolon. */
+function space() {
+  return document.documentElement.lang === "fr" ? "\u00a0" : "";
 }
 
 /** Fill an element anew; the control that had the focus has it again if it is still there. */

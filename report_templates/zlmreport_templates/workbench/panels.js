@@ -160,7 +160,7 @@ export function effects(texts, job, actions) {
     ))),
     h("form", { class: "other", submit: (event) => { event.preventDefault(); actions.add(event.target.elements.effect.value); } },
       h("label", { for: "other" }, texts.otherEffect),
-      h("select", { id: "other", name: "effect", "data-key": "other" }, job.others.map((each) => h("option", { value: each.effect }, each.name === each.title ? each.title : `${each.name}: ${each.title}`))),
+      h("select", { id: "other", name: "effect", "data-key": "other" }, job.others.map((each) => h("option", { value: each.effect }, each.name === each.title ? each.title : named(each.name, each.title)))),
       h("button", { type: "submit", "data-key": "add-other" }, texts.add)),
   ];
 }
@@ -233,7 +233,7 @@ function standard(texts, each, forecast) {
 export function hidden(texts, found) {
   if (found.hidden.length + found.remarks.length === 0) return [];
   return [h("details", {}, h("summary", {}, h("h2", {}, texts.hidden)),
-    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(texts, effect, each.names[index])]), `: ${each.reason}`))),
+    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(texts, effect, each.names[index])]), named("", each.reason)))),
     found.remarks.length > 0 && [h("h3", {}, texts.remarks), h("ul", { class: "hidden" }, found.remarks.map((each) => h("li", {}, each)))])];
 }
 

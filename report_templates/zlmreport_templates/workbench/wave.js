@@ -1,6 +1,6 @@
 // One wave instead of sixty: the readings of an effect that repeats, laid over each other at its period.
 
-import { fill, h, named } from "./dom.js";
+import { beside, fill, h, named } from "./dom.js";
 import { Plot } from "./plot.js";
 
 /** Return a place that shows the wave of an effect once `asked` has it; nothing where the effect does not repeat. */
@@ -14,7 +14,7 @@ function drawn(texts, found, number) {
   const quiet = () => {};
   const plot = new Plot({ label: texts.oneWave, hint: "", number, marked: (index) => plot.ring(index === null ? [] : [index], true), pinned: quiet, zoomed: quiet, boxed: quiet });
   plot.show({
-    ...found, hidden: new Set(), fitted: found.x.map(() => true), noise: null, labels: null, alternative: `${found.yTitle}; ${found.xTitle}.`,
+    ...found, hidden: new Set(), fitted: found.x.map(() => true), noise: null, labels: null, alternative: `${beside(found.yTitle, found.xTitle)}.`,
   });
   return plot.element;
 }

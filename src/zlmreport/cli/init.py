@@ -16,6 +16,7 @@ from zlmreport.looking import Looked, look_at, write_job_of
 from zlmreport.machines.beginning import begin_machine
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.units import Unit, write_behind
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _STARTER = ("job.yaml", "laboratory.yaml", "x-axis.csv")
@@ -91,15 +92,16 @@ def _summarise(read: MeasurementSet) -> str:
     count, missing = int(np.isfinite(deviation).sum()), len(read.missing())
     if read.axis.measurand.coordinate is Coordinate.TIME:
         return _summarise_over_time(read, count)
-    travel = f"from {_write_number(at[0])} to {_write_number(at[-1])} {place.symbol}"
-    directions = "both directions" if read.is_bidirectional else "one direction"
+    is_circle = read.axis.measurand.is_closed
+    target, run, sense = ("angle", "turn", "sense") if is_circle else ("target", "run", "direction")
+    senses = f"both {sense}s" if read.is_bidirectional else f"one {sense}"
+    travel = f"from {_write_range(at[0], at[-1], place)}"
     parts = [
-        f"{_count_in_words(count, 'reading')} of {_count_in_words(len(at), 'target')} {travel}",
-        f"{_count_in_words(len(read.runs), 'run')}, {directions}",
+        f"{_count_in_words(count, 'reading')} of {_count_in_words(len(at), target)} {travel}",
+        f"{_count_in_words(len(read.runs), run)}, {senses}",
     ]
     if count:
-        smallest, largest = np.nanmin(deviation), np.nanmax(deviation)
-        parts.append(f"deviations {_write_number(smallest)} to {_write_number(largest)} {size.symbol}")
+        parts.append(f"deviations {_write_range(np.nanmin(deviation), np.nanmax(deviation), size)}")
     parts.append(f"{missing} missing" if missing else "nothing missing")
     return "; ".join(parts)
 
@@ -111,7 +113,7 @@ def _summarise_over_time(read: MeasurementSet, count: int) -> str:
     parts = [f"{_count_in_words(count, 'reading')} over {lasts} {place.symbol}"]
     if count:
         smallest, largest = (size.from_si(float(end(read.deviation))) for end in (np.nanmin, np.nanmax))
-        parts.append(f"{_write_number(smallest)} to {_write_number(largest)} {size.symbol}")
+        parts.append(_write_range(smallest, largest, size))
     if read.conditions:
         parts.append(f"with {', '.join(read.conditions)}")
     return "; ".join(parts)
@@ -119,6 +121,13 @@ def _summarise_over_time(read: MeasurementSet, count: int) -> str:
 
 def _count_in_words(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+def _write_range(low: float, high: float, unit: Unit) -> str:
+    """Write two values in a unit: ``−20 to 20 mm``, ``0° to 40°``."""
+    behind = write_behind(unit.symbol)
+    between = "" if behind.startswith(" ") else behind
+    return f"{_write_number(low)}{between} to {_write_number(high)}{behind}"
 
 
 def _write_number(value: float) -> str:

@@ -10,6 +10,7 @@ from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
+from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, name_steps
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
@@ -39,8 +40,9 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
 
 
 def write_staircase(built: Built) -> str:
-    """Return how the error fell in one line: ``offset 5.4 → + backlash 3.2 µm; noise 0.7``."""
+    """Return how the error fell in one line: ``offset 5.4 → + backlash 3.2 µm; noise 0.7 µm``."""
     axis = built.first.fit.design.axis
+    unit = write_behind(axis.deviation_unit.symbol)
     began = " + ".join(built.first.fit.model.identifiers) or "without model"
     errors = [built.first.error.rms, *(each.after.rms for each in built.steps)]
     stairs = [
@@ -48,8 +50,8 @@ def write_staircase(built: Built) -> str:
         for name, error in zip([began, *name_steps(built.steps)], errors, strict=True)
     ]
     floor = built.last.error.noise_rms
-    noise = "" if floor is None else f"; noise {write_deviation(floor, axis, _ENGLISH)}"
-    return f"{' → '.join(stairs)} {axis.deviation_unit.symbol}{noise}"
+    noise = "" if floor is None else f"; noise {write_deviation(floor, axis, _ENGLISH)}{unit}"
+    return f"{' → '.join(stairs)}{unit}{noise}"
 
 
 def _say_what_is_left(last: Diagnosis, names: tuple[str, ...]) -> Words:

@@ -18,6 +18,7 @@ from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.language.formatting import round_pair, write_general_number
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.plane.plane import Plane, fit_plane, report
@@ -114,7 +115,7 @@ def _tell_interaction(surface: Surface) -> str:
     unit = axis.deviation_unit
     value, half = round_pair(unit.from_si(found.value), unit.from_si(found.expanded_uncertainty))
     where = f"{axis.name}·{surface.readings.second}, not in equation (13)"
-    text = f"{where}: {value} ± {half} {unit.symbol} at the corners"
+    text = f"{where}: {with_unit(f'{value} ± {half}', unit.symbol)} at the corners"
     if abs(found.value) <= found.expanded_uncertainty:
         return f"{text}; not needed"
     return f"{text}; {Colour.YELLOW.set('the lines differ in slope')}, and the polynomial misses it"

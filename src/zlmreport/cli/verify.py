@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 from zlmreport.cli.terminal import Colour, lay_out_table, make_visible, print_json, say as said, show_path
 from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates
 from zlmreport.errors import NOT_MET, UNDECIDED, Place
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.findings import (
@@ -133,16 +133,16 @@ def _tell_verdict(found: Verification, say: _Say) -> str:
     match found.outcome:
         case VerificationOutcome.HOLDS if found.is_trusted:
             trusted = Words("signed by a key that is trusted")
-            return f"{Colour.GREEN.set(outcome)}: {say(trusted)}"
+            return say(named(Colour.GREEN.set(outcome), trusted))
         case VerificationOutcome.HOLDS:
             unknown = Words("consistent, origin unknown")
-            return f"{Colour.GREEN.set(outcome)}: {say(unknown)}"
+            return say(named(Colour.GREEN.set(outcome), unknown))
         case VerificationOutcome.UNDECIDED:
             names = say(Words(" and ")).join(say(_PARTS[each]) for each in found.undecided)
             open_parts = Words("{names} could not be compared whole")
-            return f"{Colour.YELLOW.set(outcome)}: {say(open_parts.given(names=names))}"
+            return say(named(Colour.YELLOW.set(outcome), open_parts.given(names=names)))
     differences = Words("{number} difference", plural="{number} differences").given(number=count)
-    return f"{Colour.RED.set(outcome)}: {say(differences)}"
+    return say(named(Colour.RED.set(outcome), differences))
 
 
 def _say_summary(
@@ -158,7 +158,7 @@ def _say_summary(
     )
     for each in others[:_MOST_LINES]:
         verdict = _COLOURS[each.verdict].set(say(_SAID[each.verdict]))
-        yield "", f"{verdict}  {make_visible(f'{each.subject}: {say(each.detail)}')}"
+        yield "", f"{verdict}  {make_visible(say(named(each.subject, each.detail)))}"
     if len(others) > _MOST_LINES:
         more = Words("and {n} more: see --json")
         yield "", say(more.given(n=len(others) - _MOST_LINES))
@@ -194,7 +194,8 @@ def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
         by_text.setdefault(each.text, []).append(each)
     for text, alike in by_text.items():
         places = ", ".join(_name_places([each.key for each in alike], say))
-        yield make_visible(f"  {places}: '{_shorten(text)}'")
+        quote = f"'{_shorten(text)}'"
+        yield make_visible(f"  {say(named(places, quote))}")
         yield from (
             f"    {_COLOURS[VerificationVerdict.OPEN].set(make_visible(say(oddity)))}"
             for oddity in alike[0].oddities

@@ -24,7 +24,7 @@ from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, find_at
 from zlmreport.job.types import Options
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, join_parts, named
 from zlmreport.language.formatting import write_fixed_number, write_general_number
 from zlmreport.measurement.units import find_printed_symbol, write_behind
 from zlmreport.plugin.kinds import NOTIFIER
@@ -58,7 +58,7 @@ def find_news_of_night(notices: Iterable[NightNotice], language: Language) -> It
     for each in notices:
         text = each.text.in_language(language)
         subject = each.about.value if each.about.is_condition else f"{each.about.value}|{text}"
-        yield News(NewsKind.NIGHT, subject, f"{ABOUTS[each.about].in_language(language)}: {text}")
+        yield News(NewsKind.NIGHT, subject, named(ABOUTS[each.about], text).in_language(language))
 
 
 def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
@@ -71,18 +71,19 @@ def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
         yield News(NewsKind.FAILED, f"{entry.job}|{message}", told)
     for (machine, axis), trends in group_by_axis(state.not_met).items():
         stated = ", ".join(_say_not_met(each, language) for each in trends)
-        yield News(NewsKind.NOT_MET, f"{machine}|{axis}", f"{name_axis(machine, axis)}: {stated}")
+        told = named(name_axis(machine, axis), stated).in_language(language)
+        yield News(NewsKind.NOT_MET, f"{machine}|{axis}", told)
     for (machine, axis), trends in group_by_axis(state.changed).items():
         yield _report_change(machine, axis, trends, state, language)
     for (machine, axis), trends in group_by_axis(state.drifting).items():
-        stated = "; ".join(_say_drift(each, language) for each in trends)
-        yield News(
-            NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{name_axis(machine, axis)}: {stated}"
-        )
+        stated = join_parts((_say_drift(each, language) for each in trends), language)
+        told = named(name_axis(machine, axis), stated).in_language(language)
+        yield News(NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", told)
     for term in state.overdue:
         entry = term.entry
-        told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
-        yield News(NewsKind.OVERDUE, entry.name_term(term.due.isoformat()), f"{entry.of_axis}: {told}")
+        overdue = _OVERDUE.given(measured=entry.measured, due=str(term.due))
+        told = named(entry.of_axis, overdue).in_language(language)
+        yield News(NewsKind.OVERDUE, entry.name_term(term.due.isoformat()), told)
     for entry in state.drafts:
         yield News(NewsKind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
@@ -92,7 +93,8 @@ def write_digest(fleet: FleetFile, news: Sequence[News]) -> Message:
     language = fleet.keys.language
     counted = Counter(each.kind for each in news)
     said = {kind: words.in_language(language) for kind, words in _KINDS.items() if counted[kind]}
-    title = f"{fleet.name}: " + ", ".join(f"{counted[kind]} {word}" for kind, word in said.items())
+    numbers = ", ".join(f"{counted[kind]} {word}" for kind, word in said.items())
+    title = named(fleet.name, numbers).in_language(language)
     parts = [
         "\n".join([word[0].upper() + word[1:], *(f"- {each.text}" for each in news if each.kind is kind)])
         for kind, word in said.items()
@@ -108,13 +110,13 @@ def find_news_of_job(happened: Happened, known: Evening) -> Message | None:
         said += _LIMIT.in_language(language) if happened.conforms is False else ""
         files = tuple(fleet.output / file for file in happened.files)
         text = "".join(f"{line}\n" for line in (happened.job, *files))
-        return Message(Occasion.CERTIFICATE, f"{fleet.name}: {said}", text, files)
+        return Message(Occasion.CERTIFICATE, named(fleet.name, said).in_language(language), text, files)
     standing = known.standings.get(happened.job)
     if happened.what not in {What.FAILED, What.VANISHED} or (standing and standing.state.is_failure):
         return None
-    said = _FAILED.given(job=happened.job).in_language(language)
+    title = named(fleet.name, _FAILED.given(job=happened.job)).in_language(language)
     text = "".join(f"{problem}\n" for problem in happened.problems)
-    return Message(Occasion.FAILURE, f"{fleet.name}: {said}", text)
+    return Message(Occasion.FAILURE, title, text)
 
 
 def _report_change(
@@ -122,10 +124,10 @@ def _report_change(
 ) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
-    told = name_axis(machine, axis)
+    name = name_axis(machine, axis)
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
-        return News(NewsKind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
+        return News(NewsKind.CHANGED, subject, named(name, _WILDER).in_language(language))
     cause = find_cause_of(stepped[0], state.effects)
     since = cause.since.isoformat() if cause else ""
     changes = ", ".join(
@@ -133,9 +135,10 @@ def _report_change(
         for each in stepped
         if each.step
     )
-    text = f"{told}: {_SINCE.given(changes=changes, since=since).in_language(language)}"
+    text = named(name, _SINCE.given(changes=changes, since=since)).in_language(language)
     if cause and cause.effect:
-        text += f"; {cause.effect} {_write_signed(cause.change, cause.unit, language)}"
+        effect = f"{cause.effect} {_write_signed(cause.change, cause.unit, language)}"
+        text = join_parts((text, effect), language)
     if cause and cause.after:
         text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
     return News(NewsKind.CHANGED, f"{machine}|{axis}|{since}", text)

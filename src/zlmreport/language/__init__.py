@@ -123,6 +123,17 @@ def join_parts(parts: Iterable[str], language: Language) -> str:
     return _BESIDE.given(first="", second="").in_language(language).join(parts)
 
 
+@dataclass(frozen=True, slots=True)
+class PartRow:
+    """Parts of a line one behind the other, with semicolons between them as each language sets them."""
+
+    parts: tuple[str | Said, ...]
+
+    def in_language(self, language: Language) -> str:
+        """Return the row in one language."""
+        return join_parts((_write_in(each, language) for each in self.parts), language)
+
+
 def _write_in(value: str | float | Said, language: Language) -> str:
     if isinstance(value, str):
         return value

@@ -26,7 +26,7 @@ from zlmreport.document.certificate.build import GENERATOR, make_letterhead
 from zlmreport.document.certificate.document import Certificate, PageWords
 from zlmreport.document.certificate.own_look import read_logo
 from zlmreport.document.certificate.statements import write_person
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
@@ -110,7 +110,7 @@ def make_machine_document(
             cover=cover,
             sections=() if is_sheet else tuple(_lay_out_sections(material, registry, say)),
             page_words=PageWords.said(stated.language, f"{title} {machine.number}"),
-            description=f"{title}: {name}",
+            description=say(named(title, name)),
             measurements=_make_empty_measurement(),
             evaluations=(),
             generator=generator,

@@ -17,7 +17,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.units import ANGLES
+from zlmreport.measurement.units import ANGLES, with_unit, write_behind
 
 Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]]
 
@@ -261,7 +261,7 @@ def _check_targets_lie_on_the_travel(
                 places[reading],
                 f"target {_write_position(measurements, index)} lies off the travel "
                 "(axis.travel in the job), "
-                f"{unit.from_si(first):.9g} to {unit.from_si(last):.9g} {unit.symbol}",
+                f"{unit.from_si(first):.9g} to {unit.from_si(last):.9g}{write_behind(unit.symbol)}",
             )
 
 
@@ -319,7 +319,7 @@ def _check_deviations_are_credible(
     beyond = np.flatnonzero(np.abs(measurements.deviation) > largest).tolist()
     axis = measurements.axis
     unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
-    limit = f"{what}, {unit.from_si(largest):.9g} {unit.symbol}"
+    limit = f"{what}, {unit.from_si(largest):.9g}{write_behind(unit.symbol)}"
     advice = "is it a position given as deviation, or a wrong unit?"
     if 2 * len(beyond) > np.count_nonzero(~np.isnan(measurements.deviation)) > 2:
         yield Problem(
@@ -328,10 +328,8 @@ def _check_deviations_are_credible(
         return
     for reading in beyond:
         value = axis.deviation_unit.from_si(float(measurements.deviation[reading]))
-        yield Problem(
-            places[reading],
-            f"the deviation, {value:.9g} {axis.deviation_unit.symbol}, is larger than {limit}; {advice}",
-        )
+        deviation = with_unit(f"{value:.9g}", axis.deviation_unit.symbol)
+        yield Problem(places[reading], f"the deviation, {deviation}, is larger than {limit}; {advice}")
 
 
 def _check_something_was_read(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
@@ -423,7 +421,7 @@ def _find_largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
 
 def _write_position(measurements: MeasurementSet, index: int) -> str:
     unit = measurements.axis.position_unit
-    return f"{unit.from_si(float(measurements.target_positions[index])):.9g} {unit.symbol}"
+    return with_unit(f"{unit.from_si(float(measurements.target_positions[index])):.9g}", unit.symbol)
 
 
 def _name_reading(measurements: MeasurementSet, reading: int) -> str:

@@ -40,7 +40,9 @@ from zlmreport.job.types import (
 )
 from zlmreport.language import (
     Language,
+    PartRow,
     Words,
+    named,
     same as same_in_all_languages,
 )
 from zlmreport.language.formatting import (
@@ -191,6 +193,7 @@ __all__ = [
     "NominalCircle",
     "NotNegative",
     "Options",
+    "PartRow",
     "Place",
     "Positive",
     "Problem",
@@ -206,6 +209,7 @@ __all__ = [
     "held_together",
     "hookimpl",
     "measurands_of",
+    "named",
     "position_units",
     "quoted",
     "read_only_floats",

@@ -20,7 +20,7 @@ from zlmreport.files import demand
 from zlmreport.job.days import find_days_to_come, read_clock
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Words, same
+from zlmreport.language import PartRow, Words, same
 from zlmreport.plugin.protocols import Renderer, find_relationship_of, is_made_by
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification import attached, pages, readers, structure, table, values
@@ -446,9 +446,7 @@ def _find_on_signatures(state: SignatureState, *, is_required: bool) -> CheckedS
 
 def _join_statements(parts: Sequence[Words]) -> Words:
     """Return statements in a row."""
-    names = [f"part_{number}" for number in range(len(parts))]
-    frame = "; ".join(f"{{{name}}}" for name in names)
-    return Words(frame, values=dict(zip(names, parts, strict=True)))
+    return same(PartRow(tuple(parts)))
 
 
 def _say_signed(signature: Signature) -> Words:

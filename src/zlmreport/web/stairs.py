@@ -13,6 +13,7 @@ from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.language import Language
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.report import list_alternatives
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.naming import Naming
@@ -36,7 +37,7 @@ def _list_stairs(
 
     def written(value: float | None) -> str:
         number = write_deviation(None if value is None else unit.to_si(value), job.axis, language)
-        return f"{number} {unit.symbol}"
+        return with_unit(number, unit.symbol)
 
     for each in steps:
         removed = bool(each.get("removed"))

@@ -148,7 +148,11 @@ def test_a_name_that_is_not_seen_or_not_taken_everywhere_is_made_plain(tmp_path:
 
 @pytest.mark.parametrize(
     ("language", "description"),
-    [(Language.ENGLISH, "Readings: six.txt"), (Language.GERMAN, "Messwerte: six.txt")],
+    [
+        (Language.ENGLISH, "Readings: six.txt"),
+        (Language.GERMAN, "Messwerte: six.txt"),
+        (Language.FRENCH, "Lectures\N{NO-BREAK SPACE}: six.txt"),
+    ],
 )
 def test_an_attachment_says_what_it_is(tmp_path: Path, language: Language, description: str) -> None:
     *_, last = attach_sources(composed(tmp_path).sources, language)

@@ -7,6 +7,7 @@ import pytest
 
 from document.certificate.documents import certificate, having, lines_of
 from document.certificate.everything import EVERYTHING, write_tables
+from zlmreport.document.blocks import Facts
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -33,3 +34,11 @@ def test_the_wording_is_what_was_read_and_approved(tmp_path, language, kind):
     if os.environ.get("ZLMREPORT_APPROVE"):
         approved.write_text(text, encoding="utf-8")
     assert text == approved.read_text(encoding="utf-8")
+
+
+def test_in_french_a_space_stands_before_the_colon_within_what_was_measured(tmp_path):
+    write_tables(tmp_path)
+    document = certificate(tmp_path, having("certificate.language", "fr", EVERYTHING))
+    blocks = (block for section in document.sections for block in section.blocks)
+    values = [value for block in blocks if isinstance(block, Facts) for _, value in block.pairs]
+    assert any("EYY (VDI/VDE 2617-3\N{NO-BREAK SPACE}: ypy)" in value for value in values)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -71,6 +72,15 @@ def test_a_value_without_uncertainty_says_how_it_is_known(
     for language, expected in ((ENGLISH, english), (GERMAN, german)):
         (row,) = [each for each in make_parameter_rows(fit, language) if each.effect == "backlash"]
         assert write_in_a_sentence(row, language) == expected
+
+
+def test_a_sign_of_seconds_touches_the_value_and_follows_both_numbers_of_a_pair() -> None:
+    (row,) = [
+        each for each in make_parameter_rows(example_history()[-1].fit, ENGLISH) if each.effect == "backlash"
+    ]
+    said = write_in_a_sentence(replace(row, unit="″"), ENGLISH)
+    assert said.startswith(f"lost_motion ({row.value} ± {row.uncertainty})″")
+    assert write_in_a_sentence(row, ENGLISH).startswith(f"lost_motion {row.value} ± {row.uncertainty} µm")
 
 
 def test_a_polynomial_has_the_decimal_sign_of_its_language() -> None:

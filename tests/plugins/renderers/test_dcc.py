@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -265,3 +266,15 @@ def test_characters_that_xml_cannot_hold_become_visible(tmp_path):
 
 def _with_parameters(made: Certificate, parameters: tuple[Any, ...]) -> Certificate:
     return replace(made, evaluations=(replace(made.evaluations[0], parameters=parameters),))
+
+
+def test_in_french_a_space_stands_before_a_colon_and_a_semicolon(tmp_path):
+    french = {**KEYS, "certificate": {**KEYS["certificate"], "language": "fr"}}
+    statements = document(tmp_path, french).findall(".//dcc:statement//dcc:content", NAMES)
+    texts = ["".join(each.itertext()) for each in statements]
+    # In formulas semicolons part arguments: max(a; b).
+    bare = [each for each in texts if re.search(r"\S[:;?!](?= |$)", each) and "max(" not in each]
+
+    assert bare == []
+    assert any(each.startswith("Axe : Y") for each in texts)
+    assert any(" ; Résultat : " in each for each in texts)

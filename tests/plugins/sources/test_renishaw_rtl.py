@@ -10,6 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
+from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
@@ -281,3 +282,14 @@ def test_equipment_is_kept_and_an_unknown_unit_is_not_guessed(file: File) -> Non
 def test_a_condition_that_is_no_number_is_named(file: File) -> None:
     content = specimen(BIDIRECTIONAL, more="ENVIRONMENT::\nAir temp : warm 20 0\n")
     assert file.complaint(content) == "x.rtl:17:1: Air temp: 'warm' stands where a number belongs"
+
+
+def test_lines_of_the_file_are_parted_as_each_language_parts_them(file: File) -> None:
+    measurements = file.read(specimen(BIDIRECTIONAL, more="USER-TEXT::\nMachine 7\nHall 3\n"))
+    (remark,) = (
+        each for each in measurements.provenance.remarks if each.en.startswith("User’s text in the file")
+    )
+    assert remark.in_language(Language.ENGLISH).endswith(": Machine 7; Hall 3.")
+    assert remark.in_language(Language.FRENCH).endswith(
+        "\N{NO-BREAK SPACE}: Machine 7\N{NO-BREAK SPACE}; Hall 3."
+    )

@@ -191,6 +191,23 @@ def test_displacements_and_temperatures_share_one_axis_of_time() -> None:
     np.testing.assert_allclose(air.x, figure.panels[0].curves[0].x)
 
 
+@pytest.mark.parametrize(
+    ("language", "told"),
+    [
+        (Language.ENGLISH, "Air temperature 2.4 K; spindle temperature 3 K"),
+        (Language.FRENCH, "Température de l’air 2,4 K\N{NO-BREAK SPACE}; spindle temperature 3 K"),
+    ],
+)
+def test_the_ranges_of_temperatures_are_parted_as_each_language_parts_them(
+    language: Language, told: str
+) -> None:
+    logged = {"air_temperature": 293.15 + HOURS / 10, "spindle_temperature": 21 + HOURS / 8}
+    findings = together(replace(sensor("X", wave(5)), conditions=logged)).findings
+    texts = [(each.requirement.in_language(Language.ENGLISH), each.found) for each in findings]
+    (ranges,) = (text for requirement, text in texts if requirement.startswith("Temperatures recorded"))
+    assert ranges.in_language(language) == told
+
+
 def test_curves_begin_at_zero_whatever_the_sensors_showed() -> None:
     evaluation = together(sensor("X", 300 + wave(5)), sensor("Y", -80 + wave(2)))
     (figure,) = STANDARD.figures(evaluation, STANDARD.options())

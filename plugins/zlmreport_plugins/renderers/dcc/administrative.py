@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from zlmreport.plugin import CONDITION_NAMES, InputError, Language, Problem, Words
+from zlmreport.plugin import CONDITION_NAMES, InputError, Language, PartRow, Problem, Words, named
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import (
     DIGEST,
@@ -320,14 +320,14 @@ def _make_condition(
 
 def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
     """Yield the statements, in the order of the pages and each once."""
-    language = certificate.language.value
+    language = certificate.language
     of = certificate.parts.values() or [certificate]
     measured = (each.measurements for each in of)
     traceable = traceable_through(certificate.job, *measured) if certificate.job else None
-    traceability = traceable and traceable.in_language(certificate.language)
+    traceability = traceable and traceable.in_language(language)
 
     def content(text: str) -> ET.Element:
-        return dcc("content", text, lang=language)
+        return dcc("content", text, lang=language.value)
 
     def statement(name: str, text: str = "", items: tuple[str, ...] = ()) -> ET.Element:
         return dcc(
@@ -344,7 +344,7 @@ def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
         yield statement(letterhead.laboratory.name, letterhead.accreditation)
     said: set[tuple[str, tuple[str, ...]]] = {("", ())}
     for title, blocks in _list_parts(certificate):
-        for name, text, items in (each for block in blocks for each in _list_said(block, title)):
+        for name, text, items in (each for block in blocks for each in _list_said(block, title, language)):
             if (text, items) not in said:
                 said.add((text, items))
                 yield statement(name, text, items)
@@ -367,15 +367,15 @@ def _is_by_position(table: Table) -> bool:
     return isinstance(table.columns[0].heading, Symbol)
 
 
-def _list_said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+def _list_said(block: Block, title: str, language: Language) -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Yield what a block says: name, text, items; a graph says nothing that a table does not."""
     match block:
         case Paragraph(text, verdict=verdict):
-            yield title, f"{verdict.word}: {text}" if verdict else text, ()
+            yield title, named(verdict.word, text).in_language(language) if verdict else text, ()
         case Notice(heading, items):
             yield title, heading, items
         case Facts(pairs, heading):
-            yield heading or title, "", tuple(f"{name}: {value}" for name, value in pairs)
+            yield heading or title, "", tuple(named(*pair).in_language(language) for pair in pairs)
         case Formulas(caption, rows):
             yield (
                 title,
@@ -386,16 +386,18 @@ def _list_said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, 
             headings = tuple(
                 " ".join(filter(None, (_write_cell(each.heading), each.unit))) for each in columns
             )
-            yield title, caption, tuple(row for group in groups for row in _list_rows(group, headings))
+            lines = (row for group in groups for row in _list_rows(group, headings, language))
+            yield title, caption, tuple(lines)
 
 
-def _list_rows(group: RowGroup, headings: tuple[str, ...]) -> Iterator[str]:
-    before = f"{group.heading}: " if group.heading else ""
+def _list_rows(group: RowGroup, headings: tuple[str, ...], language: Language) -> Iterator[str]:
+    before = named(group.heading, "").in_language(language) if group.heading else ""
     if group.note:
         yield before + group.note
     for row in group.rows:
         cells = ((heading, _write_cell(cell)) for heading, cell in zip(headings, row, strict=True))
-        yield before + "; ".join(f"{heading}: {cell}" for heading, cell in cells if cell)
+        said = PartRow(tuple(named(heading, cell) for heading, cell in cells if cell))
+        yield before + said.in_language(language)
 
 
 def _write_cell(cell: Cell) -> str:

@@ -17,6 +17,7 @@ from zlmreport.plugin import (
     JobPath,
     MeasurementSet,
     Options,
+    PartRow,
     Place,
     Problem,
     Unit,
@@ -85,7 +86,7 @@ def list_remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) ->
             lines = (" ".join(line.text.split())[:_LONGEST] for line in sections[name].lines)
             said = [line for line in lines if not line.endswith(":")]
             if said:
-                yield introduction.given(text="; ".join(said))
+                yield introduction.given(text=PartRow(tuple(said)))
     if "ENVIRONMENT" in sections:
         for entry in sections["ENVIRONMENT"].list_entries():
             try:

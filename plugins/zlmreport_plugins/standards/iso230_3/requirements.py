@@ -15,6 +15,7 @@ from zlmreport.plugin import (
     BoolArray,
     FloatArray,
     MeasurementSet,
+    PartRow,
     Words,
     same_in_all_languages,
 )
@@ -157,14 +158,13 @@ def _check_temperatures(tests: Mapping[str, MeasurementSet]) -> Finding:
                 found.setdefault(name, float(np.nanmax(values) - np.nanmin(values)))
     if not found:
         return Finding(_BESIDE, _NONE, met=False)
-    parts = [
-        (CONDITION_NAMES.get(name) or same_in_all_languages(name.replace("_", " ")), float(f"{span:.2g}"))
-        for name, span in found.items()
-    ]
-    phrase = "; ".join(f"{{name{number}}} {{span{number}}} K" for number in range(len(parts)))
-    given = {f"name{number}": name for number, (name, _) in enumerate(parts)}
-    spans = {f"span{number}": span for number, (_, span) in enumerate(parts)}
-    return Finding(_BESIDE, Words(phrase).given(**given, **spans), met=True)
+    spans = tuple(_say_span(name, span) for name, span in found.items())
+    return Finding(_BESIDE, same_in_all_languages(PartRow(spans)), met=True)
+
+
+def _say_span(name: str, span: float) -> Words:
+    condition = CONDITION_NAMES.get(name) or same_in_all_languages(name.replace("_", " "))
+    return _SPAN.given(name=condition, span=float(f"{span:.2g}"))
 
 
 def _complete(tests: Mapping[str, MeasurementSet]) -> Finding:
@@ -222,6 +222,7 @@ _NO_DISTANCE = Words("their distance is not stated (distance: {{{letter}: …}})
 _NO_PAIR = Words(
     "a distance is stated (distance: {letter}), and not both were measured; the tilt is not reported"
 )
+_SPAN = Words("{name} {span} K")
 _BESIDE = Words("Temperatures recorded beside the displacements, with their ranges")
 _NONE = Words("none")
 _NO_MISSING = Words("No reading missing")

@@ -23,6 +23,7 @@ from zlmreport.plugin import (
     JobPart,
     MeasurementSet,
     Options,
+    PartRow,
     Words,
     hookimpl,
     same_in_all_languages,
@@ -268,7 +269,7 @@ def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
             key=key,
             title=title,
             alternative=_SEEN.given(
-                values=same_in_all_languages("; ".join(shown)), largest=_say_largest(evaluation, shown)
+                values=same_in_all_languages(PartRow(tuple(shown))), largest=_say_largest(evaluation, shown)
             ),
             x_title=_ALONG,
             y_title=_DEVIATION,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from zlmreport.errors import InputError, Place
 from zlmreport.job.tree import Keys, walk_scalars
 from zlmreport.job.types import find_path_from_job
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, named
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -183,7 +183,7 @@ def attach_sources(sources: Iterable[Source], language: Language) -> Iterator[At
     """Yield the sources as attachments; one whose reader did not keep its bytes cannot be attached."""
     for source in sources:
         if source.file.content is not None:
-            description = f"{_TITLES[source.role].in_language(language)}: {_clean(source.path, kept='/')}"
+            description = named(_TITLES[source.role], _clean(source.path, kept="/")).in_language(language)
             yield Attachment(
                 source.name,
                 source.file.content,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from zlmreport.document.certificate.circumstances import Fact, write_with_unit
-from zlmreport.language import Words
+from zlmreport.language import Words, join_parts
 from zlmreport.measurement import units
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -
         first = int(measurements.target[np.flatnonzero(measurements.approach == approach)[0]])
         angle = units.with_unit(writer.position(float(measurements.target_positions[first])), "°")
         begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
-    yield Fact(Words("Evaluated from"), "; ".join(begins), source)
+    yield Fact(Words("Evaluated from"), join_parts(begins, writer.language), source)
     yield Fact(Words("Angles"), writer.say(_write_angles(measurements, writer)), source)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from zlmreport.evaluation.checks import runs_in_words
-from zlmreport.language import Words, join_parts
+from zlmreport.language import Words, join_parts, named
 from zlmreport.measurement import units
 from zlmreport.measurement.error_symbol import ROTARY_AXES, find_error_named
 from zlmreport.measurement.measurand import Coordinate
@@ -96,6 +96,7 @@ def list_measurement_facts(
 
 
 _MEASURED = Words("{subject}: {sign}")
+_BOTH_SYMBOLS = Words("{error} ({of_guideline})")
 
 
 def _write_measured(measurement: Measurement, measurements: MeasurementSet, writer: Writer) -> str | None:
@@ -105,9 +106,9 @@ def _write_measured(measurement: Measurement, measurements: MeasurementSet, writ
         return None
     subject = axis.subject
     if axis.error and measurement.symbols == "vdi-vde-2617-3":
-        subject = axis.measurand.named(
-            axis.name, f"{axis.error} (VDI/VDE 2617-3: {find_error_named(axis.error).vdi})"
-        )
+        of_guideline = named("VDI/VDE 2617-3", find_error_named(axis.error).vdi)
+        symbol = _BOTH_SYMBOLS.given(error=axis.error, of_guideline=of_guideline)
+        subject = axis.measurand.named(axis.name, symbol)
     return writer.say(_MEASURED.given(subject=subject, sign=axis.measurand.sign_of(axis.letter)))
 
 

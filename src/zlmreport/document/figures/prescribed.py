@@ -26,7 +26,7 @@ from zlmreport.document.figures.figure import (
 )
 from zlmreport.evaluation.checks import deviation_in_words, position_in_words, positions_in_words
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.language import Words
+from zlmreport.language import PartRow, Words
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, read_only_floats
@@ -261,7 +261,7 @@ def _name_ranges(evaluation: Evaluation, name: Words) -> list[Words]:
 
 def alternative_text(*sentences: Words | None) -> Words:
     """Return the sentences as one text; None is left out."""
-    return _join_phrases([sentence for sentence in sentences if sentence is not None], " ")
+    return _join_sentences([sentence for sentence in sentences if sentence is not None])
 
 
 def graph_in_words(evaluation: Evaluation) -> Words:
@@ -295,7 +295,7 @@ def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None
         _describe_arrow(axis, mark) if isinstance(mark, Arrow) else _describe_bracket(axis, mark)
         for mark in found
     ]
-    return Words("{marks}.").given(marks=_join_phrases(written, "; ")) if written else None
+    return Words("{marks}.").given(marks=PartRow(tuple(written))) if written else None
 
 
 def _describe_arrow(axis: Axis, arrow: Arrow) -> Words:
@@ -317,6 +317,6 @@ def _describe_bracket(axis: Axis, bracket: Bracket) -> Words:
     )
 
 
-def _join_phrases(phrases: list[Words], between: str) -> Words:
-    pattern = between.join(f"{{part{number}}}" for number in range(len(phrases)))
-    return Words(pattern, values={f"part{number}": phrase for number, phrase in enumerate(phrases)})
+def _join_sentences(sentences: list[Words]) -> Words:
+    pattern = " ".join(f"{{part{number}}}" for number in range(len(sentences)))
+    return Words(pattern, values={f"part{number}": each for number, each in enumerate(sentences)})

@@ -252,10 +252,10 @@ def write_in_a_sentence(row: ParameterRow, language: Language) -> str:
     notes: list[Words | str] = []
     if row.uncertainty:
         notes += [_GRID] if row.is_on_grid else []
-        amount = f"{row.value} ± {row.uncertainty} {row.unit}"
+        amount = with_unit(f"{row.value} ± {row.uncertainty}", row.unit)
     else:
         notes.append(_say_how_it_is_known(row))
-        amount = f"{row.value} {row.unit}"
+        amount = with_unit(row.value, row.unit)
     if row.plausibility in _DOUBTS:
         notes.append(_DOUBTS[row.plausibility])
     elif row.expected and not row.is_given:

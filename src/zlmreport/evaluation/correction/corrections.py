@@ -29,7 +29,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet, find_step
 from zlmreport.measurement.provenance import Correction, Exclusion
 from zlmreport.measurement.refractive_index import compute_standard_index, refractive_index
-from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, compute_above_reference
+from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, compute_above_reference, with_unit
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6
@@ -218,7 +218,7 @@ def _find_reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
 
 
 def _write_position(axis: Axis, value: float) -> str:
-    return f"{write_general_number(value)} {axis.position_unit.symbol}"
+    return with_unit(write_general_number(value), axis.position_unit.symbol)
 
 
 _NANOMETRE = 1e-9

@@ -35,7 +35,7 @@ _HALF = 0.5
 #: Of forms, by their carrier; along the axis otherwise.
 _COURSES = {"D": Course.REVERSAL, "time": Course.TIME, "lever": Course.SLOPE}
 _SECOND = Unit("s", "s", 1.0)
-_ABOUT = Words("about {place}")
+_ABOUT = Words("around {place}")
 _BETWEEN = Words("{first} to {last}")
 _MOST_AT = Words("most at {place}")
 _IRREGULAR = Words("more than the repeats scatter, but neither smooth nor of a form")

@@ -63,11 +63,15 @@ def demand_effects_for(job: Job, effects: Sequence[Effect]) -> None:
     measurand = job.axis.measurand
     own = any(each.is_formula for each in (*job.effects, *job.candidates))
     if not own and not any(is_for(each, measurand) for each in effects):
+        way = (
+            "the effects of a circle are found by 'zlmreport machine diagnose', from a machine file that "
+            "names this job among its tests"
+            if measurand.is_closed
+            else "a formula of your own does: model.candidates"
+        )
         raise InputError.at(
             job.place_of("measurement.error"),
-            f"this job is on {measurand.identifier}, and no installed effect acts on that; a formula of "
-            f"your own "
-            "does: model.candidates",
+            f"this job is on {measurand.identifier}, and no installed effect acts on that; {way}",
         )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import Unit
+from zlmreport.measurement.units import Unit, write_behind
 
 _OF_THE_READINGS = (math.nan, math.nan)
 _ROUNDING = 1e-12
@@ -173,9 +173,10 @@ def list_outside_of_measured(
     first, last = (unit.from_si(end) for end in span)
     # Positions come in decimal units: an end itself may be off by a rounding.
     slack = _ROUNDING * max(map(abs, span))
+    behind = write_behind(unit.symbol)
     return [
-        f"{name} = {unit.from_si(position):g} {unit.symbol} lies outside of what was measured, "
-        f"{first:g} to {last:g} {unit.symbol}"
+        f"{name} = {unit.from_si(position):g}{behind} lies outside of what was measured, "
+        f"{first:g} to {last:g}{behind}"
         for position in positions.tolist()
         if not span[0] - slack <= position <= span[1] + slack
     ]
