@@ -3,10 +3,13 @@
 Two to four causes of the catalogue act together, each of 1.5 to 4 σ beyond a constant, on half of the axes a
 stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 to 3 µm. What is found is told
 axis by axis: a cause counts as found if it stands in the model at the end. What is said is wrong where
-neither a name nor one of those that are named as its equals has a cause of its own; where a stranger changes
-the gap between the directions, lost motion is the mean of that gap. A stranger counts as placed if it is
-larger where what is left without a name is told to lie than elsewhere. Strangers that one or two installed
-effects describe as well are no strangers to an observer who knows all of these: they stand in brackets.
+neither a name nor one of those that are named as its equals has a cause of its own, or is a part of one by
+its definition, as a slope is of a polynomial. Where a stranger changes the gap between the directions, lost
+motion is the mean of that gap, and where it changes a slope, a scale error the mean of that.
+
+A stranger counts as placed if it is larger where what is left without a name is told to lie than elsewhere.
+Strangers that one or two installed effects describe as well are no strangers to an observer who knows all of
+these: they stand in brackets.
 """
 
 from __future__ import annotations
@@ -23,7 +26,7 @@ from hidden_effects.hidden import drawn_effect
 from hidden_effects.ideal import kind_of, tells_stranger, told_apart
 from hidden_effects.judge import INSTALLED
 from hidden_effects.sizes import base_columns
-from hidden_effects.strangers import NUMBERS_OF, STRANGERS
+from hidden_effects.strangers import NUMBERS_OF, OF_A_SLOPE, STRANGERS
 from hidden_effects.trial import EFFECTS, OF_A_GAUGE, drawn_stranger, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
@@ -46,8 +49,11 @@ _ROTARY_SHARE = 0.2
 _SEED = 20_261_126
 #: The constant is in the model, and a cosine error is a scale error.
 _NOT_DRAWN = OF_A_GAUGE | {"offset", "cosine-error"}
-#: What the mean of a gap between the directions is called, and σ² of readings from which on it is seen.
-_MEAN_GAP, _SEEN = "backlash", 16.0
+#: What the mean of a gap between the directions and that of a slope are called, and from what on they are
+#: seen, in squares of their uncertainty.
+_MEAN_GAP, _MEAN_SLOPE, _SEEN = "backlash", "scale-error", 16.0
+#: How much is most of a stranger, and the share of what was measured that one takes which lies everywhere.
+_MOST, _HALF = 0.8, 0.5
 #: Error over σ up to which nothing but noise is left.
 DOWN_TO_NOISE = 1.15
 
@@ -69,7 +75,13 @@ class Drawn:
     @property
     def in_stranger(self) -> tuple[str, ...]:
         """Effects that the stranger has by their definition."""
-        return (_MEAN_GAP,) if self.beside is not None and _has_mean_gap(self) else ()
+        if self.beside is None:
+            return ()
+        design = self.observed.design
+        parts = [(_MEAN_GAP, design.direction)]
+        if self.stranger in OF_A_SLOPE:
+            parts.append((_MEAN_SLOPE, design.position))
+        return tuple(name for name, along in parts if _is_seen(self.beside, along, self.sigma))
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,12 +119,13 @@ class Outcome:
 
     @property
     def wrong(self) -> tuple[str, ...]:
-        """Those where what is said is wrong: no cause that has no name yet is among their equals."""
+        """Those where what is said is wrong: no cause that has no name yet is said, or has them as a part."""
         own = (*self.drawn.causes, *self.drawn.in_stranger)
         unnamed = [each for each in own if each not in self.built]
         found = []
         for each in self.others:
-            own = next((other for other in unnamed if other in self.equals.get(each, frozenset())), None)
+            said = {each, *self.equals.get(each, ())}
+            own = next((other for other in unnamed if said & {other, *EFFECTS[other].contains}), None)
             if own is not None:
                 unnamed.remove(own)
             elif each not in self.drawn.in_stranger:
@@ -120,15 +133,11 @@ class Outcome:
         return tuple(found)
 
 
-def _has_mean_gap(drawn: Drawn) -> bool:
-    """Return whether the stranger has a gap between the directions whose mean is seen."""
-    assert drawn.beside is not None
-    up = drawn.observed.design.direction > 0
-    if up.all() or not up.any():
-        return False
-    gap = float(drawn.beside[up].mean() - drawn.beside[~up].mean())
-    uncertainty = drawn.sigma * (1.0 / np.count_nonzero(up) + 1.0 / np.count_nonzero(~up)) ** 0.5
-    return gap**2 > _SEEN * uncertainty**2
+def _is_seen(deviation: FloatArray, along: FloatArray, sigma: float) -> bool:
+    """Return whether the share of a deviation that is proportional to something is seen beside noise."""
+    lever = along - along.mean()
+    squares = float(lever @ lever)
+    return squares > 0.0 and float(lever @ deviation) ** 2 > _SEEN * sigma**2 * squares
 
 
 def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
@@ -212,14 +221,32 @@ def followed(drawn: Drawn) -> Outcome:
 
 
 def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
-    """Return whether the stranger is larger between the ends of a remainder than beyond them."""
+    """Return whether the stranger is larger between the ends of a remainder, or in its run, than elsewhere.
+
+    Of one that is told to lie in all that was measured, whether more than half of that is needed to hold most
+    of it.
+    """
     if drawn.beside is None:
         return False
     design = drawn.observed.design
     where = design.time if remainder.unit.symbol == "s" else design.position
     is_inside = (remainder.low <= where) & (where <= remainder.high)
+    if "run" in remainder.where.values:
+        is_inside = design.cycle == remainder.where.values["run"]  # of pendulum runs each lasts all the time
     inside, outside = drawn.beside[is_inside] ** 2, drawn.beside[~is_inside] ** 2
-    return len(inside) > 0 and (len(outside) == 0 or float(inside.mean()) > float(outside.mean()))
+    if len(outside) == 0:
+        return _find_least_share(where, inside) > _HALF
+    return len(inside) > 0 and float(inside.mean()) > float(outside.mean())
+
+
+def _find_least_share(where: FloatArray, squares: FloatArray) -> float:
+    """Return the share of what was measured that is needed to hold most of some squares."""
+    order = np.argsort(where, kind="stable")
+    along, held = where[order], np.cumsum(squares[order])
+    before = np.concatenate([[0.0], held[:-1]])
+    last = np.searchsorted(held, before + _MOST * held[-1])
+    is_held = last < len(along)
+    return float(np.min(along[last[is_held]] - along[is_held]) / np.ptp(along))
 
 
 def report(outcomes: Sequence[Outcome]) -> str:

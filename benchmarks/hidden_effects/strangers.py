@@ -135,6 +135,8 @@ STRANGERS: Mapping[str, Stranger] = {
     "runs apart": _runs_apart,
     "slopes of runs apart": _slopes_of_runs,
 }
+#: Those that act in proportion to the position: they have a slope on the average.
+OF_A_SLOPE = frozenset({"slope smooth in time", "slope that jumps", "slopes of runs apart"})
 #: How many numbers decide a shape, its size among them; the other kinds are random curves or numbers.
 NUMBERS_OF: Mapping[str, int] = {
     "bump in position": 3,

@@ -58,7 +58,7 @@ def test_many_names_that_one_curve_replaces_are_not_told() -> None:
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
     assert {each.identifier for each in found.together} <= set(drawn.causes)
     assert found.remainder is not None
-    assert is_where_told(found.remainder, drawn)
+    assert found.remainder.course is Course.PLACE
 
 
 @pytest.mark.long
@@ -85,6 +85,8 @@ def test_what_changes_without_a_name_is_no_slip_in_recording(number: int, cause:
     [
         9020,  # a step of the zero and a wave in time, which a single curve in time nearly describes
         10015,  # a displaced run, in the place of which a slope beside a curve is as good
+        15001,  # a polynomial, in the place of which a smooth curve is as good
+        16027,  # three, beside which a fourth is needless, and then two go for a curve
     ],
 )
 def test_causes_are_built_down_to_the_noise_each_by_its_name(number: int) -> None:
@@ -100,6 +102,28 @@ def test_what_is_irregular_does_not_take_in_what_has_a_name() -> None:
     )  # whole increments of a control, a pitch, a stretch displaced
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
     assert {"compensation-sign", "control-increment"} <= {each.identifier for each in found.together}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("number", "causes"),
+    [
+        (15004, {"first-run", "run-displaced", "scale-kink"}),  # slopes of runs apart, about the zero
+        (15016, {"control-increment", "datum-step", "thermal-drift"}),  # a saw along the axis
+    ],
+)
+def test_a_slope_that_changes_is_nothing_at_the_zero_of_the_axis(number: int, causes: set[str]) -> None:
+    drawn = drawn_axis(number, with_stranger=True)
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert {each.identifier for each in found.together} == causes
+
+
+@pytest.mark.long
+def test_what_is_sure_stays_where_something_beside_it_is_not() -> None:
+    # Runs apart, and warmth of which several effects may be the cause.
+    drawn = drawn_axis(12006, with_stranger=True)
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert [each.identifier for each in found.together] == ["backlash"]
 
 
 @pytest.mark.long
@@ -153,6 +177,23 @@ def test_lost_motion_is_the_mean_of_a_gap_that_changes(mean: float, names: tuple
     assert said.wrong == (() if names else ("backlash-gradient",))
 
 
+def test_scale_error_is_the_mean_of_a_slope_that_changes() -> None:
+    drawn = _draw_beside()
+    slope = 5.0 * drawn.sigma * drawn.observed.design.position
+    changing = replace(drawn, stranger="slope that jumps", beside=slope - slope.mean())
+    assert "scale-error" in changing.in_stranger
+    assert "scale-error" not in replace(changing, stranger="chirp in position").in_stranger
+
+
+def test_what_a_cause_has_as_a_part_by_its_definition_is_no_wrong_name() -> None:
+    drawn = replace(_draw_alone(), causes=("backlash", "polynomial"))
+    built = ("backlash", "scale-error")
+    part = Outcome(drawn, built, {}, 1.0, remainder=True, is_placed=False, seconds=2.0)
+    assert part.wrong == ()
+    whole = replace(part, built=(*built, "polynomial"))
+    assert whole.wrong == ("scale-error",)
+
+
 def _left(low: float, high: float, unit: Unit = MILLIMETRE) -> Remainder:
     """Return what is told to be left between two places, or moments."""
     nowhere = Words("anywhere")
@@ -170,8 +211,25 @@ def test_a_stranger_is_placed_where_it_is_larger_than_elsewhere() -> None:
     assert is_where_told(_left(0.3, 0.5), bump)
     assert not is_where_told(_left(0.6, 0.9), bump)
     assert not is_where_told(_left(2.0, 3.0), bump)  # no reading lies there
-    assert is_where_told(_left(*drawn.observed.design.span), bump)
     assert not is_where_told(_left(0.3, 0.5), drawn)
+
+
+def test_only_a_stranger_that_takes_most_of_the_axis_lies_in_all_of_it() -> None:
+    drawn = _draw_alone()
+    where = drawn.observed.design.position
+    all_of_it = _left(*drawn.observed.design.span)
+    assert is_where_told(all_of_it, _with_stranger(drawn, np.sin(40 * where)))
+    assert not is_where_told(all_of_it, _with_stranger(drawn, np.exp(-0.5 * ((where - 0.4) / 0.05) ** 2)))
+
+
+def test_a_stranger_of_one_run_is_placed_by_the_run() -> None:
+    drawn = _draw_alone()
+    cycle = drawn.observed.design.cycle
+    last = _with_stranger(drawn, 1.0 * (cycle == cycle.max()))
+    whole = _left(0.0, float(drawn.observed.design.time.max()), Unit("s", "s", 1.0))
+    for run in np.unique(cycle).tolist():
+        told = replace(whole, where=Words("most in run {run}").given(run=run))
+        assert is_where_told(told, last) == (run == cycle.max())
 
 
 def test_a_stranger_in_time_is_placed_by_the_moment() -> None:

@@ -176,7 +176,7 @@ def test_a_lever_that_comes_and_goes_is_placed_over_the_time_in_which_it_does() 
     first, second = (
         np.exp(-4 * np.log(2) * ((moment - at) / width) ** 2) for at, width in ((0.25, 0.17), (0.7, 0.33))
     )
-    left = _left(6 * UM * lever * (first - 1.6 * second))
+    left = _left(6 * UM * lever * (first - 3.0 * second))
     assert left is not None
     # At the middle of the travel it is nothing, and there the stretch does not end.
     assert left.low == pytest.approx(0.53 * DESIGN.duration, abs=0.06 * DESIGN.duration)

@@ -277,15 +277,24 @@ def _estimate_memory(stated: _Stated, found: EffectSet) -> float:
 
 
 def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
-    """Return a set without those that have no evidence of their own, one after another.
+    """Return a set without those that have no evidence of their own."""
+    is_whole = not search.has_nameless(found)
+    found = _drop_needless(search, found)
+    if not is_whole:
+        return _keep_sure(search, found)
+    # With enough names any curve is described: several that one curve replaces are not told.
+    for names, within in _REPLACED:
+        fewer = None if search.has_nameless(found) else search.find_fewer_beside_curve(found, names, within)
+        found = found if fewer is None else _drop_needless(search, fewer)
+    # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
+    return found
+
+
+def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
+    """Return a set without those that the readings do not ask for, one after another.
 
     Where several could stand in a place, it is their evidence together that something stands there.
     """
-    is_whole = not search.has_nameless(found)
-    if is_whole:
-        # With enough names any curve is described: several that one curve replaces are not told.
-        for names, within in _REPLACED:
-            found = search.find_fewer_beside_curve(found, names, within) or found
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
         order = sorted(range(len(without)), key=lambda each: without[each].score)
@@ -293,8 +302,7 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         if needless is None:
             break
         found = without[needless]
-    # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
-    return found if is_whole else _keep_sure(search, found)
+    return found
 
 
 def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:
@@ -303,8 +311,13 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
     `rest`: The set without it.
     """
     lost, is_named = rest.score - found.score, found.members[number].family.is_named
-    is_noise = len(found.members) > 1 and not search.has_nameless(rest)
-    needed = NAMED_BESIDE if is_named and is_noise else NAMED
+    needed = NAMED
+    if is_named and len(found.named) > 1:
+        if not search.has_nameless(rest):
+            needed = NAMED_BESIDE
+        elif not search.has_nameless(found):
+            # Where names explain all, none of them goes for a curve that is no better.
+            needed = -MENTION
     if 0.0 < lost < needed and is_named:
         # Each must be better than nothing by itself: many that are not make no cause together.
         rivals = search.list_rivals(found, rest, lost)
@@ -320,19 +333,37 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
     Of what has no name only the kind is known. A set that is told from the same set without an effect may be
     as likely as one in which other effects and another curve do the same; then that effect is not told.
     """
-    kept = []
-    for number, each in enumerate(found.members):
-        if not each.family.is_named:
-            continue
-        names = {find_installed_name(each.effect)}
-        evidence = search.compute_evidence_of(found, names)
-        if evidence < NAMED_BESIDE:
-            rivals = search.list_rivals(found, search.without(found, number), TOLD_APART)
-            names |= {find_installed_name(rival.members[-1].effect) for rival in rivals}
-            evidence = search.compute_evidence_of(found, names)
-        if evidence >= NAMED_BESIDE:
-            kept.append(each)
-    return found if len(kept) == len(found.named) else search.find_best_holding(found, kept)
+    kept = found
+    while kept.named:
+        # The least sure goes first, and what is then looked at may tell of the others; but each is held
+        # against the whole set: what little is left of it says nothing of what was in it.
+        for each in kept.named:
+            _list_rivals_of(search, kept, each)
+        evidence = [
+            _compute_evidence_of(search, found, each, _list_rivals_of(search, kept, each))
+            for each in kept.named
+        ]
+        if min(evidence) >= NAMED_BESIDE:
+            break
+        least = evidence.index(min(evidence))
+        kept = search.find_best_holding(kept, [*kept.named[:least], *kept.named[least + 1 :]])
+    return kept
+
+
+def _list_rivals_of(search: SetSearch, kept: EffectSet, member: SetMember) -> frozenset[str]:
+    """Return the effects that are not told from a member of a set, as they are installed."""
+    rest = search.without(kept, kept.members.index(member))
+    rivals = search.list_rivals(kept, rest, TOLD_APART)
+    return frozenset(find_installed_name(each.members[-1].effect) for each in rivals)
+
+
+def _compute_evidence_of(
+    search: SetSearch, found: EffectSet, member: SetMember, rivals: frozenset[str]
+) -> float:
+    """Return the evidence of a member of a set, or of it and its rivals together, against all other sets."""
+    name = find_installed_name(member.effect)
+    own = search.compute_evidence_of(found, {name})
+    return own if own >= NAMED_BESIDE else search.compute_evidence_of(found, rivals | {name})
 
 
 def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:

@@ -166,7 +166,7 @@ def make_irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
 
 def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
     along, moment = _normalise(design.position), _normalise(compute_working_time(design))
-    lever, direction = (2.0 * along - 1.0)[:, np.newaxis], design.direction[:, np.newaxis]
+    lever, direction = _find_lever(design)[:, np.newaxis], design.direction[:, np.newaxis]
     runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
     if runs.shape[1] > 1:
         yield _SLOPE_RUNS, Course.RUNS, lever * runs
@@ -183,6 +183,16 @@ def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]
             yield _SLOPE_TIME, Course.SLOPE, lever * time
             if design.is_bidirectional:
                 yield _DIRECTION_TIME, Course.REVERSAL_IN_TIME, direction * time
+
+
+def _find_lever(design: Design) -> FloatArray:
+    """Return the position as a share of the travel, from the zero of the axis or the end that is next to it.
+
+    What changes in proportion to the position is nothing there, as with every effect that has a name: a slope
+    about the middle would need a displacement beside it, and would be dearer than a name that is wrong.
+    """
+    low, high = design.span
+    return np.asarray((design.position - min(max(0.0, low), high)) / design.length, dtype=np.float64)
 
 
 def _normalise(values: FloatArray) -> FloatArray:

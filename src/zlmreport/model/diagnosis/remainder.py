@@ -13,7 +13,7 @@ import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Words
-from zlmreport.measurement.arrays import BoolArray, FloatArray
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember
 from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
@@ -30,8 +30,8 @@ _WORTH_SAYING = 2.5
 _FOLLOWS = 0.5
 #: Strength of a combination of columns, of the largest, below which they depend on each other.
 _DEPENDENT = 1e-9
-#: Of the largest, what still belongs to the place.
-_HALF = 0.5
+#: Of the squares of what is left, how much its place holds; and of what was measured, a stretch that is all.
+_MOST, _ALL = 0.8, 0.75
 #: Of forms, by their carrier; along the axis otherwise.
 _COURSES = {"D": Course.REVERSAL, "time": Course.TIME, "lever": Course.SLOPE}
 _SECOND = Unit("s", "s", 1.0)
@@ -261,12 +261,11 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     squares = np.bincount(group, weights=whole**2) / np.bincount(group)
     if is_time:
         squares = _average_over_passes(squares, len(design.target_positions))
-    means = np.sqrt(squares)
-    peak = int(np.argmax(means))
-    low, high = _find_ends_about(along, means >= _HALF * means[peak], peak)
-    if low <= along[0] and high >= along[-1]:
+    low, high = _find_shortest_stretch(along, squares)
+    if high - low > _ALL * (along[-1] - along[0]):
+        low, high = float(along[0]), float(along[-1])
         return _BETWEEN.given(first=say(low), last=say(high)), low, high, unit
-    return _ABOUT.given(place=say(float(along[peak]))), low, high, unit
+    return _ABOUT.given(place=say(float(along[int(np.argmax(squares))]))), low, high, unit
 
 
 def _average_over_passes(squares: FloatArray, targets: int) -> FloatArray:
@@ -281,11 +280,13 @@ def _average_over_passes(squares: FloatArray, targets: int) -> FloatArray:
     )
 
 
-def _find_ends_about(along: FloatArray, is_large: BoolArray, peak: int) -> tuple[float, float]:
-    """Return the ends of the stretch about a place in which something is large."""
-    first = last = peak
-    while first > 0 and is_large[first - 1]:
-        first -= 1
-    while last < len(along) - 1 and is_large[last + 1]:
-        last += 1
-    return float(along[first]), float(along[last])
+def _find_shortest_stretch(along: FloatArray, squares: FloatArray) -> tuple[float, float]:
+    """Return the ends of the shortest stretch that holds most of some squares.
+
+    A wave along the whole axis lies in all of it, not at its largest crest.
+    """
+    before = np.concatenate([[0.0], np.cumsum(squares)])
+    last = np.searchsorted(before[1:], before[:-1] + _MOST * before[-1])
+    firsts = np.flatnonzero(last < len(along))
+    first = int(firsts[np.argmin(along[last[firsts]] - along[firsts])])
+    return float(along[first]), float(along[int(last[first])])
