@@ -43,6 +43,12 @@ def test_from_the_side_lengths_along_and_upward_are_true(orientation: str) -> No
 
 
 @pytest.mark.parametrize("orientation", ["x", "y", "z", "diagonal"])
+def test_blocks_that_are_equally_deep_stand_in_the_order_of_the_gauge(orientation: str) -> None:
+    _, side, _ = make_path_views(planned(blocks=9, orientation=orientation))
+    assert np.all(np.diff(side.blocks[:, :, 0].mean(axis=1)) > 0)
+
+
+@pytest.mark.parametrize("orientation", ["x", "y", "z", "diagonal"])
 def test_from_above_the_path_goes_round_below_the_blocks(orientation: str) -> None:
     view = right_angled(PathKind.HORIZONTAL, orientation)
     assert view.way[:, 1].min() == pytest.approx(view.blocks[..., 1].min() - 2 - 3)

@@ -35,6 +35,8 @@ _EDGES = tuple((low, low | bit) for low in range(8) for bit in (1, 2, 4) if not 
 #: How far below the top of the base the numbers of faces stand in a view from the side, and how far beside
 #: the blocks in a view from above, mm.
 _NUMBERS_AWAY = 3.5
+#: Decimals of a depth in m that tell one side from another.
+_DEPTH_DIGITS = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,7 +161,11 @@ def _view_in_machine(planned: PlannedPath) -> View:
 
 
 def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
-    """Return the sides of some boxes that look at the eye, from back to front."""
+    """Return the sides of some boxes that look at the eye, from back to front; equally deep ones as they come.
+
+    Depths that differ by rounding alone are the same: in what order they were summed up changes with the
+    machine, and with it would the bytes of the picture.
+    """
     boxes = planned.obstacles
     found = []
     for low, high in zip(boxes.lower[which], boxes.upper[which], strict=True):
@@ -168,7 +174,7 @@ def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
         for numbers in _SIDES:
             side = corners[list(numbers)]
             if eye.measure_depth(side.mean(axis=0)) < eye.measure_depth(middle) - 1e-9:
-                found.append((float(eye.measure_depth(middle)), eye.see(side)))
+                found.append((round(float(eye.measure_depth(middle)), _DEPTH_DIGITS), eye.see(side)))
     found.sort(key=lambda each: -each[0])
     return read_only_floats([side for _, side in found])
 
