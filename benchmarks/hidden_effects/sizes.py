@@ -14,6 +14,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.formula_settings import OTHER
 
 #: Directions of a base model shorter than this share of the longest are no directions of their own.
 _DEPENDENT = 1e-9
@@ -72,10 +73,14 @@ def scaled_effect(
 
 
 def drawn_theta(effect: Effect, design: Design, random: np.random.Generator) -> FloatArray:
-    """Return searched parameters drawn at random: a row of the grid, or a point between two of them."""
+    """Return searched parameters drawn at random: a row of the grid, or a point between two of them.
+
+    A pitch that is another than the stated one is one in use.
+    """
     grid = effect.grid(design)
     row = int(random.integers(len(grid)))
     towards = grid[min(row + 1, len(grid) - 1)]
-    is_refined = np.array([parameter.is_refined for parameter in effect.searched], dtype=np.float64)
-    share = random.random(len(effect.searched)) * is_refined
+    is_in_use = OTHER in dict(effect.settings).values()
+    is_between = np.array([each.is_refined and not is_in_use for each in effect.searched], dtype=np.float64)
+    share = random.random(len(effect.searched)) * is_between
     return np.asarray(grid[row] + share * (towards - grid[row]))

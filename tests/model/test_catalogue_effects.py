@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from model.axis_tests import AXIS, linear_test
+from model.axis_tests import AXIS, EFFECTS, linear_test
 from zlmreport.cli import main
 from zlmreport.errors import AccessError, InputError
 from zlmreport.job.formula import FormulaError
@@ -90,6 +90,12 @@ def test_values_that_alone_make_sense_are_all_that_is_tried() -> None:
     np.testing.assert_allclose(of_steps.grid(_DESIGN)[:, 0], np.arange(100, 501, 20) * 1e-3)
     assert not of_values.searched[0].is_refined
     assert not of_steps.searched[0].is_refined
+
+
+@pytest.mark.parametrize(("name", "is_refined"), [("gear-mesh", False), ("screw-pitch", True)])
+def test_between_two_numbers_of_teeth_there_is_none(name: str, is_refined: bool) -> None:  # noqa: FBT001
+    other = EFFECTS[name].forms()[-1]
+    assert other.searched[0].is_refined is is_refined
 
 
 def test_key_of_the_axis_that_states_a_parameter_ends_its_search() -> None:

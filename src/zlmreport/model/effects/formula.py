@@ -159,6 +159,8 @@ class FormulaEffect(Effect):
         )
         way = self._ways.get(name)
         of_list = way is not None and not isinstance(way, Search)
+        # Beside a usual pitch there are others; of teeth there is no number between two.
+        is_between = own.instead is not None and own.search not in NOT_REFINED
         return (
             Parameter(
                 name,
@@ -167,7 +169,7 @@ class FormulaEffect(Effect):
                 own.meaning or _MEANING.given(formula=self.keys.formula),
                 low,
                 high,
-                is_refined=own.instead is not None if of_list else way not in NOT_REFINED,
+                is_refined=is_between if of_list else way not in NOT_REFINED,
                 usual=usual,
                 usual_on_rotary=on_rotary,
                 question=own.question,
