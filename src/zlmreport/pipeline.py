@@ -1,4 +1,4 @@
-"""Makes the files of a job in their order (read, evaluate, fit, compose, render), and names them.
+"""Makes the files of a job in their order (read, evaluate, fit, compose, render), named by its number.
 
 Each step takes what the step before it made and hands on something new; nothing points back.
 """

@@ -161,7 +161,7 @@ def _view_in_machine(planned: PlannedPath) -> View:
 
 
 def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
-    """Return the sides of some boxes that look at the eye, from back to front; equally deep ones as they come.
+    """Return the sides of some boxes that look at the eye, from back to front, equals as they come.
 
     Depths that differ by rounding alone are the same: in what order they were summed up changes with the
     machine, and with it would the bytes of the picture.

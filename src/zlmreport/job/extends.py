@@ -1,4 +1,4 @@
-"""What ``extends`` takes over from other files, and defaults of a fleet's jobs."""
+"""Finds the files that ``extends`` names, and the defaults of a fleet's jobs; `tree` merges them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The values of a YAML file as a tree with places, before anything is checked."""
+"""The values of a YAML file as a tree with places, before anything is checked; and how two are merged."""
 
 from __future__ import annotations
 

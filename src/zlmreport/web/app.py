@@ -1,4 +1,4 @@
-"""The server of a job's workbench: its addresses, the steps of its model, changes, the certificate."""
+"""The server of a job's workbench: where it listens, its addresses, the steps of its model, changes."""
 
 from __future__ import annotations
 

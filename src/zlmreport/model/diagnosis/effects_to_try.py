@@ -1,4 +1,4 @@
-"""Which effects can be tried beside a model, and why others cannot."""
+"""Lists the effects that can be tried beside a model; those that cannot, with what they say of it."""
 
 from __future__ import annotations
 

@@ -26,6 +26,9 @@ _WIDTHS = (0.04, 0.08, 0.15, 0.3, 0.5)
 #: Periods within travel or duration, and phases of a saw.
 _FEWEST, _PER_PERIOD, _PHASES = 1.25, 4, 8
 _MOST_PERIODS, _PLACES = 12.0, 24
+#: Of the places in time, the first at which a late beginning may lie: what begins with the test warms up,
+#: and that has a name.
+_LATE = 3
 #: Periods of a saw at least: one that jumps once is a joint beside a slope, and these have names.
 _FEWEST_OF_SAW = 2.0
 #: Of the travel, the longest stretch that is displaced as a whole: the ends of a longer one are two joints.
@@ -227,7 +230,7 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
     rows: Sequence[tuple[float, ...]]
     match form.searched:
         case ("c", "w"):
-            rows = list(product(inner.tolist(), widths))
+            rows = list(product(inner[_LATE if form is LATE else 0 :].tolist(), widths))
         case ("c", "L"):
             # The jump of a saw needs targets on either side, in more than one period.
             listed = [each for each in periods[: len(periods) // 2] if extent >= _FEWEST_OF_SAW * each]

@@ -1,4 +1,4 @@
-"""The interface of an effect: parameters with ranges, needs of a test, and why one cannot be tested.
+"""The interface of an effect: parameters with ranges, and the needs that effects have in common.
 
 Each of the functions that begin with ``needs`` says in words what is missing, or returns None. An effect
 joins its needs by ``or``, the first that is not met answers::

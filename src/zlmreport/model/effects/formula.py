@@ -1,4 +1,4 @@
-"""An effect that a formula defines: its parameters, forms and what is said of it."""
+"""An effect that a formula defines: parameters, forms, what it needs of test and job, what is said of it."""
 
 from __future__ import annotations
 
