@@ -87,6 +87,8 @@ def test_what_changes_without_a_name_is_no_slip_in_recording(number: int, cause:
         10015,  # a displaced run, in the place of which a slope beside a curve is as good
         15001,  # a polynomial, in the place of which a smooth curve is as good
         16027,  # three, beside which a fourth is needless, and then two go for a curve
+        19021,  # an axis that warms up, which is no late beginning
+        21005,  # a kink in one direction, in the place of which a fading is as good
     ],
 )
 def test_causes_are_built_down_to_the_noise_each_by_its_name(number: int) -> None:

@@ -11,6 +11,7 @@ from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs
@@ -107,6 +108,39 @@ def test_what_is_left_of_a_set_has_the_same_effects_and_no_others() -> None:
     found = search.find_best()
     kept = [each for each in found.named if each.identifier == "backlash"]
     assert _names(search.find_best_holding(found, kept)) == {"backlash"}
+
+
+def test_names_alone_take_the_place_of_what_has_none_one_for_each() -> None:
+    search = SetSearch(_contest(_hiding(("screw-pitch", [0.01]), ("backlash", []), ("polynomial", []))))
+    whole = search.find_best()
+    assert _names(whole) == {"screw-pitch", "backlash", "polynomial"}
+    [place] = [number for number, each in enumerate(whole.members) if each.identifier == "polynomial"]
+    beside = search.without(whole, place)
+    assert search.count_nameless(beside) == 1
+    alone = search.find_names_alone(beside, 0.0)
+    assert alone is not None
+    assert _names(alone) == _names(whole)
+    assert search.find_names_alone(beside, whole.score - beside.score - 1.0) is None
+
+
+def test_a_late_beginning_does_not_begin_with_the_test() -> None:
+    late = [each for each in list_unnamed_forms(DESIGN) if each.form.name == "late"]
+    assert late
+    start = float(DESIGN.time.min()) + 0.1 * DESIGN.duration
+    assert all(each.grid(DESIGN)[:, 0].min() > start for each in late)
+
+
+def test_a_slope_that_differs_from_run_to_run_is_nothing_at_the_zero_of_the_axis() -> None:
+    slopes = 3 * SIGMA * np.array([2.0, -3.0, 1.0, 4.0, -1.0])[DESIGN.run - DESIGN.run.min()]
+    search = SetSearch(_contest(_hiding(("backlash", [])) + slopes * DESIGN.position))
+    found = search.find_best()
+    assert _names(found) == {"backlash"}
+    loud = [
+        part.course
+        for part, level in zip(search.contest.parts, found.amplitudes, strict=True)
+        if level >= part.noise_levels
+    ]
+    assert [*loud, *found.unnamed] == [Course.RUNS]
 
 
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:

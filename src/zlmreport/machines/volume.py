@@ -1,4 +1,4 @@
-"""What the measured errors make of the work space: its largest error, slices of it, and its diagonals.
+"""What the measured errors make of the work space: its largest error on a grid, and its diagonals.
 
 Δ is taken relative to the middle of the space, since no error of an axis has a zero of its own. The space is
 what was measured: the overlap of the ranges of each axis' errors; nothing is extrapolated.

@@ -1,4 +1,4 @@
-"""Readings of an axis for notebooks: read from files and frames, given as arrays, or simulated."""
+"""Readings of an axis for notebooks: from files, frames, arrays or a simulation; columns of their frame."""
 
 from __future__ import annotations
 

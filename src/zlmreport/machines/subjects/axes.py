@@ -1,4 +1,4 @@
-"""The 21 errors of a machine, and what they make of its work space."""
+"""The 21 errors of a machine, and what they make of its work space: tables, and maps of which slices."""
 
 from __future__ import annotations
 

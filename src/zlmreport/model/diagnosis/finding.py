@@ -278,16 +278,19 @@ def _estimate_memory(stated: _Stated, found: EffectSet) -> float:
 
 def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
     """Return a set without those that have no evidence of their own."""
-    is_whole = not search.has_nameless(found)
-    found = _drop_needless(search, found)
-    if not is_whole:
-        return _keep_sure(search, found)
+    kept = _drop_needless(search, found)
+    if search.has_nameless(found):
+        # Beside names a form or a curve has to be better than a toss-up with one name more.
+        alone = search.find_names_alone(kept, MENTION) if kept.named else None
+        if alone is None:
+            return _keep_sure(search, kept)
+        kept = _drop_needless(search, alone)
     # With enough names any curve is described: several that one curve replaces are not told.
     for names, within in _REPLACED:
-        fewer = None if search.has_nameless(found) else search.find_fewer_beside_curve(found, names, within)
-        found = found if fewer is None else _drop_needless(search, fewer)
+        fewer = None if search.has_nameless(kept) else search.find_fewer_beside_curve(kept, names, within)
+        kept = kept if fewer is None else _drop_needless(search, fewer)
     # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
-    return found
+    return kept
 
 
 def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:

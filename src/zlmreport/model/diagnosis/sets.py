@@ -222,6 +222,19 @@ class SetSearch:
         ]
         return min(fewer, key=find_score, default=None)
 
+    def find_names_alone(self, found: EffectSet, within: float) -> EffectSet | None:
+        """Return the best of all sets looked at in which one name each does what forms and curves do.
+
+        `within`: What evidence it may lack; None where all lack more.
+        """
+        most = len(found.named) + self.count_nameless(found)
+        alone = [
+            each
+            for each in self._sets.best.values()
+            if each.score < found.score + within and len(each.named) <= most and not self.has_nameless(each)
+        ]
+        return min(alone, key=find_score, default=None)
+
     def compute_evidence_of_changes(self, found: EffectSet) -> float:
         """Return the evidence of what changes in time, or from run to run, and has no name in a set."""
         still = tuple(
