@@ -355,8 +355,8 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
 
 def _list_rivals_of(search: SetSearch, kept: EffectSet, member: SetMember) -> frozenset[str]:
     """Return the effects that are not told from a member of a set, as they are installed."""
-    rest = search.without(kept, kept.members.index(member))
-    rivals = search.list_rivals(kept, rest, TOLD_APART)
+    number = next(place for place, each in enumerate(kept.members) if each is member)
+    rivals = search.list_rivals(kept, search.without(kept, number), TOLD_APART)
     return frozenset(find_installed_name(each.members[-1].effect) for each in rivals)
 
 
