@@ -89,8 +89,19 @@ def test_more_runs_find_a_smaller_effect() -> None:
     assert sixteen == pytest.approx(four / 2, rel=0.15)
 
 
-@pytest.mark.parametrize(("effect", "theta"), [("backlash-bow", []), ("screw-pitch", [PITCH])])
-def test_the_smallest_effect_is_found_about_half_of_the_time(effect: str, theta: list[float]) -> None:
+def _share_beyond(length: float, coefficients: int) -> float:
+    """Return how often a vector of a length is longer than that with noise of one in each direction."""
+    noise_of_one = np.random.default_rng(1).standard_normal((200_000, coefficients))
+    noise_of_one[:, 0] += length
+    return float(np.mean(np.sum(noise_of_one**2, axis=1) > length**2))
+
+
+@pytest.mark.parametrize(
+    ("effect", "theta", "coefficients"), [("backlash-bow", [], 1), ("screw-pitch", [PITCH], 2)]
+)
+def test_the_smallest_effect_is_found_about_half_of_the_time(
+    effect: str, theta: list[float], coefficients: int
+) -> None:
     base = np.concatenate([term.effect.columns(DESIGN, np.empty(0)) for term in USUAL.terms], axis=1)
     contest = Contest.of(DESIGN, base, [EFFECTS[effect]])
     null = simulate_null(contest, contest.quiet)
@@ -99,5 +110,7 @@ def test_the_smallest_effect_is_found_about_half_of_the_time(effect: str, theta:
     readings = [noise(DESIGN, seed) + size * shape for seed in range(SETS)]
     trials = Trials(contest, contest.quiet, [], np.column_stack(readings))
     found = null.compute_excess(Scores(trials.ratios, trials.nameless)) > null.threshold
-    # 300 sets know the share to 3 %; at 1.1 times the size it would be 0.2 larger.
-    assert np.mean(found) == pytest.approx(0.5, abs=0.12)
+    # Of a wave the noise may shift the phase, too. 300 sets know the share to 3 %, the threshold of 400 tests
+    # shifts it by 5 %, and a curve without a name may find what the effect does not.
+    expected = _share_beyond(float(np.sqrt(null.usual[0] + null.threshold)), coefficients)
+    assert np.mean(found) == pytest.approx(expected, abs=0.12)
