@@ -1,4 +1,4 @@
-"""Puts results of workers into files and the ledger; nothing that is issued is ever replaced.
+"""Puts results into files and ledger: what stopped twice is set aside, nothing that is issued is replaced.
 
 A file is written under a hidden name and pushed to the disk; then the ledger takes it over; then it gets its
 name. Whenever the program ends in between, the next night finds the hidden file, and the ledger says

@@ -1,4 +1,4 @@
-"""How far a capture has come: the same whether it was lived through, or is read from its journal."""
+"""How far a capture has come, and what each event makes of it; the same live or read from its journal."""
 
 from __future__ import annotations
 
