@@ -1,4 +1,4 @@
-"""Reads and writes files: whole or not at all, journals, locks, inside a folder; messages on what fails.
+"""Reads and writes files: whole or not at all, inside a folder, journals and their lock; what fails.
 
 A file is written under a hidden name in its own folder and pushed to the disk; then it takes the place of
 the one that is there, and the folder is pushed to the disk, so that a power cut leaves either the old file

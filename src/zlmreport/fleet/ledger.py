@@ -1,4 +1,4 @@
-"""The ledger of a fleet, read and written: certificates, what they state, nights, what was told."""
+"""The ledger of a fleet, read and written: certificates, nights, what was told; waits for another's lock."""
 
 from __future__ import annotations
 

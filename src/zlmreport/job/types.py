@@ -1,4 +1,4 @@
-"""Types of values in jobs: dates, texts and their lengths, numbers of documents, paths, uncertainties.
+"""Types of values in jobs: dates, texts and their lengths, numbers that name files, paths, uncertainties.
 
 What is written without quotes and reads as a number comes as a number where a key takes one, and as it is
 spelt where a key takes text: so ``serial: 00123`` stays what it is.
