@@ -111,7 +111,8 @@ def test_what_is_irregular_does_not_take_in_what_has_a_name() -> None:
     ("number", "causes"),
     [
         (15004, {"first-run", "run-displaced", "scale-kink"}),  # slopes of runs apart, about the zero
-        (15016, {"control-increment", "datum-step", "thermal-drift"}),  # a saw along the axis
+        # A saw along the axis; a slope about the middle took in the step of the zero and the drift.
+        (15016, {"control-increment", "datum-step", "thermal-drift"}),
     ],
 )
 def test_a_slope_that_changes_is_nothing_at_the_zero_of_the_axis(number: int, causes: set[str]) -> None:

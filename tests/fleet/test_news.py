@@ -24,7 +24,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import find_news_of, write_digest
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import PlannedJob
-from zlmreport.fleet.records import About, NightNotice, PastNight, State
+from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language, same
 from zlmreport.plugin import AccessError, Options, Place, Words, hookimpl
@@ -215,15 +215,22 @@ def test_a_way_that_hangs_does_not_stop_the_night(
     assert notice.english == "the news was not sent by post Ada: it was not taken within 0.05 s"
 
 
-def test_news_is_in_the_language_of_the_fleet() -> None:
-    values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
-    entries = [*history(values), *history([5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1], axis="Y")]
+#: A parameter that rises from year to year.
+RISING = (5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1)
+
+
+def _write_morning(language: Language, hall: str, clock: str, further: Sequence[LedgerEntry] = ()) -> Message:
+    """Return the message of a morning on which all is new: a clock, a limit, a step, a trend, terms."""
+    entries = [*history([6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]), *history(RISING, axis="Y"), *further]
     entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
-    clock = NightNotice(About.CLOCK, same("die Uhr steht auf …"))
-    last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
-    state = describe_state("Halle Nord", entries, [], last, Rules(365))
-    keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language=Language.GERMAN))
-    message = write_digest(keys, tuple(find_news_of(state, Language.GERMAN)))  # type: ignore[arg-type]
+    last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (NightNotice(About.CLOCK, same(clock)),))
+    state = describe_state(hall, entries, [], last, Rules(365))
+    keys = SimpleNamespace(name=hall, keys=SimpleNamespace(language=language))
+    return write_digest(keys, tuple(find_news_of(state, language)))  # type: ignore[arg-type]
+
+
+def test_news_is_in_the_language_of_the_fleet() -> None:
+    message = _write_morning(Language.GERMAN, "Halle Nord", "die Uhr steht auf …")
     assert message.title == (
         "Halle Nord: 1 zum ganzen Lauf, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"
     )
@@ -258,19 +265,11 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
 
 
 def test_in_french_a_space_stands_before_colons_and_semicolons_of_the_news() -> None:
-    values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
-    rising = [5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1]
-    entries = [*history(values), *history(rising, axis="Y")]
-    entries += [
+    two_parameters = [
         replace(each, parameters=(*each.parameters, replace(each.parameters[0], symbol="E")))
-        for each in history(rising, axis="B")
+        for each in history(RISING, axis="B")
     ]
-    entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
-    clock = NightNotice(About.CLOCK, same("l’horloge …"))
-    last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
-    state = describe_state("Atelier", entries, [], last, Rules(365))
-    keys = SimpleNamespace(name="Atelier", keys=SimpleNamespace(language=Language.FRENCH))
-    message = write_digest(keys, tuple(find_news_of(state, Language.FRENCH)))  # type: ignore[arg-type]
+    message = _write_morning(Language.FRENCH, "Atelier", "l’horloge …", two_parameters)
     text = f"{message.title}\n{message.text}"
     assert re.findall(r".*\S[:;?!](?=\s).*", text) == []
     assert text.startswith("Atelier\N{NO-BREAK SPACE}: 1 ")

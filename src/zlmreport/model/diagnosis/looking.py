@@ -86,7 +86,7 @@ _MEASURE = {
 class Look:
     """What to do about something without a name."""
 
-    at: Words  #: Where it shows in what was measured: "the residuals over the position, about 420 mm".
+    at: Words  #: Where it shows in what was measured: "the residuals over the position, around 420 mm".
     measure: Words  #: What to measure that would tell more.
 
 

@@ -51,8 +51,8 @@ class Remainder:
 
     rms: float  #: Root mean square value at the readings, m or rad.
     share: float  #: Of the squares of what the job's model leaves, 0 to 1.
-    where: Words  #: The place: "about 420 mm".
-    low: float  #: Where it begins: where it has more than half its largest value.
+    where: Words  #: The place: "around 420 mm".
+    low: float  #: Where it begins: a form by its extent, else the shortest stretch with most of it.
     high: float  #: Where it ends.
     unit: Unit  #: In which both are printed: mm, ° or s.
     shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
