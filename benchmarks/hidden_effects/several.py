@@ -26,14 +26,14 @@ from hidden_effects.hidden import drawn_effect
 from hidden_effects.ideal import kind_of, tells_stranger, told_apart
 from hidden_effects.judge import INSTALLED
 from hidden_effects.sizes import base_columns
-from hidden_effects.strangers import NUMBERS_OF, OF_A_SLOPE, STRANGERS
+from hidden_effects.strangers import NUMBERS_OF, OF_A_PLACE, OF_A_SLOPE, STRANGERS
 from hidden_effects.trial import EFFECTS, OF_A_GAUGE, drawn_stranger, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -67,9 +67,8 @@ class Drawn:
     stranger: str | None
     observed: Observations
     sigma: float  #: m or rad.
-    beside: FloatArray | None = (
-        None  #: (N,): What the stranger adds to each reading, less its mean, m or rad.
-    )
+    #: (N,): What the stranger adds to each reading, m or rad: less its mean where that is at no place.
+    beside: FloatArray | None = None
     is_stranger_told: bool = False  #: Whether an ideal observer tells it from each one or two effects.
 
     @property
@@ -94,6 +93,7 @@ class Outcome:
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
     is_placed: bool  #: Whether the stranger is larger where it is told to lie than elsewhere.
+    is_unexplained: bool  #: Whether a diagnosis on the way said that no installed effect explains the rest.
     seconds: float  #: CPU of the dearest diagnosis.
 
     @property
@@ -166,7 +166,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
             drawn = drawn_stranger(STRANGERS[name], design, base, rms, random)
             if drawn is not None:
                 stranger, deviation = name, deviation + drawn[1]
-                beside = np.asarray(drawn[1] - drawn[1].mean(), dtype=np.float64)
+                beside = drawn[1] - (0.0 if name in OF_A_PLACE else drawn[1].mean())
                 break
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
     observed = make_observations_of(readings, overrun=description.plan.overrun)
@@ -205,11 +205,13 @@ def _tells_stranger(
 def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
+    verdicts: list[Verdict] = []
 
     def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
+        verdicts.append(found.verdict)
         return found
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
@@ -217,7 +219,8 @@ def followed(drawn: Drawn) -> Outcome:
     equals = {each.identifier: frozenset(each.equals) for each in built.steps if not each.is_removed}
     left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
     is_placed = remainder is not None and is_where_told(remainder, drawn)
-    return Outcome(drawn, names, equals, left, remainder is not None, is_placed, max(seconds))
+    is_unexplained = Verdict.UNEXPLAINED in verdicts
+    return Outcome(drawn, names, equals, left, remainder is not None, is_placed, is_unexplained, max(seconds))
 
 
 def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
@@ -289,6 +292,7 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
     down = sum(each.left <= DOWN_TO_NOISE for each in outcomes)
     named = sum(each.remainder for each in outcomes)
     strangers = sum(each.drawn.stranger is not None for each in outcomes)
+    unexplained = sum(each.is_unexplained for each in outcomes)
     placed = sum(each.is_placed for each in outcomes)
     seconds = np.median([each.seconds for each in outcomes])
     others, wrong = summed(lambda each: each.others), summed(lambda each: each.wrong)
@@ -296,8 +300,9 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
         f"{len(outcomes)} axes: {summed(lambda each: each.found)} of "
         f"{summed(lambda each: each.drawn.causes)} causes found, other names: {others}, of them wrong: "
         f"{wrong}, the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a "
-        f"name in {named}, where the stranger is in {placed} of {strangers}; the dearest diagnosis of an "
-        f"axis takes {seconds:.1f} s of CPU in the median.\n"
+        f"name in {named}, where the stranger is in {placed} of {strangers}; told on the way that nothing "
+        f"installed explains what is left in {unexplained}; the dearest diagnosis of an axis takes "
+        f"{seconds:.1f} s of CPU in the median.\n"
         f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
         f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} of "
         f"all stand in the model or are named as equals of what stands there."

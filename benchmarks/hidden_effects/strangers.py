@@ -137,6 +137,18 @@ STRANGERS: Mapping[str, Stranger] = {
 }
 #: Those that act in proportion to the position: they have a slope on the average.
 OF_A_SLOPE = frozenset({"slope smooth in time", "slope that jumps", "slopes of runs apart"})
+#: Those that are nothing but at their place; of the others, as of all that is seen beside a constant, only
+#: what stands off from their mean is at a place.
+OF_A_PLACE = frozenset(
+    {
+        "bump in position",
+        "plateau in position",
+        "reversal with a kink",
+        "stretch in one direction only",
+        "passing disturbance",
+        "drift that begins late",
+    }
+)
 #: How many numbers decide a shape, its size among them; the other kinds are random curves or numbers.
 NUMBERS_OF: Mapping[str, int] = {
     "bump in position": 3,

@@ -27,8 +27,10 @@ PRICE = 6.0
 _ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
 _LEAST_OWN = 0.01
-#: Values of a form that are held against installed effects, and the share by which these must have it.
-_SAMPLES, _THE_SAME = 5, 0.95
+#: Share of a form without a name by which an installed effect has it, at one of its values, and the share of
+#: its values at which none may have it at least.
+_THE_SAME, _LEAST_UNKNOWN = 0.95, 1 / 3
+_LEAST_SEEN = 1e-6
 
 #: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
 Entry: TypeAlias = tuple[Effect, FloatArray]
@@ -146,22 +148,24 @@ def _compute_log_weights(design: Design, effect: Effect, thetas: FloatArray) -> 
     return np.asarray(np.log(weights / weights.sum()), dtype=np.float64)
 
 
-def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[Family]) -> bool:
-    """Return whether installed effects have a form already, at most of its values: it is no rival."""
-    thetas, known = form.grid(design), 0
-    searched = _count_searched(thetas)
-    as_free = [each for each in families if _count_searched(each.thetas) >= searched]
-    for number in np.linspace(0, len(thetas) - 1, _SAMPLES).round().astype(int).tolist():
-        blocks, _, seen = make_orthonormal(columns.space, design, form, thetas[number : number + 1], 1e-6)
-        if not len(seen):
-            continue
-        imitated = 0.0
-        for each in as_free:
-            products = columns.select_columns(each.blocks.ravel()).T @ blocks[:, 0]
-            squares = np.sum(products**2, axis=1).reshape(each.blocks.shape).sum(axis=1)
-            imitated = max(imitated, float(squares.max()) / blocks.shape[2])
-        known += imitated > _THE_SAME
-    return known > _SAMPLES / 2
+def list_unknown_values(
+    form: Effect, design: Design, columns: Columns, families: Sequence[Family]
+) -> FloatArray:
+    """Return the values of a form without a name at which no installed effect has it already, shape (g, s).
+
+    None where effects have it at most of its values: then it is no rival. Some late beginnings are a step,
+    some a passing warmth; those between are neither.
+    """
+    thetas = form.grid(design)
+    blocks, _, seen = make_orthonormal(columns.space, design, form, thetas, _LEAST_SEEN)
+    searched, imitated = _count_searched(thetas), np.zeros(len(seen))
+    for each in families if len(seen) else ():
+        if _count_searched(each.thetas) >= searched:
+            products = columns.select_columns(each.blocks.ravel()).T @ blocks.reshape(len(blocks), -1)
+            squares = (products**2).reshape(*each.blocks.shape, len(seen), -1).sum(axis=(1, 3))
+            imitated = np.maximum(imitated, squares.max(axis=0) / blocks.shape[2])
+    unknown = seen[imitated <= _THE_SAME]
+    return thetas[unknown if len(unknown) > _LEAST_UNKNOWN * len(seen) else seen[:0]]
 
 
 def _count_searched(thetas: FloatArray) -> int:

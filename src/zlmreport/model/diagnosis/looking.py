@@ -27,6 +27,7 @@ _REVERSAL_OVER_POSITION = Words("the difference of the two directions over the p
 _OVER_TIME = Words("the residuals over the time, {where}")
 _SLOPES_OVER_TIME = Words("the residuals of the outermost targets over the time, {where}")
 _REVERSAL_OVER_TIME = Words("the difference of the two directions over the time, {where}")
+_RUN_OVER_POSITION = Words("the residuals of the first and of the last run over the position, {where}")
 _RUN_BY_RUN = Words("the residuals run by run, {where}")
 
 _CLOSER_TARGETS = Words(
@@ -53,6 +54,10 @@ _BOTH_DIRECTIONS = Words(
     "one target from both directions in turn, for {duration}: whether the reversal changes with "
     "the time or only with the place"
 )
+_COLD_AND_WARM = Words(
+    "one run cold, and one every quarter of an hour while the axis works, with the temperatures of scale, "
+    "screw and air logged: whether the curve along the axis grows with one of them"
+)
 _MORE_RUNS = Words(
     "three runs more, the first target read before and after each, nothing touched between: a "
     "set-up that is not firm moves there too"
@@ -68,6 +73,7 @@ _WHERE = {
     Course.TIME: _OVER_TIME,
     Course.SLOPE: _SLOPES_OVER_TIME,
     Course.REVERSAL_IN_TIME: _REVERSAL_OVER_TIME,
+    Course.PLACE_IN_TIME: _RUN_OVER_POSITION,
     Course.RUNS: _RUN_BY_RUN,
 }
 _MEASURE = {
@@ -78,6 +84,7 @@ _MEASURE = {
     Course.TIME: _ONE_TARGET,
     Course.SLOPE: _BOTH_ENDS,
     Course.REVERSAL_IN_TIME: _BOTH_DIRECTIONS,
+    Course.PLACE_IN_TIME: _COLD_AND_WARM,
     Course.RUNS: _MORE_RUNS,
 }
 

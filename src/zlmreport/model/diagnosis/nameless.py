@@ -36,6 +36,12 @@ _RARER = 1.0
 #: Correlation lengths of smooth curves, as shares of the travel or the duration.
 _LENGTHS = (0.3, 0.1)
 _TERMS = 12
+#: The same along the axis and in time of a curve that changes in both, and its terms.
+_ALONG, _IN_COURSE, _TERMS_IN_BOTH = 0.3, 0.3, 16
+#: Crests of waves within the travel that are tried, targets that at least must tell each, and over what share
+#: of the travel size and period of one change: it then takes in every wave between two of them.
+_FEWEST_CRESTS, _MOST_CRESTS, _TARGETS_PER_CREST = 2, 10, 2
+_STEADY, _TERMS_OF_SIZE = 0.5, 4
 _LEAST_VARIANCE = 1e-7
 _GRID = 120
 _LEAST_VISIBLE = 1e-3
@@ -58,6 +64,7 @@ class Course(Enum):
     TIME = "in time, at all positions alike"
     SLOPE = "in time, in proportion to the position"
     REVERSAL_IN_TIME = "in the reversal, in time"
+    PLACE_IN_TIME = "along the axis, at each place otherwise in time"
     RUNS = "from run to run"
     TARGET = "at some targets"
 
@@ -131,11 +138,14 @@ def list_parts_of(
             )
         )
         irregular += is_irregular
-    for shape, course, features in _list_features(design) if with_nameless else ():
+    listed = list(_list_features(design)) if with_nameless else []
+    waves = sum(shape is _UNSTEADY_WAVE for shape, _, _ in listed)
+    for shape, course, features in listed:
         contrasts = columns.space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
-            costs = (0.0, *(PRICE + _compute_cost_of_size(each) for each in _VARIANCES))
+            price = PRICE + (2.0 * float(np.log(waves)) if shape is _UNSTEADY_WAVE else 0.0)
+            costs = (0.0, *(price + _compute_cost_of_size(each) for each in _VARIANCES))
             places = columns.add(contrasts / size)
             found.append(CovariancePart(shape, course, places, None, (0.0, *_VARIANCES), costs, 1))
     return tuple(found)
@@ -183,6 +193,11 @@ def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]
             yield _SLOPE_TIME, Course.SLOPE, lever * time
             if design.is_bidirectional:
                 yield _DIRECTION_TIME, Course.REVERSAL_IN_TIME, direction * time
+    most = min(_MOST_CRESTS, (len(design.target_positions) - 1) // _TARGETS_PER_CREST)
+    for crests in range(_FEWEST_CRESTS, most + 1):
+        yield _UNSTEADY_WAVE, Course.PLACE, _make_unsteady_wave(along, crests)
+    if design.duration > 0:
+        yield _SMOOTH_IN_BOTH, Course.PLACE_IN_TIME, _smooth_in_both(along, moment)
 
 
 def _find_lever(design: Design) -> FloatArray:
@@ -201,16 +216,55 @@ def _normalise(values: FloatArray) -> FloatArray:
 
 
 def _smooth(where: FloatArray, length: float) -> FloatArray:
-    """Return the leading eigenfunctions of a smooth random curve on 0 to 1 at the readings, about their mean.
+    """Return the leading terms of a smooth random curve on 0 to 1 at the readings, about their mean.
 
     What a curve has everywhere has a name: a gap that changes along the axis is lost motion and a curve about
     it, not a curve that hides the lost motion.
     """
+    return _centre(_make_curves(where, length, _TERMS))
+
+
+def _make_unsteady_wave(where: FloatArray, crests: int) -> FloatArray:
+    """Return a wave on 0 to 1 at the readings whose size and phase are smooth random curves.
+
+    A wave that grows, or whose period changes, has no name; without this one, two or three names that have a
+    steady period would stand for it.
+    """
+    size = _make_curves(where, _STEADY, _TERMS_OF_SIZE)
+    phase = 2.0 * np.pi * crests * where[:, np.newaxis]
+    return _centre(np.column_stack([size * np.sin(phase), size * np.cos(phase)]))
+
+
+def _smooth_in_both(where: FloatArray, moment: FloatArray) -> FloatArray:
+    """Return the leading terms of a random curve at the readings, smooth along the axis and in time.
+
+    A bow that comes with the warmth is no curve in time alone, nor one along the axis: without this one, a
+    growth, a drift and a curve along the axis would share it.
+    """
+    place, place_sizes = _find_leading_terms(where, _ALONG, _TERMS)
+    time, time_sizes = _find_leading_terms(moment, _IN_COURSE, _TERMS)
+    sizes = place_sizes[:, np.newaxis] * time_sizes
+    largest = np.argsort(-sizes, axis=None, kind="stable")[:_TERMS_IN_BOTH]
+    at_place, at_time = np.unravel_index(largest, sizes.shape)
+    return _centre(place[:, at_place] * time[:, at_time] * sizes[at_place, at_time])
+
+
+def _make_curves(where: FloatArray, length: float, count: int) -> FloatArray:
+    """Return the leading terms of a smooth random curve on 0 to 1 at the readings, each of its size."""
+    terms, sizes = _find_leading_terms(where, length, count)
+    return terms * sizes
+
+
+def _find_leading_terms(where: FloatArray, length: float, count: int) -> tuple[FloatArray, FloatArray]:
+    """Return the leading eigenfunctions of a smooth random curve at the readings, and their sizes."""
     grid = np.linspace(0.0, 1.0, _GRID)
     values, functions = np.linalg.eigh(np.exp(-0.5 * ((grid[:, np.newaxis] - grid) / length) ** 2))
-    kept = np.flatnonzero(values > _LEAST_VARIANCE * values[-1])[-_TERMS:]
-    terms = functions[:, kept] * np.sqrt(values[kept])
-    curves = np.column_stack([np.interp(where, grid, term) for term in terms.T])
+    kept = np.flatnonzero(values > _LEAST_VARIANCE * values[-1])[-count:]
+    terms = np.column_stack([np.interp(where, grid, each) for each in functions[:, kept].T])
+    return terms, np.sqrt(values[kept])
+
+
+def _centre(curves: FloatArray) -> FloatArray:
     return np.asarray(curves - curves.mean(axis=0), dtype=np.float64)
 
 
@@ -225,6 +279,8 @@ _DIRECTION_PLACE = Words("a reversal value that changes smoothly along the axis"
 _SMOOTH_TIME = Words("smooth in time, alike at all positions")
 _SLOPE_TIME = Words("a slope along the axis that changes smoothly in time")
 _DIRECTION_TIME = Words("a reversal value that changes smoothly in time")
+_UNSTEADY_WAVE = Words("a wave along the axis that is not steady")
+_SMOOTH_IN_BOTH = Words("a curve along the axis that changes in time")
 _SLOPE_RUNS = Words("a slope along the axis that differs from run to run")
 _DIRECTION_RUNS = Words("a reversal value that differs from run to run")
 _WORDS: Mapping[NoiseSource, Words] = {

@@ -244,12 +244,10 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     is_time = main.course.along is not Along.PLACE
     say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
-    if isinstance(form, UnnamedForm) and main.member:
+    if isinstance(form, UnnamedForm) and main.member and form.form in LOCAL:
         low, high = form.find_extent(main.member.theta)
         place = form.list_searched_values(main.member.theta).get("c", low)
-        is_local = form.form in LOCAL
-        words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
-        return words, low, high, unit
+        return _ABOUT.given(place=say(place)), low, high, unit
     if main.course.along is Along.RUN:
         runs = np.unique(design.cycle)
         sizes = [float(np.mean(whole[design.cycle == run] ** 2)) for run in runs]

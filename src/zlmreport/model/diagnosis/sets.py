@@ -56,6 +56,7 @@ class SetSearch:
         # Of each part all levels are thought of, those that are noise, or nothing but white noise.
         self._whole = Scope(tuple(len(part.levels) for part in contest.parts))
         self._names = Scope(tuple(part.noise_levels for part in contest.parts), with_forms=False)
+        self._forms = replace(self._names, with_forms=True)
         self._bare = Scope(tuple(1 for _ in contest.parts), with_forms=False)
         # The same as the first, but for shares that are irregular from position to position.
         self._regular = Scope(
@@ -118,12 +119,12 @@ class SetSearch:
     def _go_on_without_each(self, best: EffectSet, named: EffectSet) -> EffectSet:
         """Return the best of a set and of where climbs lead that must do without one of its effects.
 
-        `named`: The best set of names alone: it is gone on from too, and so is the best set beside curves
-        that are smooth, where what is irregular takes in every wave.
+        `named`: The best set of names alone: it is gone on from too.
         """
         if self.has_nameless(best):
             begun = [(named, self._names, PROMISING)]
             if any(self.contest.parts[number].irregular is not None for number in self._list_loud(best)):
+                best = self._begin_without_irregular(best)
                 regular = self._climb(self._begin(best.members, self._regular), self._regular)
                 begun.append((regular, self._regular, _NEAR))
             for each, scope, within in begun:
@@ -131,6 +132,17 @@ class SetSearch:
                     end = self._release(self._do_without_each(each, scope))
                     best = min(best, self._climb(end, self._whole), key=find_score)
         return self._do_without_each(best, self._whole)
+
+    def _begin_without_irregular(self, best: EffectSet) -> EffectSet:
+        """Return the best of a set and of where climbs lead that begin with nothing irregular, from nothing.
+
+        What is irregular takes in every wave and every step at once: where several are there, none gains by
+        itself what it costs. Beside curves that are smooth, or forms alone, each does.
+        """
+        for scope in (self._regular, self._forms):
+            end = self._climb(self._begin((), scope), scope, is_thorough=True)
+            best = min(best, self._climb(self._release(end), self._whole), key=find_score)
+        return best
 
     def _do_without_each(self, now: EffectSet, scope: Scope) -> EffectSet:
         """Return where climbs lead that must do without one effect, as long as one ends higher.
