@@ -25,8 +25,8 @@ from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.document.certificate.uncertainty import say_uncertainty
-from zlmreport.document.certificate.values import is_mixed, limit
-from zlmreport.document.writer import Writer, write_with_uncertainty
+from zlmreport.document.certificate.values import limit
+from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
 from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load

@@ -20,7 +20,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
 from zlmreport.document.writer import NOTHING, Writer
-from zlmreport.language import PhraseRow, Words, same
+from zlmreport.language import PhraseRow, Words, named, same
 from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
@@ -28,10 +28,8 @@ if TYPE_CHECKING:
 
 #: Key of the section on lines without results of their own.
 BARE_LINES = "lines"
-_NAMED = Words("{name}: {said}")
 #: Groups of facts that a line may have of its own: the machine is that of the document.
 _OWN = ("axis", "measurement", "instrument", "environment")
-_TABLE = Words("{name}: {caption}")
 
 
 def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
@@ -50,7 +48,7 @@ def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterato
         if len(names) == count > 1 or not names[0]:
             yield sentence
         else:
-            yield _NAMED.given(name=PhraseRow(tuple(map(same, names))), said=sentence)
+            yield named(PhraseRow(tuple(map(same, names))), sentence)
 
 
 def make_writer_of(test: Tested, writer: Writer) -> Writer:
@@ -143,7 +141,7 @@ def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Sectio
             sharing.append(test)
     for section, sharing in found:
         whole = section if len(sharing) == 1 else _lay_out_readings_of(sharing, writer)
-        title = _NAMED.given(name=", ".join(each.name for each in sharing), said=section.title)
+        title = named(", ".join(each.name for each in sharing), section.title)
         yield replace(whole, key=f"{sharing[0].name}-readings", title=writer.say(title))
 
 
@@ -193,7 +191,7 @@ def _list_circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer
 
 
 def _write_title(test: Tested, title: str, writer: Writer) -> str:
-    return writer.say(_NAMED.given(name=test.name, said=title))
+    return writer.say(named(test.name, title))
 
 
 def _rename_block(block: Block, name: str) -> Block:
@@ -201,11 +199,11 @@ def _rename_block(block: Block, name: str) -> Block:
     if not isinstance(block, Graph):
         return block
     figure = block.figure
-    title = _NAMED.given(name=name, said=figure.title)
+    title = named(name, figure.title)
     return Graph(replace(figure, key=f"{name.replace(', ', '-')}-{figure.key}", title=title))
 
 
 def _caption_block(block: Block, name: str, writer: Writer) -> Block:
     if not isinstance(block, Table):
         return block
-    return replace(block, caption=writer.say(_TABLE.given(name=name, caption=block.caption)))
+    return replace(block, caption=writer.say(named(name, block.caption)))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.language import Words, same
+from zlmreport.language import Words, named, same
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import with_unit
 
@@ -66,8 +66,6 @@ _SUPPLIED = Words(
 )
 _DEVIATIONS = Words("Additions to, deviations and exclusions from the method")
 _EXTERNAL = Words("{mark} Results from external providers")
-_FROM = Words("{results}: {provider}")
-_FROM_REPORT = Words("{results}: {provider}, {reference}")
 _ONE = Words("{count} reading was set aside and did not enter the results")
 _SEVERAL = Words("{count} readings were set aside and did not enter the results")
 _READING = Words("target {target} {arrow}, run {run}, read {deviation}: {reason}")
@@ -113,11 +111,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         yield Notice(
             writer.say(_EXTERNAL.given(mark=EXTERNAL)),
             tuple(
-                writer.say(
-                    (_FROM_REPORT if each.reference else _FROM).given(
-                        results=each.results, provider=each.provider, reference=each.reference or ""
-                    )
-                )
+                writer.say(named(each.results, ", ".join(filter(None, (each.provider, each.reference)))))
                 for each in keys.external
             ),
         )
@@ -133,8 +127,8 @@ def say_traceable_through(job: Job, *measured: MeasurementSet) -> Words | None:
         return None
     chain = traceability.find_chain(job)
     if chain.of_artefacts:
-        named = ", ".join((*chain.of_instruments, *chain.of_artefacts))
-        return _TRACEABLE_BY_ARTEFACTS.given(certificates=named)
+        every = ", ".join((*chain.of_instruments, *chain.of_artefacts))
+        return _TRACEABLE_BY_ARTEFACTS.given(certificates=every)
     if len(chain.of_instruments) > 1:
         return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(chain.of_instruments))
     return _TRACEABLE.given(certificate=chain.of_instruments[0]) if chain.of_instruments else None
