@@ -197,12 +197,12 @@ def write_with_unit(value: str | float | None, unit: str, writer: Writer) -> str
 
 
 def _write_targets(measurements: MeasurementSet, writer: Writer) -> Words:
-    first, last = measurements.target_positions[0], measurements.target_positions[-1]
-    return Words("{count}, from {first} to {last}").given(
-        count=len(measurements.target_positions),
-        first=writer.position(float(first)),
-        last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
-    )
+    targets = measurements.target_positions
+    first, last = (writer.position(float(each)) for each in (targets[0], targets[-1]))
+    last = units.with_unit(last, writer.position_unit.symbol)
+    if len(targets) == 1:
+        return Words("1, at {position}").given(position=last)
+    return Words("{count}, from {first} to {last}").given(count=len(targets), first=first, last=last)
 
 
 def _record(measurements: MeasurementSet) -> Words:

@@ -18,7 +18,12 @@ from zlmreport.document.certificate.conditions import (
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import list_missing_readings
-from zlmreport.document.certificate.results import Evaluated, list_subscripted, make_section_key
+from zlmreport.document.certificate.results import (
+    NO_PARAMETER,
+    Evaluated,
+    list_subscripted,
+    make_section_key,
+)
 from zlmreport.document.certificate.statements import make_amendment_notice, write_person
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.evaluation.evaluation import QuantityGroup
@@ -143,7 +148,13 @@ def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
         yield say_on_cover(job.keys.as_found, writer)
 
 
-def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
+def _lay_out_results(
+    pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool
+) -> Table | Paragraph:
+    """Return the results in brief; where no standard gives any, that it is so."""
+    pages = [page for page in pages if page[0].evaluation.parameters]
+    if not pages:
+        return Paragraph(writer.say(NO_PARAMETER))
     values = Values.of((page[0].evaluation for page in pages), writer)
     columns = tuple(values.list_columns())
     groups = tuple(

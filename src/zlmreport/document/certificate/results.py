@@ -80,7 +80,7 @@ _GROUPS = {
 
 _OF_THE_AXIS = Words("Parameters of the axis")
 _PARAMETERS = Words("Parameters")
-_NO_PARAMETER = Words("This test defines none of the parameters.")
+NO_PARAMETER = Words("This test defines none of the parameters.")
 _BY_STANDARD = Words("Results by {designations}")
 _BY_METHOD = Words("Results by the method of {designations}")
 _MET = Words("met")
@@ -111,7 +111,7 @@ def lay_out_results(evaluated: Evaluated, writer: Writer) -> Section:
         ),
         _lay_out_parameters(evaluation, writer)
         if evaluation.parameters
-        else Paragraph(writer.say(_NO_PARAMETER)),
+        else Paragraph(writer.say(NO_PARAMETER)),
         *say_raised(evaluation, writer),
         *map(Graph, evaluated.figures),
         *conformity.lay_out_conformity(evaluation, writer),
