@@ -77,12 +77,12 @@ def write_fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalS
 def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
     """Write a value with up to so many significant digits and no trailing zeros.
 
-    >>> write_general_number(250.0), write_general_number(-0.0315)
-    ('250', '−0.0315')
+    >>> write_general_number(250.0), write_general_number(-0.0315), write_general_number(-0.0)
+    ('250', '−0.0315', '0')
     >>> write_general_number(2.5, DecimalSign.COMMA)
     '2,5'
     """
-    text = f"{value:.{digits}g}"
+    text = f"{value + 0.0:.{digits}g}"  # a zero has no sign
     if "e" in text:
         text = f"{Decimal(text):f}"
     return text.replace("-", MINUS).replace(".", sign)
