@@ -404,7 +404,7 @@ def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
 def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
     """Yield what U leaves out, where there is one."""
     if isinstance(result.budget, Budget):
-        for block in say_uncertainty(result.budget, (), writer):
+        for block in say_uncertainty(result.budget, result.evaluations, writer):
             if isinstance(block, Notice):
                 yield f"  {Colour.YELLOW.set('open')}     {block.heading}"
 

@@ -168,8 +168,8 @@ def _lay_out_comparison(
         *lay_out_corrections(first.measurements, writer),
         *_find_differences(first.measurements, last.measurements, writer),
         Graph(draw_comparison(first, last, NAMES[keys.work])),
-        lay_out_changes(pairs, writer),
-        *lay_out_limits(pairs, writer),
+        _lay_out_changes(pairs, writer),
+        *_lay_out_limits(pairs, writer),
     ]
     return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
 
@@ -230,7 +230,7 @@ def _find_differences(before: MeasurementSet, after: MeasurementSet, writer: Wri
         yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))
 
 
-def lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
+def _lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     """Return the table of parameters before and after, with their uncertainties where these are known."""
     changed = [compare_parameters(*pair) for pair in pairs]
     every = [each for of_pair in changed for each in of_pair]
@@ -287,7 +287,7 @@ def _write_change(change: Change, writer: Writer) -> tuple[str, str]:
     return write_rounded_together(value, change.expanded_uncertainty, writer)
 
 
-def lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
+def _lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
     limited = [
         [each for each in compare_parameters(*pair) if each.either.limit is not None] for pair in pairs

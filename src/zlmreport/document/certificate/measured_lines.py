@@ -51,7 +51,7 @@ def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterato
             yield named(PhraseRow(tuple(map(same, names))), sentence)
 
 
-def make_writer_of(test: Tested, writer: Writer) -> Writer:
+def _make_writer_of(test: Tested, writer: Writer) -> Writer:
     """Return a writer for the readings of a line, which have units and decimals of their own."""
     return Writer.of(test.measurements, writer.language, writer.marks)
 
@@ -59,7 +59,7 @@ def make_writer_of(test: Tested, writer: Writer) -> Writer:
 def list_notices(tests: Sequence[Tested], writer: Writer) -> Iterator[Notice]:
     """Yield which readings of which line are missing."""
     for test in tests:
-        for each in readings.list_missing_readings(test.measurements, make_writer_of(test, writer)):
+        for each in readings.list_missing_readings(test.measurements, _make_writer_of(test, writer)):
             yield replace(each, heading=_write_title(test, each.heading, writer))
 
 
@@ -78,7 +78,7 @@ def lay_out_results(
     said = {pair for _, facts in known for pair in facts.pairs}
     bare: list[tuple[Tested, list[Facts]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
+        own = _make_writer_of(test, writer)
         circumstances = list(_list_circumstances(test, said, own))
         blocks = [
             *conditions.lay_out_corrections(test.measurements, own),
@@ -149,7 +149,9 @@ def _lay_out_readings_of(tests: Sequence[Tested], writer: Writer) -> Section:
     """Return the readings of a line, or of lines of which the same is said."""
     first = tests[0]
     key = f"measurement.tests.{first.name}.source"
-    return readings.lay_out_readings(first.measurements, make_writer_of(first, writer), key, lines=len(tests))
+    return readings.lay_out_readings(
+        first.measurements, _make_writer_of(first, writer), key, lines=len(tests)
+    )
 
 
 def lay_out_uncertainty(
@@ -161,7 +163,7 @@ def lay_out_uncertainty(
     )
     budgets: list[tuple[list[Block], list[Tested]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
+        own = _make_writer_of(test, writer)
         of_line = list(
             uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own, with_bars=with_bars)
         )
@@ -173,7 +175,7 @@ def lay_out_uncertainty(
     blocks = list(section.blocks)
     for of_lines, sharing in budgets:
         names = ", ".join(each.name for each in sharing)
-        own = make_writer_of(sharing[0], writer)
+        own = _make_writer_of(sharing[0], writer)
         blocks += (_caption_block(_rename_block(each, names), names, own) for each in of_lines)
     return replace(section, blocks=tuple(blocks))
 

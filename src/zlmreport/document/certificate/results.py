@@ -209,10 +209,10 @@ def lay_out_by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Tabl
     """
     measurements = evaluation.measurements
     if not measurements.tests and not measurements.axis.measurand.is_continuous:
-        yield lay_out_positions(evaluation, writer)
+        yield _lay_out_positions(evaluation, writer)
 
 
-def lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
+def _lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
     measurements = evaluation.measurements

@@ -104,7 +104,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
     """
     deviations = keys.measurement.deviations_from_method
     most = None if names_all else _MOST_NAMED
-    items = (*([deviations] if deviations else []), *list_exclusions(keys, writer, most))
+    items = (*([deviations] if deviations else []), *_list_exclusions(keys, writer, most))
     if items:
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
@@ -162,7 +162,7 @@ def make_exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str
         yield Notice(marked, tuple(_write_item(each, writer) for each in exclusions))
 
 
-def list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+def _list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
     """Return what the first page says of readings that were set aside: they depart from the method.
 
     `most`: Of so many; all of them if it is None.

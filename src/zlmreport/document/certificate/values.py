@@ -81,7 +81,7 @@ class Values:
             yield self._add_unit(uncertainty, parameter)
             yield write_coverage_factor(parameter, self.writer)
         if self.has_interval:
-            yield self._add_unit(write_interval(parameter, self.writer), parameter)
+            yield self._add_unit(_write_interval(parameter, self.writer), parameter)
         if self.has_limits:
             yield self._add_unit(limit(parameter, self.writer), parameter)
             yield conformity.make_verdict_cell(parameter, self.writer)
@@ -116,7 +116,7 @@ def write_coverage_factor(parameter: EvaluatedParameter, writer: Writer) -> str:
     return write_fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
+def _write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write where another test of the same plan would find a parameter, with the sign that is printed."""
     if parameter.axis_interval is None:
         return NOTHING

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor, log10
 
 import numpy as np
@@ -88,9 +88,7 @@ def draw_over_run(diagram: ModelDiagram) -> Figure:
         for residual in (diagram.fit.residual[chosen],)
     ]
     panel = _make_panel(diagram, runs.astype(np.float64))
-    return _draw_residuals(
-        diagram, "run", _RUN, "", Panel(curves=tuple(curves), readings=panel.readings, bands=panel.bands)
-    )
+    return _draw_residuals(diagram, "run", _RUN, "", replace(panel, curves=tuple(curves)))
 
 
 def draw_over_time(diagram: ModelDiagram) -> Figure:
