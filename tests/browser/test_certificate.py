@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Callable
+from importlib.resources import files
 from pathlib import Path
 
 import pypdfium2
@@ -12,6 +14,7 @@ from playwright.sync_api import Browser, Page, expect
 
 from model.hidden_effect import job, registry, written
 from zlmreport import pipeline
+from zlmreport.measurement.units import with_unit
 from zlmreport_plugins.renderers.html import HtmlRenderer
 
 pytestmark = pytest.mark.long
@@ -54,7 +57,7 @@ def test_a_reading_is_reached_by_the_keyboard_too(window: Window, file: Path) ->
     page.locator(".plot").nth(1).focus()
     page.keyboard.press("End")
     assert marked(page) == [1, 1]
-    assert "598.035\u00a0mm" in page.get_by_role("status").inner_text()
+    assert "598.0345\u00a0mm" in page.get_by_role("status").inner_text()
 
 
 def test_a_failure_points_at_its_readings_over_what_shows_them(window: Window, file: Path) -> None:
@@ -170,3 +173,17 @@ def test_a_phone_parts_no_symbol_of_a_definition(window: Window, file: Path) -> 
     )
     assert lines
     assert max(lines) < 2
+
+
+def test_numbers_have_units_and_digits_as_on_paper(window: Window) -> None:
+    module = (files("zlmreport_templates") / "workbench" / "number.js").read_bytes()
+    numbers = [("4.2 ± 0.3", "″"), ("20", "″"), ("20", "µm"), ("30", "°"), ("2000", "°/min"), ("1", "″/min")]
+    said = window("about:blank").evaluate(
+        """async ([address, numbers]) => {
+            document.documentElement.lang = "de";
+            const { ALL_DIGITS, withUnit, written } = await import(address);
+            return [written(2543.175, ALL_DIGITS), ...numbers.map((each) => withUnit(...each))];
+        }""",
+        [f"data:text/javascript;base64,{b64encode(module).decode()}", numbers],
+    )
+    assert said == ["2543,175", *(with_unit(*each) for each in numbers)]

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import datetime as dt
+from pathlib import Path
 
 import pytest
 
 from cli.commands import Shop
+from zlmreport.cli import main
 from zlmreport.job import days
 
 
@@ -111,3 +113,22 @@ def test_check_states_the_uncertainties_of_the_run(shop: Shop) -> None:
     of_check, of_run = (each["jobs"][0]["evaluations"][0]["parameters"] for each in (checked, made))
     assert of_check[0]["expanded_uncertainty"]
     assert of_check == of_run
+
+
+def test_of_readings_that_give_nothing_terminal_and_page_say_the_same(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """One reading at one target has no parameter, and so no uncertainty of one that could be incomplete."""
+    (tmp_path / "one.csv").write_text("target,direction,run,deviation\n10,+,1,1.5\n", encoding="utf-8")
+    (tmp_path / "job.yaml").write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: ONE-1, kind: report}\naxis: {name: X}\n"
+        "measurement: {source: {plugin: laser-csv, file: one.csv}}\n"
+        "instrument: {name: Laser, expanded_uncertainty: 0.4}\n"
+        'evaluate: ["iso230-2:2014"]\noutput: {formats: [html]}\n',
+        encoding="utf-8",
+    )
+    assert main([str(tmp_path / "job.yaml"), "-o", str(tmp_path)]) == 0
+    page = (tmp_path / "ONE-1.html").read_text(encoding="utf-8")
+    assert "and so there is no uncertainty of one" in page
+    assert "U incomplete" not in page
+    assert "U incomplete" not in capsys.readouterr().out

@@ -11,7 +11,7 @@ from zlmreport.job.contradictions import list_markable_keys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import CELSIUS
+from zlmreport.measurement.units import CELSIUS, DEGREE, MILLIMETRE
 
 
 def measured(deviations_um, targets_mm, axis=None):
@@ -159,3 +159,16 @@ def test_every_key_that_others_may_supply_is_marked_where_it_is_printed(tmp_path
     document(tmp_path, {"ccw": 1, "cw": 1})
     monkeypatch.undo()
     assert [key for key in list_markable_keys() if not Marks(frozenset({key})).write_after(*asked)] == []
+
+
+def test_what_is_stated_is_written_to_its_last_digit():
+    writer = Writer.of(measured([1.0], [0.0]), Language.GERMAN)
+    assert writer.number(2543.175) == "2543,175"
+    assert writer.number(250.0) == "250"
+    assert writer.length(MILLIMETRE.to_si(1234.5678)) == "1234,5678 mm"
+
+
+@pytest.mark.parametrize("degrees", [0.1, 0.3, 5.0, 7.5, 359.999])
+def test_a_conversion_adds_no_digits(degrees):
+    writer = Writer.of(measured([1.0], [0.0], Axis("C", AxisKind.ROTARY)), Language.ENGLISH)
+    assert writer.length(DEGREE.to_si(degrees)) == f"{degrees:g}°"

@@ -111,3 +111,8 @@ def test_scanned_place_has_the_ends_of_the_grid_that_are_possible() -> None:
     farther = max(estimate.value - joint.low, joint.high - estimate.value)
     assert farther == pytest.approx(estimate.expanded_uncertainty)
     assert joint.low < 0.5 < joint.high
+
+
+def test_readings_without_scatter_leave_one_value() -> None:
+    for each in find_intervals(fit(USUAL, _DESIGN, np.zeros(len(_DESIGN.position)))):
+        assert (each.low, each.high) == (0.0, 0.0)

@@ -1,7 +1,7 @@
 // The page of an effect: equation, look, parameters, and what it cannot be told from.
 
 import { h, named, said, symbol } from "./dom.js";
-import { written } from "./number.js";
+import { withUnit, written } from "./number.js";
 import { Plot } from "./plot.js";
 import { ROOT, get } from "./server.js";
 
@@ -27,7 +27,7 @@ export async function showEffect(texts, effect) {
           found.parameters.some((each) => each.low !== null || each.high !== null) && h("p", { class: "quiet" }, said(texts.rangesFrom, { source: found.rangesFrom })),
           found.containsNames.length > 0 && h("p", {}, said(texts.contains, { effects: found.containsNames.join(", ") }))),
         found.estimates.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.estimated),
-          h("ul", { class: "parameters" }, found.estimates.map((each) => h("li", {}, symbol(each.symbol), ` = ${each.value}${each.uncertainty && ` ± ${each.uncertainty}`} ${each.unit}`)))),
+          h("ul", { class: "parameters" }, found.estimates.map((each) => h("li", {}, symbol(each.symbol), ` = ${withUnit(`${each.value}${each.uncertainty && ` ± ${each.uncertainty}`}`, each.unit)}`)))),
         found.keys.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.keys),
           h("dl", { class: "keys" }, found.keys.map((each) => [h("dt", {}, h("code", {}, each.name)), h("dd", {}, each.description)]))),
         found.confusions.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.confusions),
@@ -45,7 +45,7 @@ function table(texts, found) {
   return h("table", {},
     h("thead", {}, h("tr", {}, [texts.parameters, "", texts.range].map((name, index) => (name ? h("th", { scope: "col", class: index === 2 ? "number" : false }, name) : h("td", {}))))),
     h("tbody", {}, found.parameters.map((each) => h("tr", {}, h("th", { scope: "row" }, symbol(each.symbol)), h("td", {}, each.description),
-      h("td", { class: "number" }, `${range(each)} ${each.unit}`)))));
+      h("td", { class: "number" }, withUnit(range(each), each.unit))))));
 }
 
 function drawn(texts, found) {

@@ -1,6 +1,7 @@
 // The two graphs and what is said of the reading that is pointed at: one reading is marked in both.
 
 import { fill, h, named, said } from "./dom.js";
+import { ALL_DIGITS, withUnit } from "./number.js";
 import { Plot, passes } from "./plot.js";
 import { saveCsv, savePng, saveSvg } from "./saving.js";
 
@@ -296,18 +297,18 @@ export class Graphs {
   #facts(index) {
     const { texts, number, graphs } = this;
     const { readings } = graphs;
-    const value = (axis) => `${number(axis.values[index])} ${axis.unit}`.trim();
-    const deviation = (amount) => `${number(Math.round(100 * amount) / 100)} ${graphs.unit}`;
+    const value = (axis, digits) => withUnit(number(axis.values[index], digits), axis.unit);
+    const deviation = (amount) => withUnit(number(Math.round(100 * amount) / 100), graphs.unit);
     const [position, ...others] = graphs.axes.filter((axis) => axis.key !== "direction" && axis.values[index] !== null);
     const pass = this.passes.find(({ run, direction }) => run === readings.run[index] && direction === readings.direction[index]);
     return [
-      [texts.target, `${value(position)} ${this.arrows.get(readings.direction[index])}`],
+      [texts.target, `${value(position, ALL_DIGITS)} ${this.arrows.get(readings.direction[index])}`],
       [texts.run, number(readings.run[index])],
       [texts.deviation, deviation(readings.deviation[index])],
       [texts.modelValue, deviation(readings.deviation[index] - readings.residual[index])],
       [texts.residual, deviation(readings.residual[index])],
       ...others.filter((axis) => axis.key !== "run").map((axis) => [axis.title, value(axis)]),
-      ...(pass ? [[texts.slope, `${number(Number(pass.slope.toPrecision(3)))} ${graphs.unit}${this.axes.get("time").unit && `/${this.axes.get("time").unit}`}`]] : []),
+      ...(pass ? [[texts.slope, withUnit(number(Number(pass.slope.toPrecision(3))), `${graphs.unit}${this.axes.get("time").unit && `/${this.axes.get("time").unit}`}`)]] : []),
       ...(readings.fitted[index] ? [] : [["", texts.flagged]]),
     ];
   }
@@ -343,7 +344,7 @@ export class Graphs {
     const [names, ...rows] = this.#rows(this.above.within());
     fill(this.table.lastElementChild, h("table", {},
       h("thead", {}, h("tr", {}, names.map((name) => h("th", { scope: "col", class: "number" }, name)))),
-      h("tbody", {}, rows.slice(0, ROWS).map((row) => h("tr", {}, row.map((value) => h("td", { class: "number" }, typeof value === "number" ? this.number(value) : value ?? "")))))),
+      h("tbody", {}, rows.slice(0, ROWS).map((row) => h("tr", {}, row.map((value, column) => h("td", { class: "number" }, typeof value === "number" ? this.number(value, column === 0 ? ALL_DIGITS : undefined) : value ?? "")))))),
       rows.length > ROWS && h("p", { class: "hint" }, said(this.texts.more, { count: rows.length - ROWS })));
   }
 }

@@ -1,11 +1,15 @@
 // Numbers as readers of the page write them.
 
 const DIGITS = 6;
+// Of what was read: all that came, and nothing that a double adds.
+export const ALL_DIGITS = 12;
+// Signs of angles touch their number; what begins with the sign of seconds does, too.
+const TOUCHING = ["°", "″"];
 const SMALLEST = 1e-9;
 
 /** Return a number as text: the decimal sign of the language, a minus that is one. */
-export function written(value) {
-  const format = new Intl.NumberFormat(document.documentElement.lang, { maximumSignificantDigits: DIGITS, useGrouping: false });
+export function written(value, digits = DIGITS) {
+  const format = new Intl.NumberFormat(document.documentElement.lang, { maximumSignificantDigits: digits, useGrouping: false });
   return format.format(Math.abs(value) < SMALLEST ? 0 : value).replace("-", "−");
 }
 
@@ -13,4 +17,11 @@ export function written(value) {
 export function fixed(value, decimals) {
   const format = new Intl.NumberFormat(document.documentElement.lang, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });
   return format.format(Math.abs(value) < SMALLEST ? 0 : value).replace("-", "−");
+}
+
+/** Return a number that is written, with its unit as documents print it: `20 µm`, `20″`, `(4.2 ± 0.3)″`. */
+export function withUnit(number, unit) {
+  if (!unit) return number;
+  const whole = TOUCHING.includes(unit) && number.includes("±") ? `(${number})` : number;
+  return TOUCHING.includes(unit) || unit.startsWith("″") ? `${whole}${unit}` : `${whole} ${unit}`;
 }

@@ -3,11 +3,13 @@
 import { blocks } from "./blocks.js";
 import { h, named, s, said, symbol } from "./dom.js";
 import { explained } from "./help.js";
-import { fixed } from "./number.js";
+import { fixed, withUnit } from "./number.js";
 import { ROOT } from "./server.js";
 import { wave } from "./wave.js";
 
 const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
+// Units as programs read them, where documents print a sign.
+const PRINTED = { um: "µm", arcsec: "″" };
 const LIKELY = 0.5;
 const CONFIRMED = { held: "held", "wrong-sign": "wrongSign", half: "half", shifted: "shifted", other: "otherTable" };
 const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
@@ -356,13 +358,13 @@ export function compensation(texts, job, made, wanted, number, actions) {
 
 function forecast(texts, values, position) {
   const { before, after, between_grid_points: between } = values.forecast;
-  const unit = values.unit === "um" ? "µm" : values.unit;
+  const unit = PRINTED[values.unit] ?? values.unit;
   const rounded = (value) => fixed(value, 2);
   return h("div", {},
     h("table", {},
       h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.now} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.withTable} (${unit})`))),
       h("tbody", {}, Object.keys(before).map((name) => h("tr", {}, h("th", { scope: "row" }, h("i", {}, name)), h("td", { class: "number" }, rounded(before[name])), h("td", { class: "number" }, rounded(after[name])))))),
-    h("p", { class: "quiet" }, said(texts.betweenRows, { rows: values.rows, largest: `${rounded(between.largest)} ${unit}`, at: `${rounded(between.at)} ${position}` }), " ", texts.noMeasurement));
+    h("p", { class: "quiet" }, said(texts.betweenRows, { rows: values.rows, largest: withUnit(rounded(between.largest), unit), at: withUnit(rounded(between.at), position) }), " ", texts.noMeasurement));
 }
 
 /** What was done so far, the last step first. */
@@ -403,7 +405,7 @@ function button(label, name, key, click, look) {
 }
 
 function amount(own) {
-  return `${own.value}${own.uncertainty ? ` ± ${own.uncertainty}` : ""} ${own.unit}`.trim();
+  return withUnit(`${own.value}${own.uncertainty ? ` ± ${own.uncertainty}` : ""}`, own.unit);
 }
 
 function doubt(texts, own) {

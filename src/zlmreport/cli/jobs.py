@@ -25,8 +25,8 @@ from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.document.certificate.uncertainty import say_uncertainty
-from zlmreport.document.certificate.values import is_mixed, limit
-from zlmreport.document.writer import Writer, write_with_uncertainty
+from zlmreport.document.certificate.values import limit
+from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
 from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
@@ -404,7 +404,7 @@ def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
 def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
     """Yield what U leaves out, where there is one."""
     if isinstance(result.budget, Budget):
-        for block in say_uncertainty(result.budget, (), writer):
+        for block in say_uncertainty(result.budget, result.evaluations, writer):
             if isinstance(block, Notice):
                 yield f"  {Colour.YELLOW.set('open')}     {block.heading}"
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import datetime as dt
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -72,6 +73,8 @@ _MOST_DECIMALS = 3
 #: Of a parameter in a unit that no reading has, where no uncertainty says how many it has.
 _DECIMALS_OF_OTHER_UNITS = 2
 _MOST_TARGET_DECIMALS = 6
+#: Of a number that somebody states: all that a double keeps of it, but for what a conversion from SI adds.
+_STATED_DIGITS = 12
 _DECIMALS_OF_CELSIUS, _DECIMALS_OF_CONDITIONS = 2, 1
 
 
@@ -149,13 +152,12 @@ class Writer:
         )
 
     def length(self, value: float) -> str:
-        """Write a length or an angle along the axis with its unit and no needless digits."""
-        number = write_general_number(self.position_unit.from_si(value), self.language.decimal_sign)
-        return with_unit(number, self.position_unit.symbol)
+        """Write a length or an angle along the axis with its unit, to its last stated digit."""
+        return with_unit(self.number(self.position_unit.from_si(value)), self.position_unit.symbol)
 
     def number(self, value: float) -> str:
-        """Write a number with no needless digits."""
-        return write_general_number(value, self.language.decimal_sign)
+        """Write a number that is stated, to its last digit and with none added."""
+        return write_general_number(value, self.language.decimal_sign, _STATED_DIGITS)
 
     def date(self, value: dt.date) -> str:
         """Write a date as ISO 8601 does: alike in every language, and never mistaken."""
@@ -172,6 +174,16 @@ class Writer:
         """Write the range of a logged condition (SI) in the unit that is printed."""
         decimals = _DECIMALS_OF_CELSIUS if scale is CELSIUS else _DECIMALS_OF_CONDITIONS
         return f"{self.span(scale.from_si(values), decimals)} {scale.symbol}"
+
+
+def is_mixed(parameters: Iterable[EvaluatedParameter], writer: Writer) -> bool:
+    """Return whether parameters have units other than that of what was measured."""
+    return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
+
+
+def add_unit(number: str, quantity: Quantity, writer: Writer) -> str:
+    """Write the unit of a quantity behind a number, for columns without a unit; ``–`` has none."""
+    return number if number == NOTHING else with_unit(number, quantity.unit_or(writer.deviation_unit).symbol)
 
 
 #: An uncertainty that is none.

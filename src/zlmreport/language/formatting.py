@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from decimal import ROUND_HALF_EVEN, Context, Decimal
 from enum import StrEnum
-from math import ceil, floor, isfinite, log10
+from math import floor, isfinite, log10
 
 #: The minus sign, U+2212.
 MINUS = "\N{MINUS SIGN}"
@@ -24,8 +24,6 @@ LEAST_P = 1e-6
 _DIGITS = 2
 #: Of a value that is given exactly, or whose uncertainty is unknown.
 _DECIMALS = 3
-#: An uncertainty that would lose more by rounding down is rounded up (EA-4/02 M:2022, 6.3).
-_MOST_LOST = 0.05
 #: Room for every double, the largest too.
 _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 
@@ -79,12 +77,12 @@ def write_fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalS
 def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
     """Write a value with up to so many significant digits and no trailing zeros.
 
-    >>> write_general_number(250.0), write_general_number(-0.0315)
-    ('250', '−0.0315')
+    >>> write_general_number(250.0), write_general_number(-0.0315), write_general_number(-0.0)
+    ('250', '−0.0315', '0')
     >>> write_general_number(2.5, DecimalSign.COMMA)
     '2,5'
     """
-    text = f"{value:.{digits}g}"
+    text = f"{value + 0.0:.{digits}g}"  # a zero has no sign
     if "e" in text:
         text = f"{Decimal(text):f}"
     return text.replace("-", MINUS).replace(".", sign)
@@ -167,16 +165,8 @@ def round_pair(
         decimals = _count_decimals(round(expanded_uncertainty, decimals))
     if not isfinite(expanded_uncertainty):
         return write_fixed_number(value, decimals, sign), "∞"
-    return write_fixed_number(value, decimals, sign), write_fixed_number(
-        _find_not_much_less(expanded_uncertainty, decimals), decimals, sign
-    )
-
-
-def _find_not_much_less(value: float, decimals: int) -> float:
-    """Return an uncertainty that rounding to these decimals makes hardly smaller."""
-    if round(value, decimals) < (1 - _MOST_LOST) * value:
-        return ceil(value * 10.0**decimals) / 10.0**decimals
-    return value
+    # Two digits lose less than the 5 % from which on it must be rounded up (EA-4/02 M:2022, 6.3).
+    return write_fixed_number(value, decimals, sign), write_fixed_number(expanded_uncertainty, decimals, sign)
 
 
 def _count_decimals(value: float) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, FEW_TRIALS, certificate, lines_of, text_of
+from document.certificate.documents import COMPLETE, FEW_TRIALS, certificate, lines_of, text_of, without
 from zlmreport.document.blocks import Graph, Table
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.language import Language
@@ -191,3 +191,32 @@ def test_an_axis_that_was_not_adjusted_has_one_measurement(tmp_path):
     document = certificate(tmp_path)
     assert document.evaluations_as_found == ()
     assert "as found" not in text_of(document)
+
+
+def test_parameters_in_another_unit_have_it_beside_their_numbers(tmp_path: Path):
+    """The slope of a straightness is in µm/m, and its errors are in µm."""
+    for name, slope in (("found", 0.02), ("left", 0.005)):
+        readings = (
+            f"{x},+,{run},{slope * x + x % 20 / 10 + run / 10}" for run in (1, 2) for x in (0, 10, 20, 30)
+        )
+        (tmp_path / f"{name}.csv").write_text(HEAD + "\n".join(readings) + "\n")
+    found, left = (
+        {"date": "2022-04-07", "error": "EYX", "source": {"plugin": "laser-csv", "file": f"{name}.csv"}}
+        for name in ("found", "left")
+    )
+    keys = {
+        **without("uncertainty", "instrument.expanded_uncertainty"),
+        "certificate": {"number": "R-1", "kind": "report"},
+        "axis": {"name": "X"},
+        "as_found": {"adjustment": "Guide scraped.", "measurement": found},
+        "measurement": left,
+        "evaluate": [{"standard": "iso230-1:2012", "tolerances": {"EYX": 5}}],
+    }
+    document = certificate(tmp_path, keys)
+    changes, limits = (
+        block for block in section(document, "as-found-as-left").blocks if isinstance(block, Table)
+    )
+    (slope,) = (line for line in lines_of(changes) if "Slope" in line)
+    assert "µm/m" in slope
+    assert not any(column.unit for column in changes.columns)
+    assert [column.unit for column in limits.columns] == ["", "µm", "", ""]

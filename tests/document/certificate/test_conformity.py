@@ -16,6 +16,7 @@ from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
 from zlmreport.language import Language
+from zlmreport.measurement.units import MICROMETRE_PER_METRE
 
 
 @pytest.fixture(scope="module")
@@ -167,3 +168,17 @@ def test_the_job_states_the_rule_by_its_name_or_with_its_factor(tmp_path):
     document = certificate(tmp_path, keys)
 
     assert any("0.5·U" in line for block in document.cover for line in lines_of(block))
+
+
+def test_where_nothing_is_accepted_the_word_has_no_unit(evaluation):
+    """A guard band that is wider than its limit, of a parameter whose unit stands beside its number."""
+    parameters = tuple(
+        replace(
+            each,
+            quantity=replace(each.quantity, unit=MICROMETRE_PER_METRE),
+            expanded_uncertainty=200e-6,
+        )
+        for each in evaluation.parameters
+    )
+    first = rows(replace(evaluation, parameters=parameters), "guard-band")[0].split(" | ")
+    assert first[2:4] == ["150 µm/m", "none"]

@@ -18,12 +18,12 @@ def _deviation(target: int, way: str, run: int) -> float:
     return 0.01 * target + 2.3137 * ((7 * run + target // 40) % 5) + (1.7 if way == "-" else 0.0)
 
 
-def _tables(folder: Path, decimals: int, expanded: float) -> list[Table]:
+def _tables(folder: Path, decimals: int, expanded: float, runs: int = 5) -> list[Table]:
     """Return the tables of the results of a test whose readings have so many decimals."""
     folder.mkdir(exist_ok=True)
     rows = [
         f"{target},{way},{run},{_deviation(target, way, run):.{decimals}f}"
-        for run in range(1, 6)
+        for run in range(1, runs + 1)
         for way in "+-"
         for target in (TARGETS if way == "+" else reversed(TARGETS))
     ]
@@ -89,3 +89,13 @@ def test_digits_of_values_follow_u_those_of_means_the_readings_and_none_contradi
         largest = max((row[column] for row in by_position), key=float)
         allowed = (_unit(values[symbol]) + _unit(largest)) / 2
         assert abs(float(values[symbol]) - float(largest)) <= allowed * (1 + 1e-9)
+
+
+@pytest.mark.parametrize(("runs", "decimals"), [(1, 2), (5, 3)])
+def test_a_mean_has_a_digit_more_than_readings_where_it_is_one(
+    tmp_path: Path, runs: int, decimals: int
+) -> None:
+    (by_position,) = (each for each in _tables(tmp_path, 2, 2.0, runs) if each.dense)
+    for row in _rows(by_position):
+        assert {_decimals(row[name]) for name in ("x̄i↑", "x̄i↓", "Bi")} == {decimals}
+        assert _decimals(row["x̄i"]) == 3  # of both directions, always of several

@@ -12,7 +12,7 @@ import numpy as np
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, registry
+from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
 from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
 from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
@@ -228,3 +228,15 @@ def test_quantities_of_their_own_stand_one_below_the_other_on_one_axis() -> None
     assert list(draw_in_less_room([of_several])) == [of_several]
     assert find_main_graph([of_several]) is of_several
     assert find_main_graph([alike]) is alike
+
+
+def test_a_test_that_gives_nothing_has_no_empty_table_of_results(tmp_path):
+    """One reading at one target: no standard defines a parameter of it."""
+    (tmp_path / "one.csv").write_text("target,direction,run,deviation\n10,+,1,1.5\n")
+    source = {"plugin": "laser-csv", "file": "one.csv"}
+    keys = having("certificate.kind", "report")
+    document = certificate(tmp_path, {**keys, "measurement": {"date": "2022-04-07", "source": source}})
+    said = [line.strip() for block in document.cover for line in lines_of(block)]
+    assert "This test defines none of the parameters." in said
+    assert not any(isinstance(block, Table) for block in document.cover)
+    assert "Target positions: 1, at 10 mm" in said

@@ -143,6 +143,17 @@ def test_a_condition_is_shown_in_the_unit_in_which_it_is_logged(
     assert np.abs(log - first).min() < 1e-9
 
 
+def test_a_condition_keeps_the_name_that_its_file_gives_it() -> None:
+    test = linear_test()
+    named = replace(test, conditions={**test.conditions, "PT100_A": test.conditions["face"]})
+    found = fitted(*WHOLE, design=named)
+    figure = draw_over_condition(ModelDiagram(found.fit, found.error), "PT100_A")
+    assert "over PT100_A," in figure.title.in_language(Language.ENGLISH)
+    assert "over air pressure," in draw_over_condition(diagram(), "air_pressure").title.in_language(
+        Language.ENGLISH
+    )
+
+
 def test_the_course_over_time_leads_through_means_of_neighbours() -> None:
     (curve,) = draw_over_time(diagram()).panels[0].curves
     assert len(curve.x) == 12

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, strategies as st
 
 from zlmreport.document.figures.scale import (
-    count_decimals,
     find_extremes,
     include_zero,
     make_category_scale,
@@ -101,12 +100,13 @@ def test_labels_have_the_decimals_of_the_step() -> None:
 
 
 @pytest.mark.parametrize(
-    ("positions", "decimals"), [([0.0, 250.0], 0), ([25.2, 35.4], 1), ([3.137, 50.0], 3), ([1 / 3], 4)]
+    ("positions", "decimals"), [([0.0, 250.0], 0), ([25.2, 35.4], 1), ([3.137, 50.0], 3), ([0.3333], 4)]
 )
 def test_positions_are_written_with_the_decimals_that_they_have(
     positions: list[float], decimals: int
 ) -> None:
-    assert count_decimals(positions) == decimals
+    scale = make_position_scale(np.array(positions), 400.0, 12.0, POINT, _width)
+    assert {len(label.partition(".")[2]) for label in scale.labels} == {decimals}
 
 
 def test_labels_stand_at_targets_that_have_room() -> None:
@@ -177,3 +177,11 @@ def test_names_side_by_side_never_overlap(names: list[str]) -> None:
     scale = make_category_scale(names, 400.0, _width)
     widest = max(_width(line) for label in scale.labels for line in label.split("\n"))
     assert widest < 400.0 / len(names) or scale.labels == tuple(map(str, range(len(names))))
+
+
+def test_a_flat_graph_has_two_numbers_where_more_would_touch():
+    """Three multiples of 50 do not lie between −45 and 85, and seven of 20 have no room."""
+    (scale,) = make_value_scales([np.array([-45.0, 85.0])], 0.0, 1, DecimalSign.POINT)
+    assert scale.ticks == (0.0, 50.0)
+    (scale,) = make_value_scales([np.array([-45.0, 85.0])], 0.0, 4, DecimalSign.POINT)
+    assert scale.ticks == (-40.0, -20.0, 0.0, 20.0, 40.0, 60.0, 80.0)

@@ -145,3 +145,14 @@ def test_an_effect_that_no_table_takes_away_is_named(tmp_path: Path) -> None:
     warm = modelled(written(tmp_path, (LAST, f"{LAST}    - thermal-drift\n")))
     assert "thermal-drift: not fixed in position" in text(warm)
     assert "not fixed in position" not in text(modelled())
+
+
+def test_of_what_no_control_corrects_it_is_said_how_the_error_falls_and_nothing_more() -> None:
+    """A straightness has an error model, and no standard says what a compensation would leave of it."""
+    lines = text(replace(modelled(), forecasts=())).splitlines()
+    assert any(line.strip() == "How the error falls" for line in lines)
+    assert any(
+        line.strip().startswith("Effect | ") and line.strip().endswith("| Cross-validated µm")
+        for line in lines
+    )
+    assert not [line for line in lines if "after compensation" in line]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from itertools import pairwise
 
@@ -48,3 +49,19 @@ def test_the_targets_are_listed_in_order() -> None:
     targets = [float(line.split(": ")[1]) for line in lines if re.fullmatch(r" *\d+: [−\d.]+", line)]
     assert len(targets) == len(plan_of_test().proposal.plan.targets)
     assert all(one < other for one, other in pairwise(targets))
+
+
+def test_angles_of_a_plan_are_written_as_they_are() -> None:
+    """Steps of a turn are no round numbers of radians, and a sign of an angle touches its number."""
+    of_a_turn = (
+        (
+            "axis: {name: X, travel: [0, 600], screw_pitch: 10}",
+            "axis: {name: C, kind: rotary, travel: [0, 360]}",
+        ),
+        ("feed: 3000", "feed: 2000"),
+    )
+    planned = plan_of_test(*of_a_turn)
+    lines = [line for _, lines in _said(of_a_turn, Language.ENGLISH) for line in lines]
+    assert math.degrees(planned.travelled) == pytest.approx(3700)
+    assert any(line.startswith("3700° of travel") for line in lines)
+    assert not [line for line in lines if re.search(r"\d ″", line)]

@@ -234,3 +234,17 @@ def test_before_the_table_u_is_that_of_the_certificate(folder: Path, capsys: Cap
     assert without["forecast"]["expanded_uncertainty"] == {"before": {}, "after": {}}
     low, high = (each["forecast"]["second_test"]["E"]["high"] for each in (without, values))
     assert high > low  # the errors of two set-ups widen what a second test may show
+
+
+def test_rows_of_a_rotary_axis_are_told_in_its_degrees(folder: Path, capsys: Capture) -> None:
+    readings = ROOT / "configs" / "rotary-axis" / "c-axis.csv"
+    (folder / "c.yaml").write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: C-1, kind: report}\n"
+        "axis: {name: C, kind: rotary, compensation_table: none}\n"
+        f"measurement: {{source: {{plugin: laser-csv, file: {readings}}}}}\n"
+        'evaluate: ["iso230-2:2014"]\n',
+        encoding="utf-8",
+    )
+    for step, rows in (("0.5", 81), ("5", 9)):
+        main(["compensate", "c.yaml", "--controller", "linuxcnc", "--step", step, "-o", f"out{rows}"])
+        assert f"{rows} rows, {step}° apart, as stated" in capsys.readouterr().out

@@ -80,7 +80,7 @@ def make_software(certificate: Certificate, writer: AdministrativeWriter) -> ET.
     return dcc("software", writer.make_named("name", name), dcc("release", f"v{release or '0'}"))
 
 
-def make_serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
+def _make_serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
     """Return the identification by which a manufacturer tells one piece from another."""
     return dcc(
         "identification",
@@ -114,7 +114,7 @@ def make_administrative_data(certificate: Certificate, job: Job) -> ET.Element:
         ),
         _make_persons(job, writer),
         _make_contact("customer", keys.customer, writer),
-        dcc("statements", *make_statements(certificate)),
+        dcc("statements", *_make_statements(certificate)),
     )
 
 
@@ -193,7 +193,7 @@ def _make_item(job: Job, writer: AdministrativeWriter) -> ET.Element:
         dcc("model", machine.model) if machine.model else None,
         dcc(
             "identifications",
-            make_serial_number(machine.serial or "", writer),
+            _make_serial_number(machine.serial or "", writer),
             dcc(
                 "identification",
                 dcc("issuer", "other"),
@@ -265,7 +265,7 @@ def make_equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
         dcc("manufacturer", writer.make_named("name", instrument.manufacturer))
         if instrument.manufacturer
         else None,
-        dcc("identifications", make_serial_number(instrument.serial, writer)) if instrument.serial else None,
+        dcc("identifications", _make_serial_number(instrument.serial, writer)) if instrument.serial else None,
     )
 
 
@@ -318,7 +318,7 @@ def _make_condition(
     )
 
 
-def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
+def _make_statements(certificate: Certificate) -> Iterator[ET.Element]:
     """Yield the statements, in the order of the pages and each once."""
     language = certificate.language
     of = certificate.parts.values() or [certificate]

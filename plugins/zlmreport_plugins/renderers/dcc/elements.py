@@ -155,7 +155,7 @@ def group(name: str, *content: Content) -> ET.Element | None:
     return dcc(name, *held) if held else None
 
 
-def clean_for_xml(text: str) -> str:
+def _clean_for_xml(text: str) -> str:
     """Return a text as XML can hold it: on one line, and U+FFFD for what XML has no way to write."""
     return " ".join(_IMPOSSIBLE.sub("\N{REPLACEMENT CHARACTER}", text).split())
 
@@ -170,7 +170,7 @@ def write_document(root: ET.Element) -> bytes:
 def _fill_element(element: ET.Element, content: tuple[Content, ...]) -> ET.Element:
     for each in content:
         if isinstance(each, str):
-            element.text = clean_for_xml(each)
+            element.text = _clean_for_xml(each)
         elif each is not None:
             element.append(each)
     return element

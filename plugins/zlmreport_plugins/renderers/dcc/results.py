@@ -17,6 +17,7 @@ from zlmreport.plugin import (
     MeasurementSet,
     Unit,
     Words,
+    named,
 )
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import (
@@ -59,7 +60,6 @@ from zlmreport_plugins.renderers.dcc.elements import (
 
 _RESULTS = Words("{subject} by {designation}")
 _RESULTS_BY_METHOD = Words("{subject} by the method of {designation}")
-_OF_LINE = Words("{name}: {said}")
 _PARAMETERS = Words("Parameters of the axis")
 _OF_NO_AXIS = Words("Parameters")
 _POSITIONS = Words("Results by target position")
@@ -76,7 +76,6 @@ _APPROACHES = (
 )
 _LIMIT = Words("Limit")
 _ACCEPTED = Words("Acceptance limit")
-_FOUND = Words("{requirement}: {found}")
 _FINDINGS = {
     True: Words("Requirement of {designation} that is met"),
     False: Words("Requirement of {designation} that the test does not meet"),
@@ -135,18 +134,18 @@ def make_measurement_results(certificate: Certificate, job: Job) -> ET.Element:
         "measurementResults",
         *(
             each
-            for part, of_part, named in parts or [(certificate, job, "")]
-            for each in _make_results_of_measurement(part, of_part, named)
+            for part, of_part, name in parts or [(certificate, job, "")]
+            for each in _make_results_of_measurement(part, of_part, name)
         ),
     )
 
 
-def _make_results_of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[ET.Element]:
-    """Yield the results of one measurement; `named` is what its document calls it."""
+def _make_results_of_measurement(certificate: Certificate, job: Job, name: str) -> Iterator[ET.Element]:
+    """Yield the results of one measurement; `name` is what its document calls it."""
     writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
     after = find_state("after", work, writer)
-    tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, named)]
+    tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, name)]
     if before:
         tests.insert(0, _Test(find_state("before", work, writer), found, certificate.budget_as_found, before))
     tests += (
@@ -155,7 +154,7 @@ def _make_results_of_measurement(certificate: Certificate, job: Job, named: str)
             [of.evaluation for of in each.evaluated],
             each.budget,
             each.job,
-            name="-".join(filter(None, (named, each.name))),
+            name="-".join(filter(None, (name, each.name))),
             line=each.measurements,
         )
         for each in certificate.tests
@@ -173,7 +172,7 @@ def _make_readings_alone(
     """Return a measured line that no standard evaluates but together with others."""
     return dcc(
         "measurementResult",
-        writer.make_named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
+        writer.make_named("name", named(test.name, line.axis.subject)),
         _make_used_methods(certificate.evaluations, writer),  # what evaluates it together with others
         dcc("usedSoftware", make_software(certificate, writer)),
         group("measuringEquipments", make_equipment(test.job, writer)),
@@ -184,8 +183,8 @@ def _make_readings_alone(
 
 
 def _make_result_of_readings(test: _Test, line: MeasurementSet, writer: AdministrativeWriter) -> ET.Element:
-    named = {"id": f"{TEST}{test.name}"} if test.name else {}
-    return _make_result(_READINGS, _make_readings(line, writer), writer, refType=READINGS, **named)
+    identifier = {"id": f"{TEST}{test.name}"} if test.name else {}
+    return _make_result(_READINGS, _make_readings(line, writer), writer, refType=READINGS, **identifier)
 
 
 def _make_measurement_result(
@@ -201,7 +200,7 @@ def _make_measurement_result(
     by = _RESULTS_BY_METHOD if evaluation.is_method else _RESULTS
     name = by.given(subject=measurements.axis.subject, designation=evaluation.designation)
     if test.name:
-        name = _OF_LINE.given(name=test.name, said=name)
+        name = named(test.name, name)
     parameters = (_make_parameter(each, evaluation, writer) for each in evaluation.parameters)
     is_continuous = measurements.axis.measurand.is_continuous
     based_on = {} if job.keys.agreement.simplified else _make_reference(test, measurements)
@@ -394,11 +393,10 @@ def _list_columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, F
 def _make_findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the requirements of the standard: met, not met, open."""
     for finding in evaluation.findings:
-        found = _FOUND.given(requirement=finding.requirement, found=finding.found)
         yield dcc(
             "metaData",
             writer.make_named("name", _FINDINGS[finding.met].given(designation=evaluation.designation)),
-            dcc("declaration", writer.make_content(found)),
+            dcc("declaration", writer.make_content(named(finding.requirement, finding.found))),
         )
 
 

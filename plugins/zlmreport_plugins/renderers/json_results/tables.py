@@ -128,7 +128,7 @@ class CsvRenderer:
 def list_values(certificate: Certificate) -> Iterator[TableValue]:
     """Yield every number of the evaluations and of the error model."""
     found = collect_results(certificate)
-    for test, prefix in list_measured(found):
+    for test, prefix in _list_measured(found):
         unit = test["measurements"]["units"]["deviation"]
         for evaluation in test["evaluations"]:
             yield from _list_values_of_evaluation(evaluation, unit, prefix)
@@ -138,7 +138,7 @@ def list_values(certificate: Certificate) -> Iterator[TableValue]:
         yield from _list_values_of_model(part["model"])
 
 
-def list_measured(found: Json) -> Iterator[tuple[Json, str]]:
+def _list_measured(found: Json) -> Iterator[tuple[Json, str]]:
     """Yield what has evaluations of its own, with what its quantities begin with.
 
     The measurement itself with nothing; ``as_found.`` before an adjustment; of several measured lines, and of
@@ -265,7 +265,7 @@ class _Sheets:
     def fill(self) -> None:
         """Add every sheet that has something to say."""
         found = collect_results(self._certificate)
-        for test, prefix in list_measured(found):
+        for test, prefix in _list_measured(found):
             if test["evaluations"]:  # a line of several may have none of its own
                 self._add_evaluations(test, self._name_sheets(prefix), _name_targets(test["measurements"]))
         parts = self._certificate.parts or {"": self._certificate}

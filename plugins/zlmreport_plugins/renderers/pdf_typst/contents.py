@@ -145,7 +145,7 @@ def _make_block(numbered: NumberedBlock, certificate: Certificate) -> Data:
             data = collect_table(table, is_compact=is_compact)
             return {"kind": "table", **_make_captioned(numbered, caption, symbols), **data}
         case Formulas(caption=caption) as formulas:
-            data = collect_formulas(formulas, is_compact=is_compact)
+            data = _collect_formulas(formulas, is_compact=is_compact)
             return {"kind": "formulas", **_make_captioned(numbered, caption), **data}
         case Graph(figure):
             return {
@@ -263,7 +263,7 @@ def collect_table(table: Table, *, is_compact: bool) -> dict[str, Any]:
     }
 
 
-def collect_formulas(formulas: Formulas, *, is_compact: bool) -> dict[str, Any]:
+def _collect_formulas(formulas: Formulas, *, is_compact: bool) -> dict[str, Any]:
     """Return definitions, which are set as a table without headings."""
     columns, rooms = _share_columns(formulas, formulas.rows, [Align.LEFT] * 3, is_compact=is_compact)
     return {**columns, "rows": [_make_row(row, rooms) for row in formulas.rows]}

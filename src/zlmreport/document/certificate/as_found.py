@@ -33,7 +33,14 @@ from zlmreport.document.certificate.circumstances import (
 from zlmreport.document.certificate.conditions import lay_out_corrections
 from zlmreport.document.certificate.values import limit, tell_columns_apart
 from zlmreport.document.figures.prescribed import draw_comparison
-from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
+from zlmreport.document.writer import (
+    NOTHING,
+    Writer,
+    add_unit,
+    is_mixed,
+    write_rounded_together,
+    write_with_uncertainty,
+)
 from zlmreport.evaluation.evaluation import Change, EvaluatedParameter, Evaluation, compare_parameters
 from zlmreport.language import Words
 
@@ -89,11 +96,10 @@ _CHANGES_WITH_U = Words(
 _LIMITS = Words("Limits as found and as left")
 
 
-def say_on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
-    """Yield which of the two measurements the first page shows."""
-    if keys:
-        work, done, _ = _WORK[keys.work]
-        yield Paragraph(writer.say(_ON_COVER.given(work=work, done=done, title=_TITLE)))
+def say_on_cover(keys: AsFound, writer: Writer) -> Paragraph:
+    """Return which of the two measurements the first page shows."""
+    work, done, _ = _WORK[keys.work]
+    return Paragraph(writer.say(_ON_COVER.given(work=work, done=done, title=_TITLE)))
 
 
 def lay_out_beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
@@ -162,8 +168,8 @@ def _lay_out_comparison(
         *lay_out_corrections(first.measurements, writer),
         *_find_differences(first.measurements, last.measurements, writer),
         Graph(draw_comparison(first, last, NAMES[keys.work])),
-        lay_out_changes(pairs, writer),
-        *lay_out_limits(pairs, writer),
+        _lay_out_changes(pairs, writer),
+        *_lay_out_limits(pairs, writer),
     ]
     return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
 
@@ -224,12 +230,13 @@ def _find_differences(before: MeasurementSet, after: MeasurementSet, writer: Wri
         yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))
 
 
-def lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
+def _lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     """Return the table of parameters before and after, with their uncertainties where these are known."""
-    unit = writer.deviation_unit.symbol
     changed = [compare_parameters(*pair) for pair in pairs]
     every = [each for of_pair in changed for each in of_pair]
     known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
+    mixed = is_mixed((each.either for each in every), writer)
+    unit = "" if mixed else writer.deviation_unit.symbol
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
     columns = (
         Column(writer.say(Words("Symbol"))),
@@ -242,7 +249,10 @@ def lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
         *uncertainty,
     )
     groups = tuple(
-        RowGroup(tuple(_change(each, writer, known=known) for each in of_pair), pair[1].designation)
+        RowGroup(
+            tuple(_change(each, writer, known=known, with_units=mixed) for each in of_pair),
+            pair[1].designation,
+        )
         for pair, of_pair in zip(pairs, changed, strict=True)
     )
     caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
@@ -255,15 +265,15 @@ def _both(change: Change) -> Iterator[EvaluatedParameter]:
     yield from filter(None, (change.before, change.after))
 
 
-def _change(change: Change, writer: Writer, *, known: bool) -> tuple[Cell, ...]:
+def _change(change: Change, writer: Writer, *, known: bool, with_units: bool) -> tuple[Cell, ...]:
     quantity, parts = change.either.quantity, 2 if known else 1
-    return (
-        Symbol(quantity.notation),
-        writer.say(quantity.name),
+    numbers = (
         *(write_with_uncertainty(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],
         *(write_with_uncertainty(change.after, writer) if change.after else (NOTHING, NOTHING))[:parts],
         *_write_change(change, writer)[:parts],
     )
+    shown = (add_unit(each, quantity, writer) if with_units else each for each in numbers)
+    return (Symbol(quantity.notation), writer.say(quantity.name), *shown)
 
 
 def _write_change(change: Change, writer: Writer) -> tuple[str, str]:
@@ -277,38 +287,36 @@ def _write_change(change: Change, writer: Writer) -> tuple[str, str]:
     return write_rounded_together(value, change.expanded_uncertainty, writer)
 
 
-def lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
+def _lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
+    limited = [
+        [each for each in compare_parameters(*pair) if each.either.limit is not None] for pair in pairs
+    ]
+    mixed = is_mixed((each.either for some in limited for each in some), writer)
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(
             writer.say(Words("Limit")) + writer.marks.write_after("evaluate.tolerances"),
-            writer.deviation_unit.symbol,
+            "" if mixed else writer.deviation_unit.symbol,
             Align.RIGHT,
         ),
         Column(writer.say(_BEFORE)),
         Column(writer.say(_AFTER)),
     )
     groups = tuple(
-        RowGroup(
-            tuple(
-                _show_verdicts(each, writer)
-                for each in compare_parameters(*pair)
-                if each.either.limit is not None
-            ),
-            pair[1].designation,
-        )
-        for pair in pairs
+        RowGroup(tuple(_show_verdicts(each, writer, with_units=mixed) for each in some), after.designation)
+        for (_, after), some in zip(pairs, limited, strict=True)
+        if some
     )
-    limited = tuple(group for group in groups if group.rows)
-    if limited:
-        yield Table(writer.say(_LIMITS), columns, limited)
+    if groups:
+        yield Table(writer.say(_LIMITS), columns, groups)
 
 
-def _show_verdicts(change: Change, writer: Writer) -> tuple[Cell, ...]:
+def _show_verdicts(change: Change, writer: Writer, *, with_units: bool) -> tuple[Cell, ...]:
+    quantity, stated = change.either.quantity, limit(change.either, writer)
     return (
-        Symbol(change.either.quantity.notation),
-        limit(change.either, writer),
+        Symbol(quantity.notation),
+        add_unit(stated, quantity, writer) if with_units else stated,
         *(
             conformity.make_verdict_cell(each, writer) if each else NOTHING
             for each in (change.before, change.after)

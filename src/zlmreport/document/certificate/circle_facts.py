@@ -31,7 +31,8 @@ _AVERAGED = Words("{count}, averages of {readings} readings")
 
 def describe_circle(keys: CircleKeys, writer: Writer) -> str:
     """Write which circle was run, in a line."""
-    return writer.say(_IN_WORDS.given(plane=keys.plane, radius=keys.radius, feed=keys.feed))
+    radius, feed = map(writer.number, (keys.radius, keys.feed))
+    return writer.say(_IN_WORDS.given(plane=keys.plane, radius=radius, feed=feed))
 
 
 def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
@@ -49,7 +50,7 @@ def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     )
     yield Fact(
         Words("Centre at X / Y / Z"),
-        write_with_unit(place, "mm", writer) and f"{place} mm",
+        place and f"{place} mm",
         ("circle.centre",),
     )
     yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length", "circle.certificate"))

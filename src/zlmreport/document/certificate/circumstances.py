@@ -34,7 +34,12 @@ def write_days(measurement: Measurement, writer: Writer) -> str | None:
     first, last = measurement.date, measurement.end
     if first is None:
         return None
-    if last is None or last == first:
+    return write_period(first, last or first, writer)
+
+
+def write_period(first: dt.date, last: dt.date, writer: Writer) -> str:
+    """Write a day, or from which to which day something went on."""
+    if first == last:
         return writer.date(first)
     return writer.say(_DAYS.given(first=writer.date(first), last=writer.date(last)))
 
@@ -83,7 +88,7 @@ def list_measurement_facts(
     yield fact(Words("Measuring line"), measurement.line, "line")
     yield fact(
         Words("Position of the second axis"),
-        f"{plane.axis} = {writer.number(plane.at)} {unit}" if plane else None,
+        f"{plane.axis} = {writer.number(plane.at)} mm" if plane else None,
         "plane",
     )
     yield fact(
@@ -95,7 +100,6 @@ def list_measurement_facts(
     yield fact(Words("Remarks"), measurement.remarks, "remarks")
 
 
-_MEASURED = Words("{subject}: {sign}")
 _BOTH_SYMBOLS = Words("{error} ({of_guideline})")
 
 
@@ -109,7 +113,7 @@ def _write_measured(measurement: Measurement, measurements: MeasurementSet, writ
         of_guideline = named("VDI/VDE 2617-3", find_error_named(axis.error).vdi)
         symbol = _BOTH_SYMBOLS.given(error=axis.error, of_guideline=of_guideline)
         subject = axis.measurand.named(axis.name, symbol)
-    return writer.say(_MEASURED.given(subject=subject, sign=axis.measurand.sign_of(axis.letter)))
+    return writer.say(named(subject, axis.measurand.sign_of(axis.letter)))
 
 
 def _write_elsewhere(measurement: Measurement, writer: Writer) -> str | None:
@@ -193,12 +197,12 @@ def write_with_unit(value: str | float | None, unit: str, writer: Writer) -> str
 
 
 def _write_targets(measurements: MeasurementSet, writer: Writer) -> Words:
-    first, last = measurements.target_positions[0], measurements.target_positions[-1]
-    return Words("{count}, from {first} to {last}").given(
-        count=len(measurements.target_positions),
-        first=writer.position(float(first)),
-        last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
-    )
+    targets = measurements.target_positions
+    first, last = (writer.position(float(each)) for each in (targets[0], targets[-1]))
+    last = units.with_unit(last, writer.position_unit.symbol)
+    if len(targets) == 1:
+        return Words("1, at {position}").given(position=last)
+    return Words("{count}, from {first} to {last}").given(count=len(targets), first=first, last=last)
 
 
 def _record(measurements: MeasurementSet) -> Words:
@@ -235,7 +239,7 @@ class Fact(NamedTuple):
     Attributes
     ----------
     name
-        What is stated_facts.
+        What is stated.
     value
         In the document's language; None or empty where the job does not state it.
     keys

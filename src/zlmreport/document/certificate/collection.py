@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
 from zlmreport.document.certificate.attachments import SourceRole, list_sources
-from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date
-from zlmreport.document.certificate.conditions import name_machine_kind
+from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_period
 from zlmreport.document.certificate.digest import DIGEST, digest_of
 from zlmreport.document.certificate.document import Certificate, Look
 from zlmreport.document.certificate.measured_lines import say_of_each
@@ -18,12 +17,12 @@ from zlmreport.document.certificate.own_look import read_own_look
 from zlmreport.document.certificate.own_words import arrange_sections, fill_in
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.standard_layout import fit_on_a_page
-from zlmreport.document.certificate.statements import write_document_title, write_person, write_running_title
+from zlmreport.document.certificate.statements import write_document_title, write_running_title
 from zlmreport.document.certificate.values import Values
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation.evidence import find_lines_read_twice
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
@@ -38,9 +37,6 @@ _SUMMARY = Words(
     "Summary: what has a limit, or else the first parameter of each measurement by each standard"
 )
 _GROUP = Words("{subject}, {designation}")
-_TITLE = Words("{name}: {title}")
-_DAYS = Words("{first} to {last}")
-_NAMED = Words("{names}: {heading}")
 
 
 def collect_certificates(
@@ -191,28 +187,10 @@ def _list_identity(
     job: Job, evaluations: Sequence[Evaluation], digest: str, writer: Writer
 ) -> Iterator[Fact]:
     """Yield who the document is for, on what, and when each part was measured."""
-    keys = job.keys
-    machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
-    if customer:
-        address = ", ".join(cover.split_address(customer.address))
-        said = ", ".join(filter(None, (customer.name, address)))
-        yield Fact(Words("Customer"), said, ("customer.name", "customer.address"))
-    kind = name_machine_kind(job, writer)
-    item = f"{machine.type} ({kind})" if machine.type else kind
-    yield Fact(statements.ITEM[keys.certificate.kind], item, ("machine.manufacturer", "machine.model"))
-    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
-    names = ", ".join(dict.fromkeys(each.designation for each in evaluations))
-    yield Fact(Words("Evaluated in accordance with"), names)
-    place = cover.place_of_work(keys)
-    if place:
-        yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
-    yield Fact(Words("Received"), write_date(keys.dates.received, writer), ("dates.received",))
+    yield from cover.list_facts_of_item(job, writer)
+    yield from cover.list_facts_of_work(job.keys, evaluations, writer)
     yield Fact(Words("Dates of measurement"), _write_days(job, writer))
-    yield Fact(Words("Date of issue"), write_date(keys.certificate.issued, writer))
-    if keys.next_due:
-        yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
-    if person:
-        yield Fact(Words("Authorised by"), write_person(person))
+    yield from cover.list_facts_of_issue(job.keys, writer)
     yield Fact(DIGEST, digest)
 
 
@@ -227,8 +205,7 @@ def _write_days(job: Job, writer: Writer) -> str | None:
     ]
     if not stated:
         return None
-    first, last = writer.date(min(stated)), writer.date(max(stated))
-    return first if first == last else writer.say(_DAYS.given(first=first, last=last))
+    return write_period(min(stated), max(stated), writer)
 
 
 def _gather_said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator[Block]:
@@ -239,8 +216,8 @@ def _gather_said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> I
             if isinstance(block, Notice):
                 found.setdefault(block, []).append(name)
     for block, names in found.items():
-        heading = _NAMED.given(names=", ".join(names), heading=block.heading)
-        yield Notice(writer.say(heading), block.items, symbols=block.symbols)
+        heading = writer.say(named(", ".join(names), block.heading))
+        yield Notice(heading, block.items, symbols=block.symbols)
 
 
 def _lay_out_on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
@@ -261,11 +238,10 @@ def _lay_out_sections(name: str, part: Certificate, writer: Writer) -> Iterator[
     if part.is_compact:
         first = fit_on_a_page(first, columns.PAGES[part.paper])
     for number, section in enumerate((first, *others)):
-        title = part.subtitle if not number else _TITLE.given(name=name, title=section.title)
         yield replace(
             section,
             key=f"{name}-{section.key}",
-            title=title if isinstance(title, str) else writer.say(title),
+            title=writer.say(named(name, section.title)) if number else part.subtitle,
             blocks=tuple(_name_block(block, name) for block in section.blocks),
             new_page=section.new_page or not number,
         )

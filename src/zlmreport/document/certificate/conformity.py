@@ -20,11 +20,10 @@ from zlmreport.document.blocks import (
     Table,
     Verdict,
 )
-from zlmreport.document.writer import NOTHING, Writer, write_rounded_together
+from zlmreport.document.writer import NOTHING, Writer, add_unit, is_mixed, write_rounded_together
 from zlmreport.evaluation.evaluation import Conformity
 from zlmreport.language import Words, join_parts, same
 from zlmreport.language.formatting import write_fixed_number, write_percentage, write_plain
-from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
@@ -85,6 +84,7 @@ _WITHOUT_UNCERTAINTY = Words(
 _SPECIFICATION = Words("{rule} Limits{mark}: {names}.")
 _OF_STANDARD = Words("{specification} ({standard})")
 _NO_SPECIFICATION = Words("{rule} Limits as ordered; their source is not stated.")
+_NONE = Words("none")
 _CAPTION = Words(
     "Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
     "normally distributed value with this uncertainty (JCGM 106:2012)."
@@ -161,9 +161,8 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
     if all(each.expanded_uncertainty is None for some in limited.values() for each in some):
         return
     every = [one for some in limited.values() for one in some]
-    units = {one.quantity.unit_or(writer.deviation_unit) for one in every}
-    is_mixed = units != {writer.deviation_unit}
-    unit = "" if is_mixed else writer.deviation_unit.symbol
+    mixed = is_mixed(every, writer)
+    unit = "" if mixed else writer.deviation_unit.symbol
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Amount")), unit, Align.RIGHT),
@@ -178,7 +177,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
     )
     groups = tuple(
         RowGroup(
-            tuple(_lay_out_row(each, writer, is_mixed=is_mixed) for each in some),
+            tuple(_lay_out_row(each, writer, with_units=mixed) for each in some),
             name if len(limited) > 1 else "",
         )
         for name, some in limited.items()
@@ -187,29 +186,32 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
     yield Table(writer.say(_CAPTION), columns, groups)
 
 
-def _lay_out_row(parameter: EvaluatedParameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
+def _lay_out_row(parameter: EvaluatedParameter, writer: Writer, *, with_units: bool) -> tuple[Cell, ...]:
     writer = writer.of_quantity(parameter.quantity)
 
     def shown(number: str) -> str:
-        return with_unit(number, writer.deviation_unit.symbol) if is_mixed else number
+        return add_unit(number, parameter.quantity, writer) if with_units else number
 
     decision = parameter.decision
     accepted = None if decision is None else decision.acceptance_limit
+    is_nothing_accepted = accepted is not None and accepted < 0  # the guard band is wider than the limit
     risk = None if decision is None else decision.risk
     return (
         Symbol(parameter.quantity.notation),
         shown(_write_rounded(abs(parameter.value), parameter, writer)),
         shown(writer.number(writer.deviation_unit.from_si(parameter.limit or 0.0))),
-        NOTHING if accepted is None else shown(_write_accepted(accepted, parameter, writer)),
+        writer.say(_NONE) if is_nothing_accepted else shown(_write_accepted(accepted, parameter, writer)),
         make_verdict_cell(parameter, writer),
         NOTHING if risk is None else write_percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
     )
 
 
-def _write_accepted(limit: float, parameter: EvaluatedParameter, writer: Writer) -> str:
-    if limit == parameter.limit:
-        return writer.number(writer.deviation_unit.from_si(limit))
-    return _write_rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words("none"))
+def _write_accepted(accepted: float | None, parameter: EvaluatedParameter, writer: Writer) -> str:
+    if accepted is None:
+        return NOTHING
+    if accepted == parameter.limit:
+        return writer.number(writer.deviation_unit.from_si(accepted))
+    return _write_rounded(accepted, parameter, writer)
 
 
 def _write_rounded(value: float, parameter: EvaluatedParameter, writer: Writer) -> str:

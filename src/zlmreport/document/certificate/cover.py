@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -18,12 +18,17 @@ from zlmreport.document.certificate.conditions import (
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import list_missing_readings
-from zlmreport.document.certificate.results import Evaluated, list_subscripted, make_section_key
+from zlmreport.document.certificate.results import (
+    NO_PARAMETER,
+    Evaluated,
+    list_subscripted,
+    make_section_key,
+)
 from zlmreport.document.certificate.statements import make_amendment_notice, write_person
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.evaluation.evaluation import QuantityGroup
 from zlmreport.job.document_keys import Location
-from zlmreport.language import Words, same
+from zlmreport.language import Words, named, same
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.document import Certificate
@@ -94,8 +99,8 @@ def _say_elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
     writer = of.writer
     if behind.conditions:
         groups = conditions.list_groups(of.job, of.measurements, of.described, writer)
-        named = ", ".join(group.heading for key, group in groups if key in behind.conditions)
-        yield Paragraph(writer.say(_IN_SECTION.given(title=conditions.TITLE, what=named)))
+        headings = ", ".join(group.heading for key, group in groups if key in behind.conditions)
+        yield Paragraph(writer.say(_IN_SECTION.given(title=conditions.TITLE, what=headings)))
     if behind.explains_uncertainty:
         yield Paragraph(writer.say(_IN_SECTION.given(title=uncertainty.TITLE, what=_MEANING_OF_U)))
 
@@ -140,10 +145,16 @@ def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
     if job.keys.as_found:
         from zlmreport.document.certificate.as_found import say_on_cover  # noqa: PLC0415 - of the few that need it
 
-        yield from say_on_cover(job.keys.as_found, writer)
+        yield say_on_cover(job.keys.as_found, writer)
 
 
-def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
+def _lay_out_results(
+    pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool
+) -> Table | Paragraph:
+    """Return the results in brief; where no standard gives any, that it is so."""
+    pages = [page for page in pages if page[0].evaluation.parameters]
+    if not pages:
+        return Paragraph(writer.say(NO_PARAMETER))
     values = Values.of((page[0].evaluation for page in pages), writer)
     columns = tuple(values.list_columns())
     groups = tuple(
@@ -204,43 +215,19 @@ def _list_shortfalls(
         if (unmet := sum(finding.met is False for finding in evaluation.findings))
     )
     if in_a_line and len(items) > 1:
-        named = (each.designation for each in evaluations if any(one.met is False for one in each.findings))
+        found = (each.designation for each in evaluations if any(one.met is False for one in each.findings))
         words = Words("{designations}; see their sections")
-        items = (writer.say(words.given(designations=", ".join(named))),)
+        items = (writer.say(words.given(designations=", ".join(found))),)
     if items:
         yield Notice(writer.say(_NOT_MET), items)
 
 
 def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
     """Yield the facts, in the order of the page; `evaluations` are those of the page."""
-    job, writer = of.job, of.writer
-    keys = job.keys
-    machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
-    if customer:
-        address = ", ".join(split_address(customer.address))
-        yield Fact(
-            Words("Customer"),
-            ", ".join(filter(None, (customer.name, address))),
-            ("customer.name", "customer.address"),
-        )
-    kind = name_machine_kind(job, writer)
-    yield Fact(
-        statements.ITEM[keys.certificate.kind],
-        f"{machine.type} ({kind})" if machine.type else kind,
-        ("machine.manufacturer", "machine.model", "machine.kind"),
-    )
-    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
+    job, keys, writer = of.job, of.job.keys, of.writer
+    yield from list_facts_of_item(job, writer)
     yield Fact(say_measured_of(job), describe_axis(job, writer), ("axis.name", "axis.kind"))
-    yield Fact(
-        Words("Evaluated in accordance with"),
-        ", ".join(evaluation.designation for evaluation in evaluations),
-        ("evaluate.standard",),
-    )
-    place = place_of_work(keys)
-    if place:
-        yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
-    received = write_date(keys.dates.received, writer)
-    yield Fact(Words("Received"), received, ("dates.received",))
+    yield from list_facts_of_work(keys, evaluations, writer)
     if keys.as_found:
         yield Fact(
             Words("Date of measurement as found"),
@@ -252,16 +239,48 @@ def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[F
         write_days(keys.measurement, writer),
         ("measurement.date", "measurement.end"),
     )
-    yield Fact(Words("Date of issue"), write_date(keys.certificate.issued, writer))
-    if keys.next_due:
-        yield Fact(
-            statements.NEXT_DUE[keys.certificate.kind],
-            writer.date(keys.next_due.date),
-        )
-    if person:
-        yield Fact(Words("Authorised by"), write_person(person))
+    yield from list_facts_of_issue(keys, writer)
     if not of.is_part:
         yield Fact(DIGEST, of.digest)
+
+
+def list_facts_of_item(job: Job, writer: Writer) -> Iterator[Fact]:
+    """Yield for whom the document is, and on what."""
+    machine, customer = job.keys.machine, job.keys.customer
+    if customer:
+        address = ", ".join(split_address(customer.address))
+        yield Fact(
+            Words("Customer"),
+            ", ".join(filter(None, (customer.name, address))),
+            ("customer.name", "customer.address"),
+        )
+    kind = name_machine_kind(job, writer)
+    yield Fact(
+        statements.ITEM[job.keys.certificate.kind],
+        f"{machine.type} ({kind})" if machine.type else kind,
+        ("machine.manufacturer", "machine.model", "machine.kind"),
+    )
+    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
+
+
+def list_facts_of_work(keys: JobKeys, evaluations: Iterable[Evaluation], writer: Writer) -> Iterator[Fact]:
+    """Yield by which standards it was evaluated, where it was measured, and when it came there."""
+    designations = dict.fromkeys(each.designation for each in evaluations)
+    yield Fact(Words("Evaluated in accordance with"), ", ".join(designations), ("evaluate.standard",))
+    place = place_of_work(keys)
+    if place:
+        yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
+    yield Fact(Words("Received"), write_date(keys.dates.received, writer), ("dates.received",))
+
+
+def list_facts_of_issue(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
+    """Yield when the document was issued and by whom, and when the next one is due."""
+    person = keys.certificate.authorised_by
+    yield Fact(Words("Date of issue"), write_date(keys.certificate.issued, writer))
+    if keys.next_due:
+        yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
+    if person:
+        yield Fact(Words("Authorised by"), write_person(person))
 
 
 def split_address(address: str | None) -> tuple[str, ...]:
@@ -289,7 +308,6 @@ _KINDS = {
     "laboratory branch": Words("at a branch of the laboratory"),
     "customer branch": Words("at a branch of the customer"),
 }
-_AT = Words("{kind}: {address}")
 _WHERE_IT_STANDS = Words("where the machine stands: {location}")
 
 
@@ -312,7 +330,7 @@ def _find_place_of_kind(kind: str, address: str) -> PlaceOfWork:
     if words is None:
         words = same(_write_in_a_line(address))
     elif address:
-        words = _AT.given(kind=words, address=_write_in_a_line(address))
+        words = named(words, _write_in_a_line(address))
     return PlaceOfWork(kind, address, words, ("location",))
 
 

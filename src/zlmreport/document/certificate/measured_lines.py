@@ -20,7 +20,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
 from zlmreport.document.writer import NOTHING, Writer
-from zlmreport.language import PhraseRow, Words, same
+from zlmreport.language import PhraseRow, Words, named, same
 from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
@@ -28,10 +28,8 @@ if TYPE_CHECKING:
 
 #: Key of the section on lines without results of their own.
 BARE_LINES = "lines"
-_NAMED = Words("{name}: {said}")
 #: Groups of facts that a line may have of its own: the machine is that of the document.
 _OWN = ("axis", "measurement", "instrument", "environment")
-_TABLE = Words("{name}: {caption}")
 
 
 def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
@@ -50,10 +48,10 @@ def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterato
         if len(names) == count > 1 or not names[0]:
             yield sentence
         else:
-            yield _NAMED.given(name=PhraseRow(tuple(map(same, names))), said=sentence)
+            yield named(PhraseRow(tuple(map(same, names))), sentence)
 
 
-def make_writer_of(test: Tested, writer: Writer) -> Writer:
+def _make_writer_of(test: Tested, writer: Writer) -> Writer:
     """Return a writer for the readings of a line, which have units and decimals of their own."""
     return Writer.of(test.measurements, writer.language, writer.marks)
 
@@ -61,7 +59,7 @@ def make_writer_of(test: Tested, writer: Writer) -> Writer:
 def list_notices(tests: Sequence[Tested], writer: Writer) -> Iterator[Notice]:
     """Yield which readings of which line are missing."""
     for test in tests:
-        for each in readings.list_missing_readings(test.measurements, make_writer_of(test, writer)):
+        for each in readings.list_missing_readings(test.measurements, _make_writer_of(test, writer)):
             yield replace(each, heading=_write_title(test, each.heading, writer))
 
 
@@ -80,7 +78,7 @@ def lay_out_results(
     said = {pair for _, facts in known for pair in facts.pairs}
     bare: list[tuple[Tested, list[Facts]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
+        own = _make_writer_of(test, writer)
         circumstances = list(_list_circumstances(test, said, own))
         blocks = [
             *conditions.lay_out_corrections(test.measurements, own),
@@ -143,7 +141,7 @@ def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Sectio
             sharing.append(test)
     for section, sharing in found:
         whole = section if len(sharing) == 1 else _lay_out_readings_of(sharing, writer)
-        title = _NAMED.given(name=", ".join(each.name for each in sharing), said=section.title)
+        title = named(", ".join(each.name for each in sharing), section.title)
         yield replace(whole, key=f"{sharing[0].name}-readings", title=writer.say(title))
 
 
@@ -151,7 +149,9 @@ def _lay_out_readings_of(tests: Sequence[Tested], writer: Writer) -> Section:
     """Return the readings of a line, or of lines of which the same is said."""
     first = tests[0]
     key = f"measurement.tests.{first.name}.source"
-    return readings.lay_out_readings(first.measurements, make_writer_of(first, writer), key, lines=len(tests))
+    return readings.lay_out_readings(
+        first.measurements, _make_writer_of(first, writer), key, lines=len(tests)
+    )
 
 
 def lay_out_uncertainty(
@@ -163,7 +163,7 @@ def lay_out_uncertainty(
     )
     budgets: list[tuple[list[Block], list[Tested]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
+        own = _make_writer_of(test, writer)
         of_line = list(
             uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own, with_bars=with_bars)
         )
@@ -175,7 +175,7 @@ def lay_out_uncertainty(
     blocks = list(section.blocks)
     for of_lines, sharing in budgets:
         names = ", ".join(each.name for each in sharing)
-        own = make_writer_of(sharing[0], writer)
+        own = _make_writer_of(sharing[0], writer)
         blocks += (_caption_block(_rename_block(each, names), names, own) for each in of_lines)
     return replace(section, blocks=tuple(blocks))
 
@@ -193,7 +193,7 @@ def _list_circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer
 
 
 def _write_title(test: Tested, title: str, writer: Writer) -> str:
-    return writer.say(_NAMED.given(name=test.name, said=title))
+    return writer.say(named(test.name, title))
 
 
 def _rename_block(block: Block, name: str) -> Block:
@@ -201,11 +201,11 @@ def _rename_block(block: Block, name: str) -> Block:
     if not isinstance(block, Graph):
         return block
     figure = block.figure
-    title = _NAMED.given(name=name, said=figure.title)
+    title = named(name, figure.title)
     return Graph(replace(figure, key=f"{name.replace(', ', '-')}-{figure.key}", title=title))
 
 
 def _caption_block(block: Block, name: str, writer: Writer) -> Block:
     if not isinstance(block, Table):
         return block
-    return replace(block, caption=writer.say(_TABLE.given(name=name, caption=block.caption)))
+    return replace(block, caption=writer.say(named(name, block.caption)))

@@ -131,7 +131,7 @@ def _lay_out_files(
     """
     columns = (
         Column(writer.say(Words("File"))),
-        Column("Bytes", align=Align.RIGHT),
+        Column(writer.say(Words("Bytes")), align=Align.RIGHT),
         Column("SHA-256"),
     )
     readings = [source for source in sources if source.role is SourceRole.READINGS]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -80,7 +80,7 @@ _GROUPS = {
 
 _OF_THE_AXIS = Words("Parameters of the axis")
 _PARAMETERS = Words("Parameters")
-_NO_PARAMETER = Words("This test defines none of the parameters.")
+NO_PARAMETER = Words("This test defines none of the parameters.")
 _BY_STANDARD = Words("Results by {designations}")
 _BY_METHOD = Words("Results by the method of {designations}")
 _MET = Words("met")
@@ -111,7 +111,7 @@ def lay_out_results(evaluated: Evaluated, writer: Writer) -> Section:
         ),
         _lay_out_parameters(evaluation, writer)
         if evaluation.parameters
-        else Paragraph(writer.say(_NO_PARAMETER)),
+        else Paragraph(writer.say(NO_PARAMETER)),
         *say_raised(evaluation, writer),
         *map(Graph, evaluated.figures),
         *conformity.lay_out_conformity(evaluation, writer),
@@ -209,10 +209,10 @@ def lay_out_by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Tabl
     """
     measurements = evaluation.measurements
     if not measurements.tests and not measurements.axis.measurand.is_continuous:
-        yield lay_out_positions(evaluation, writer)
+        yield _lay_out_positions(evaluation, writer)
 
 
-def lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
+def _lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
     measurements = evaluation.measurements
@@ -227,20 +227,23 @@ def lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
         tuple(writer.position(float(target)) for target in measurements.target_positions),
     ]
 
-    def add(notation: str, values: FloatArray) -> None:
+    def add(notation: str, values: FloatArray, write: Callable[[float], str] = writer.mean) -> None:
         columns.append(Column(Symbol(notation), unit, Align.RIGHT))
-        cells.append(tuple(writer.mean(float(value)) for value in values))
+        cells.append(tuple(write(float(value)) for value in values))
+
+    # One reading is no mean, and the difference of two has their digits.
+    of_a_run = writer.mean if len(measurements.runs) > 1 else writer.deviation
 
     for approach in measurements.approaches:
         if measurements.missing():
             columns.append(Column(Symbol(f"n{index}{approach.arrow}"), align=Align.RIGHT))
             cells.append(tuple(str(int(count)) for count in statistics.count[approach.index]))
-        add(f"x̄{index}{approach.arrow}", statistics.mean[approach.index])
+        add(f"x̄{index}{approach.arrow}", statistics.mean[approach.index], of_a_run)
         if len(measurements.runs) > 1:
             add(f"s{index}{approach.arrow}", statistics.standard_deviation[approach.index])
     if measurements.is_bidirectional and not measurements.one_sided_targets:
         add(f"x̄{index}", statistics.mean_bidirectional)
-        add(f"B{index}", statistics.reversal_value)
+        add(f"B{index}", statistics.reversal_value, of_a_run)
     for arrows, expanded in _list_mean_uncertainties(evaluation):
         columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
         cells.append(tuple(write_uncertainty(float(value), writer) for value in expanded))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from zlmreport.document.blocks import Block, Facts, Notice, Paragraph
 from zlmreport.document.certificate import columns
-from zlmreport.language import Words, join_parts
+from zlmreport.language import Words, join_parts, named
 
 if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
@@ -34,8 +34,6 @@ _DETAILS = Words("Details")
 _ELSEWHERE = Words("On the page “{details}”: {what}.")
 _TO_BE_NOTED = Words("To be noted")
 _SEE_DETAILS = Words("{heading}: see the page “{details}”")
-_ITEM = Words("{heading}: {items}")
-
 
 #: How the page calls what stands elsewhere.
 _NAMES = {
@@ -281,7 +279,7 @@ def _box_notices(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, .
 def _write_as_item(notice: Notice, writer: Writer) -> str:
     if not notice.items:
         return notice.heading
-    return writer.say(_ITEM.given(heading=notice.heading, items=join_parts(notice.items, writer.language)))
+    return writer.say(named(notice.heading, join_parts(notice.items, writer.language)))
 
 
 def _say_elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
@@ -325,7 +323,7 @@ def _write_facts_in_a_line(pairs: Iterable[Pair], writer: Writer) -> tuple[Parag
 
 
 def _write_in_a_line(pairs: Iterable[Pair], writer: Writer) -> str:
-    said = (writer.say(_ITEM.given(heading=name, items=value)) for name, value in pairs)
+    said = (writer.say(named(*pair)) for pair in pairs)
     text = join_parts(said, writer.language)
     return f"{text.rstrip('. ')}." if text else ""
 

@@ -47,7 +47,7 @@ from zlmreport.document.certificate.standard_layout import (
     say_of_all,
     set_in_smaller_type,
 )
-from zlmreport.language import Words, join_parts
+from zlmreport.language import Words, join_parts, named
 from zlmreport.language.formatting import write_plain
 
 if TYPE_CHECKING:
@@ -74,7 +74,6 @@ _BESIDE_GRAPH = 8.0
 _PLAIN_GROUPS = ("axis", "circle", "measurement", "environment")
 
 _LABORATORY = Words("Laboratory")
-_DIGEST = Words("{name}: {digest}.")
 #: Marks of verdicts in the order of their lines.
 _GRAVEST_FIRST = ("not met", "open", "met")
 
@@ -276,7 +275,7 @@ def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> tuple[Block, 
 def _digest(of: Material) -> Iterator[Paragraph]:
     """Yield the digest as a sentence of its own: by it a page is told from another of the same number."""
     if not of.is_part:  # that of the whole document stands on its first page
-        yield Paragraph(of.writer.say(_DIGEST.given(name=DIGEST, digest=of.digest)), fine=True)
+        yield Paragraph(of.writer.say(named(DIGEST, f"{of.digest}.")), fine=True)
 
 
 def _gather_said(of: Material, page: _Page) -> SheetContent:

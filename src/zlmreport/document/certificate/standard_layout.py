@@ -72,7 +72,7 @@ def lay_out(of: Material) -> LaidOut:
             *_lay_out_results(of, pages, page if breaks else None),
             *(lay_out_results_by_line(of) if of.tests else ()),
             *map(set_in_smaller_type, _lay_out_further_conditions(of, behind)),
-            *lay_out_in_common(pages, of.writer),
+            *_lay_out_in_common(pages, of.writer),
             # without bars: the table says what they would repeat
             *lay_out_uncertainty(of, with_bars=False),
             *lay_out_readings(of),
@@ -92,7 +92,7 @@ def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:
 
 def lay_out_one(each: Evaluated, writer: Writer) -> Section:
     """Return the results by one standard."""
-    return lay_out_page((each,), writer)
+    return _lay_out_page((each,), writer)
 
 
 def lay_out_results_by_line(
@@ -126,7 +126,7 @@ def _lay_out_results(of: Material, pages: Pages, room_of_page: float | None) -> 
 
     Each standard begins a page of that many points, or goes on where the one before ends.
     """
-    sections: Iterator[Section] = (lay_out_page(each, of.writer) for each in pages)
+    sections: Iterator[Section] = (_lay_out_page(each, of.writer) for each in pages)
     keys = of.job.keys.as_found
     if keys:
         from zlmreport.document.certificate.as_found import lay_out_beside_as_found  # noqa: PLC0415 - of the few that need it
@@ -205,7 +205,7 @@ def list_designations(page: Sequence[Evaluated]) -> str:
     return ", ".join(each.evaluation.designation for each in page)
 
 
-def lay_out_page(shared: Sequence[Evaluated], writer: Writer) -> Section:
+def _lay_out_page(shared: Sequence[Evaluated], writer: Writer) -> Section:
     """Return the results by a standard, and by others that give the same numbers."""
     first, *others = (each.evaluation for each in shared)
     blocks: list[Block] = [*say_of_all((first, *others), writer)]
@@ -227,7 +227,7 @@ def say_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Bl
     yield from _list_shortfalls(evaluations, writer)
 
 
-def lay_out_in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
+def _lay_out_in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
     """Yield what is said once for all standards: limits, requirements, definitions, notes."""
     evaluations = [each.evaluation for page in pages for each in page]
     tables = [*conformity.lay_out_statements([page[0].evaluation for page in pages], writer)]

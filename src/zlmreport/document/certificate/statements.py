@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.language import Words, same
+from zlmreport.language import Words, named, same
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import with_unit
 
@@ -66,8 +66,6 @@ _SUPPLIED = Words(
 )
 _DEVIATIONS = Words("Additions to, deviations and exclusions from the method")
 _EXTERNAL = Words("{mark} Results from external providers")
-_FROM = Words("{results}: {provider}")
-_FROM_REPORT = Words("{results}: {provider}, {reference}")
 _ONE = Words("{count} reading was set aside and did not enter the results")
 _SEVERAL = Words("{count} readings were set aside and did not enter the results")
 _READING = Words("target {target} {arrow}, run {run}, read {deviation}: {reason}")
@@ -106,18 +104,14 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
     """
     deviations = keys.measurement.deviations_from_method
     most = None if names_all else _MOST_NAMED
-    items = (*([deviations] if deviations else []), *list_exclusions(keys, writer, most))
+    items = (*([deviations] if deviations else []), *_list_exclusions(keys, writer, most))
     if items:
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
         yield Notice(
             writer.say(_EXTERNAL.given(mark=EXTERNAL)),
             tuple(
-                writer.say(
-                    (_FROM_REPORT if each.reference else _FROM).given(
-                        results=each.results, provider=each.provider, reference=each.reference or ""
-                    )
-                )
+                writer.say(named(each.results, ", ".join(filter(None, (each.provider, each.reference)))))
                 for each in keys.external
             ),
         )
@@ -133,8 +127,8 @@ def say_traceable_through(job: Job, *measured: MeasurementSet) -> Words | None:
         return None
     chain = traceability.find_chain(job)
     if chain.of_artefacts:
-        named = ", ".join((*chain.of_instruments, *chain.of_artefacts))
-        return _TRACEABLE_BY_ARTEFACTS.given(certificates=named)
+        every = ", ".join((*chain.of_instruments, *chain.of_artefacts))
+        return _TRACEABLE_BY_ARTEFACTS.given(certificates=every)
     if len(chain.of_instruments) > 1:
         return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(chain.of_instruments))
     return _TRACEABLE.given(certificate=chain.of_instruments[0]) if chain.of_instruments else None
@@ -168,7 +162,7 @@ def make_exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str
         yield Notice(marked, tuple(_write_item(each, writer) for each in exclusions))
 
 
-def list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+def _list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
     """Return what the first page says of readings that were set aside: they depart from the method.
 
     `most`: Of so many; all of them if it is None.

@@ -60,7 +60,6 @@ _KNOWN_ERRORS = Words(
     "the parameter would change by if they were taken out of every reading (JCGM 100:2008, F.2.4.5)."
 )
 _NEGLIGIBLE = Words("Declared negligible by the laboratory")
-_REASON = Words("{contributor}: {reason}")
 _METHOD = Words(
     "The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
     "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
@@ -199,10 +198,7 @@ def lay_out_own_blocks(
 
 def _list_declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
     if budget.negligible:
-        reasons = (
-            _REASON.given(contributor=wording.name_contributor(name), reason=reason)
-            for name, reason in budget.negligible
-        )
+        reasons = (named(wording.name_contributor(name), reason) for name, reason in budget.negligible)
         yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
 
 

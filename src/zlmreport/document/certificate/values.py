@@ -8,10 +8,16 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Cell, Column, Symbol
 from zlmreport.document.certificate import conformity
-from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
+from zlmreport.document.writer import (
+    NOTHING,
+    Writer,
+    add_unit,
+    is_mixed,
+    write_rounded_together,
+    write_with_uncertainty,
+)
 from zlmreport.language import Words, named
 from zlmreport.language.formatting import write_fixed_number, write_plain
-from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, PositionQuantity, Quantity
@@ -75,21 +81,14 @@ class Values:
             yield self._add_unit(uncertainty, parameter)
             yield write_coverage_factor(parameter, self.writer)
         if self.has_interval:
-            yield self._add_unit(write_interval(parameter, self.writer), parameter)
+            yield self._add_unit(_write_interval(parameter, self.writer), parameter)
         if self.has_limits:
             yield self._add_unit(limit(parameter, self.writer), parameter)
             yield conformity.make_verdict_cell(parameter, self.writer)
 
     def _add_unit(self, number: str, parameter: EvaluatedParameter) -> str:
         """Write the unit beside a number, where the column has none."""
-        if not self.is_mixed or number == NOTHING:
-            return number
-        return with_unit(number, parameter.quantity.unit_or(self.writer.deviation_unit).symbol)
-
-
-def is_mixed(parameters: Iterable[EvaluatedParameter], writer: Writer) -> bool:
-    """Return whether parameters have units other than that of what was measured."""
-    return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
+        return add_unit(number, parameter.quantity, self.writer) if self.is_mixed else number
 
 
 def tell_columns_apart(
@@ -117,7 +116,7 @@ def write_coverage_factor(parameter: EvaluatedParameter, writer: Writer) -> str:
     return write_fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
+def _write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write where another test of the same plan would find a parameter, with the sign that is printed."""
     if parameter.axis_interval is None:
         return NOTHING

@@ -116,7 +116,7 @@ def _draw_over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Sh
         yield from _draw_band(band, frame)
     for readings in panel.readings:
         points = np.column_stack([readings.x, readings.y])
-        yield place_reading_marks("reading", readings, points, frame)
+        yield _place_reading_marks("reading", readings, points, frame)
     for level, height, _ in layout.levels:
         line = [(frame.box.left, height), (frame.box.right, height)]
         yield join_lines("level", [line], ROLES[level.role].stroke)
@@ -141,7 +141,7 @@ def _draw_about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape
     yield from draw_polar_grid(layout.panel, grid, frame)
     for readings in panel.readings:
         points = np.column_stack([readings.x, readings.y])
-        yield place_reading_marks("reading", readings, points, frame)
+        yield _place_reading_marks("reading", readings, points, frame)
     for curve in panel.curves:
         points = np.column_stack([curve.x, curve.y])
         yield Outline(f"curve {curve.role.name.lower()}", (points,), ROLES[curve.role].stroke, frame=frame)
@@ -163,7 +163,7 @@ def _draw_body(layout: PanelLayout) -> Iterator[Shape]:
         yield Lettering("note", note, INK)
 
 
-def place_curve_marks(
+def _place_curve_marks(
     kind: str, style: RoleStyle, points: FloatArray, frame: Frame | None = None
 ) -> Iterator[PointMarks]:
     """Return the marks of a curve, where its role has marks."""
@@ -172,7 +172,7 @@ def place_curve_marks(
         yield PointMarks(kind, points, style.mark, size, RIM, fill, frame)
 
 
-def place_reading_marks(
+def _place_reading_marks(
     kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None
 ) -> PointMarks:
     """Return the marks of single readings."""
@@ -250,7 +250,7 @@ def _draw_curve(curve: Curve, frame: Frame) -> Iterator[Shape]:
     points = np.column_stack([curve.x, curve.y])
     yield Outline(f"curve {role}", (points,), style.stroke, frame=frame)
     shown = _select_spaced(points, _MARK_DISTANCE / frame.x_factor)
-    yield from place_curve_marks(f"mark {role}", style, points[shown], frame)
+    yield from _place_curve_marks(f"mark {role}", style, points[shown], frame)
     if style.mark is None:
         yield from _draw_lone_values(f"curve {role}", curve.x, curve.y, frame, style.stroke)
 
@@ -346,7 +346,7 @@ def _sample(entry: LegendEntry, x: float, y: float, *, with_mark: bool) -> Itera
     if isinstance(explained, tuple):
         for number, readings in enumerate(explained):
             place = np.array([(x + (number + 0.5) * MARK_SAMPLE, y)])
-            yield place_reading_marks("legend", readings, place)
+            yield _place_reading_marks("legend", readings, place)
         return
     style = ROLES[explained.role]
     if isinstance(explained, Band):
@@ -357,7 +357,7 @@ def _sample(entry: LegendEntry, x: float, y: float, *, with_mark: bool) -> Itera
     else:
         yield join_lines("legend", [[(x, y), (x + LINE_SAMPLE, y)]], style.stroke)
         if with_mark:
-            yield from place_curve_marks("legend", style, np.array([(x + LINE_SAMPLE / 2, y)]))
+            yield from _place_curve_marks("legend", style, np.array([(x + LINE_SAMPLE / 2, y)]))
 
 
 def draw(figure: Figure, language: Language, canvas: Canvas) -> None:

@@ -131,30 +131,20 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     right = boxes[-1].right if boxes else right
-    if is_alone:
-        told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
-        corner = (_EDGE, height - _EDGE - legends[0].height)
-        beside = (replace(panels[0], legend_corner=corner),)
-        return FigureLayout(WIDTH, height, beside, (PlacedLabel(told, _EDGE, _EDGE + 0.35 * TEXT_SIZE),))
-    if is_round:
-        told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
-        alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
-        return FigureLayout(WIDTH, height, panels, (alone,))
     is_bare = bool(figure.panels) and all(panel.is_wire for panel in figure.panels)
-    along = (
-        figure.x_title.in_language(language)
-        if is_bare
-        else write_axis_title(figure.x_title, figure.x_unit, language)
-    )
-    x_title = make_plain_label(along, TEXT_SIZE)
-    below = PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
-    if is_bare:
+    if is_round:
+        text = _say_magnification(figure, panels, language)
+    else:
+        text = write_axis_title(figure.x_title, "" if is_bare else figure.x_unit, language)
+    told = make_plain_label(text, TEXT_SIZE)
+    middle = (left + right - told.width) / 2
+    below = PlacedLabel(told, _EDGE if is_alone else middle, _EDGE + 0.35 * TEXT_SIZE)
+    if is_alone:
+        panels = (replace(panels[0], legend_corner=(_EDGE, height - _EDGE - legends[0].height)),)
+    if is_round or is_bare:
         return FigureLayout(WIDTH, height, panels, (below,))
-    titles = (
-        below,
-        *_place_value_titles(figure, boxes, language, Box(left, bottom, right, height)),
-    )
-    return FigureLayout(WIDTH, height, panels, titles)
+    upright = _place_value_titles(figure, boxes, language, Box(left, bottom, right, height))
+    return FigureLayout(WIDTH, height, panels, (below, *upright))
 
 
 def _place_value_titles(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import floor, log10
 
 import numpy as np
@@ -18,6 +18,7 @@ from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.candidate import Candidate
 from zlmreport.model.diagnosis.study import Fitted
+from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, find_unit_of
 
 #: Groups of readings that follow one another, through whose means a curve leads.
@@ -87,19 +88,17 @@ def draw_over_run(diagram: ModelDiagram) -> Figure:
         for residual in (diagram.fit.residual[chosen],)
     ]
     panel = _make_panel(diagram, runs.astype(np.float64))
-    return _draw_residuals(
-        diagram, "run", _RUN, "", Panel(curves=tuple(curves), readings=panel.readings, bands=panel.bands)
-    )
+    return _draw_residuals(diagram, "run", _RUN, "", replace(panel, curves=tuple(curves)))
 
 
 def draw_over_time(diagram: ModelDiagram) -> Figure:
     """Return the residuals over time, or in their order where the source tells no times."""
-    time, quantity, unit = _choose_time(diagram)
+    time, quantity, unit = choose_time(diagram.design)
     return _draw_residuals(diagram, "time", quantity, unit, _make_panel(diagram, time))
 
 
-def _choose_time(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], str]:
-    design = diagram.design
+def choose_time(design: Design) -> tuple[FloatArray, tuple[Words, Words], str]:
+    """Return when each reading was taken, what that is called alone and in a sentence, and its unit."""
     if design.time_is_counted:
         return 1.0 + design.time, _COUNTED, ""
     in_minutes = design.duration > _LONG
@@ -112,7 +111,7 @@ def draw_slopes_over_time(diagram: ModelDiagram) -> Figure:
     Whatever warms turns the straight line from pass to pass.
     """
     design, residual = diagram.design, diagram.fit.residual
-    time, (title, in_sentence), unit_of_time = _choose_time(diagram)
+    time, (title, in_sentence), unit_of_time = choose_time(design)
     slope = find_unit_of(Dimension.SLOPE, diagram.axis.kind)
     curves = []
     for approach in diagram.approaches:
@@ -142,15 +141,21 @@ def draw_slopes_over_time(diagram: ModelDiagram) -> Figure:
 
 def draw_over_condition(diagram: ModelDiagram, condition: str) -> Figure:
     """Return the residuals over a condition that was logged beside the readings."""
-    log = diagram.design.conditions[condition]
-    name, unit = CONDITION_NAMES.get(condition, same(condition)), ""
-    if condition in CONDITIONS:
-        scale = CONDITIONS[condition].unit
-        log, unit = scale.from_si(log), scale.symbol
-    in_sentence = same(_InSentence(name))
+    log, name, unit = convert_condition(condition, diagram.design.conditions[condition])
+    # A column that a user has named is called so everywhere.
+    in_sentence = same(_InSentence(name)) if condition in CONDITION_NAMES else name
     return _draw_residuals(
         diagram, condition.replace("_", "-"), (name, in_sentence), unit, _make_panel(diagram, log)
     )
+
+
+def convert_condition(condition: str, log: FloatArray) -> tuple[FloatArray, Words, str]:
+    """Return a logged condition (SI) in the unit that is printed, what it is called, and that unit."""
+    name = CONDITION_NAMES.get(condition, same(condition))
+    if condition not in CONDITIONS:
+        return log, name, ""
+    scale = CONDITIONS[condition].unit
+    return scale.from_si(log), name, scale.symbol
 
 
 @dataclass(frozen=True, slots=True)

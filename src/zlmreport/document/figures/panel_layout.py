@@ -76,7 +76,7 @@ def lay_out_panel(
     box = frame.box
     spans = [
         _make_span(bracket, frame, bracket.low_at, bracket.high_at)
-        for bracket in select_drawable_brackets(panel)
+        for bracket in _select_drawable_brackets(panel)
     ]
     brackets = place_margin_columns(spans, box.right + level_width + _MARGIN_GAP, box.bottom, box.top)
     drawable = [arrow for arrow in panel.arrows if np.isfinite((arrow.low, arrow.high, arrow.x)).all()]
@@ -89,7 +89,7 @@ def lay_out_panel(
     return PanelLayout(panel, frame, legend, brackets, arrows, levels, values, tile_values=written)
 
 
-def select_drawable_brackets(panel: Panel) -> list[Bracket]:
+def _select_drawable_brackets(panel: Panel) -> list[Bracket]:
     """Return the brackets whose ends exist."""
     return [
         bracket
@@ -98,20 +98,20 @@ def select_drawable_brackets(panel: Panel) -> list[Bracket]:
     ]
 
 
-def select_drawable_levels(panel: Panel) -> list[Level]:
+def _select_drawable_levels(panel: Panel) -> list[Level]:
     """Return the levels whose value exists."""
     return [level for level in panel.levels if np.isfinite(level.y)]
 
 
 def measure_brackets(panel: Panel) -> float:
     """Return the width that a panel's brackets take beside the frame."""
-    labels = [make_symbol_label(bracket.notation, TEXT_SIZE) for bracket in select_drawable_brackets(panel)]
+    labels = [make_symbol_label(bracket.notation, TEXT_SIZE) for bracket in _select_drawable_brackets(panel)]
     return _MARGIN_GAP + measure_margin(labels) if labels else 0.0
 
 
 def measure_levels(panel: Panel) -> float:
     """Return the width that the labels of a panel's levels take beside the frame."""
-    named = (level.notation for level in select_drawable_levels(panel) if level.notation)
+    named = (level.notation for level in _select_drawable_levels(panel) if level.notation)
     widths = [make_symbol_label(notation, TEXT_SIZE).width for notation in named]
     return _LEVEL_GAP + max(widths) if widths else 0.0
 
@@ -126,7 +126,7 @@ def _make_span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float
 
 
 def _place_levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
-    levels = select_drawable_levels(panel)
+    levels = _select_drawable_levels(panel)
     heights = [frame.place_y(level.y) for level in levels]
     labels = [make_symbol_label(level.notation, TEXT_SIZE) for level in levels]
     distance = max((label.height for label in labels), default=0.0)
@@ -141,7 +141,7 @@ def _place_levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, Place
 def _place_bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
     """Return the values above their bars, none of them on a line."""
     labels = [make_plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
-    lines = sorted(frame.place_y(level.y) for level in select_drawable_levels(panel))
+    lines = sorted(frame.place_y(level.y) for level in _select_drawable_levels(panel))
 
     def foot(top_of_bar: float, height: float) -> float:
         at = top_of_bar + _VALUE_GAP
@@ -172,7 +172,7 @@ def _collect_lines(panel: Panel, frame: Frame, brackets: Sequence[DrawnDimension
     lines = [frame.place_points(curve.x, curve.y) for curve in panel.curves]
     for band in panel.bands:
         lines += [frame.place_points(band.x, band.lower), frame.place_points(band.x, band.upper)]
-    for height in map(frame.place_y, (0.0, *(level.y for level in select_drawable_levels(panel)))):
+    for height in map(frame.place_y, (0.0, *(level.y for level in _select_drawable_levels(panel)))):
         lines.append(np.array([(frame.box.left, height), (frame.box.right, height)]))
     for bracket in brackets:
         span = bracket.span
@@ -262,7 +262,7 @@ def lay_out_legend(panel: Panel, language: Language, width: float) -> LegendLayo
 
 def _list_entries(panel: Panel, language: Language) -> tuple[LegendEntry, ...]:
     """Return one entry for each symbol of a panel: curves, bands, readings; about a circle levels as well."""
-    levels = select_drawable_levels(panel) if panel.is_polar else ()
+    levels = _select_drawable_levels(panel) if panel.is_polar else ()
     explained: tuple[Curve | Band | Level, ...] = (*panel.curves, *panel.bands, *levels)
     found: dict[object, LegendEntry] = {}
     for one in explained:

@@ -10,19 +10,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.language.formatting import DecimalSign, write_fixed_number
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 
 #: Spans below this part of the largest value are rounding errors of the double and no span.
 _RESOLUTION = 1e-10
 _MOST_LABELLED_TARGETS = 16
 _MOST_MARKED_TARGETS = 100
+#: Of a position that is written whole.
+_MOST_DECIMALS = 4
 #: Least distance between two labels, and between two round positions, in points.
 _LABEL_DISTANCE = 6.0
 _LEAST_ROUND_DISTANCE = 34.0
 #: Steps from angle to angle that divide a right angle, degrees.
 _PARTS_OF_A_TURN = (15.0, 30.0, 45.0, 90.0)
-#: Of an axis of deviations: one number alone gives no scale.
-_FEWEST_TICKS = 3
+#: Of an axis of deviations, and where three or more would touch: one number alone gives no scale.
+_FEWEST_TICKS, _FEWEST_WITHOUT_ROOM = 3, 2
+#: How many times as many ticks as fit well still have room for their numbers.
+_CROWDED = 2
 #: More steps that are tried of positions where fewer leave a single label, which shows no length.
 _MORE_STEPS = 2
 
@@ -87,7 +91,7 @@ def make_value_scales(
     Beyond the outermost values a part of the span is left free.
 
     `part`: Of the span, left free at both ends.
-    `most`: Largest number of ticks; of a flat graph more, so that there are three.
+    `most`: Largest number of ticks; of a flat graph more, so that there are three, or two without room.
     """
     limits = [include_zero(*find_extremes(values)) for values in panels]
     longest = max((upper - lower for lower, upper in limits), default=0.0)
@@ -96,19 +100,21 @@ def make_value_scales(
         span = longest if alike else own_upper - own_lower
         middle = (own_lower + own_upper) / 2
         lower, upper = widen(middle - span / 2, middle + span / 2, part)
-        steps = next(
-            n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS
+        scales.append(
+            AxisScale(lower, upper, *_label_ticks(lower, upper, _count_steps(lower, upper, most), sign))
         )
-        scales.append(AxisScale(lower, upper, *_label_ticks(lower, upper, steps, sign)))
     return tuple(scales)
 
 
-def count_decimals(values: Sequence[float]) -> int:
-    """Return how many decimals write every value without loss, at most 4."""
-    for decimals in range(4):
-        if all(math.isclose(value, round(value, decimals), rel_tol=1e-9, abs_tol=1e-9) for value in values):
-            return decimals
-    return 4
+def _count_steps(lower: float, upper: float, most: int) -> int:
+    """Return into how many steps an axis of deviations is parted at most."""
+
+    def find_steps(fewest: int) -> tuple[int, int]:
+        tried = ((steps, len(round_ticks(lower, upper, steps)[0])) for steps in itertools.count(most))
+        return next((steps, ticks) for steps, ticks in tried if ticks >= fewest)
+
+    steps, ticks = find_steps(_FEWEST_TICKS)
+    return steps if ticks <= max(_FEWEST_TICKS, _CROWDED * most) else find_steps(_FEWEST_WITHOUT_ROOM)[0]
 
 
 def make_position_scale(  # noqa: PLR0913 - what an axis follows from
@@ -140,7 +146,7 @@ def make_position_scale(  # noqa: PLR0913 - what an axis follows from
         return _keep_apart(places, [width_of(label) for label in labels])
 
     if len(positions) <= _MOST_LABELLED_TARGETS:
-        decimals = count_decimals(positions)
+        decimals = count_decimals_of(np.array(positions), _MOST_DECIMALS)
         labels = tuple(write_fixed_number(position, decimals, sign) for position in positions)
         whole = np.allclose(positions, np.round(positions, decimals), rtol=1e-9, atol=1e-9)
         if positions and whole and fit(positions, labels):

@@ -59,7 +59,9 @@ class Modelled:
 
     history: tuple[Fitted, ...]  #: Its fits, effect by effect; the first without any.
     diagnosis: Diagnosis  #: What it lacks.
-    forecasts: tuple[StandardForecast, ...]  #: What each standard would say of a corrected axis.
+    forecasts: tuple[
+        StandardForecast, ...
+    ]  #: What each standard would say of a corrected axis, if one can be.
     titles: Mapping[str, Words]  #: What all installed effects are called, by identifier.
     study: Study  #: The model and the readings that it was held against.
     experiment: Experiment | None = None  #: What to measure next; None where nothing is to be decided.
@@ -89,7 +91,7 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     )
     said = {each.key: each.blocks for each in sections}
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
-    table, *moving = lay_out_fall(modelled.history, modelled.forecasts[0], writer).blocks
+    table, *moving = lay_out_fall(modelled.history, next(iter(modelled.forecasts), None), writer).blocks
     yield Notice(writer.say(OPINION), (writer.say(_BASIS),))
     yield from said.pop("verdict")
     yield lay_out_equations(whole.fit, writer.language)
@@ -100,7 +102,8 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     yield Graph(estimate(diagram))
     yield Graph(draw_fall_chart(modelled.history, next(iter(diagnosis.candidates), None)))
     yield table
-    yield lay_out_left_after_compensation(modelled.forecasts, writer)
+    if modelled.forecasts:
+        yield lay_out_left_after_compensation(modelled.forecasts, writer)
     yield from moving
     yield from said.pop("failures")
     yield from map(Graph, _draw_graphs(diagnosis.failures, diagram))

@@ -198,7 +198,7 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
         _APPLIED.given(share=number_words(100 * found.applied, 0)),
     ]
     if found.shift:
-        sentences.append(_SHIFTED.given(length=writer.length(round(found.shift, 6))))
+        sentences.append(_SHIFTED.given(length=_write_length(found.shift, writer)))
     rows = tuple(
         (
             Symbol(symbol),
@@ -255,11 +255,11 @@ def list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
     ).given(
         rows=len(made.decoded.positions),
         between=amount(found.between),
-        at=writer.length(round(found.between_at, 6)),
+        at=_write_length(found.between_at, writer),
         rounding=amount(found.rounding),
     )
     if made.left_out:
-        names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.left_out)
+        names = ", ".join(f"{name} ({_write_length(wave, writer)})" for name, wave in made.left_out)
         yield Words("Left out, for no row carries it: {names}. It stays, with up to {error}.").given(
             names=names, error=amount(found.left_out)
         )
@@ -304,7 +304,7 @@ def _describe_grid(made: Made, writer: Writer, amount: Callable[[float], str]) -
     grid = made.grid
     return _GRIDS[grid.reason].given(
         rows=len(grid.rows),
-        step=writer.length(round(float(grid.rows[1] - grid.rows[0]), 6)),
+        step=_write_length(float(grid.rows[1] - grid.rows[0]), writer),
         added=amount(grid.added),
         allowed=amount(grid.allowed) if grid.allowed else NOTHING,
     )
@@ -388,6 +388,12 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
         ),
         spans_are_alike=False,
     )
+
+
+def _write_length(value: float, writer: Writer) -> str:
+    """Write a length or an angle along the axis that was computed, to a thousandth of its unit."""
+    unit = writer.position_unit
+    return with_unit(writer.number(round(unit.from_si(value), 3)), unit.symbol)
 
 
 def _number(value: float, writer: Writer) -> str:

@@ -282,7 +282,7 @@ def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: 
     """Return effects that the model may lack, best first; None if there are none.
 
     The columns are ``effect``, ``probability``, ``rms``, ``left_out`` and ``p``, and of those worth a word
-    ``equals``, ``tell``, ``lay_out_parameters`` and ``explains``.
+    ``equals``, ``tell``, ``parameters`` and ``explains``.
     """
     if not candidates:
         return None

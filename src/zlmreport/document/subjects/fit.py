@@ -311,11 +311,11 @@ def write_deviation(value: float | None, axis: Axis, language: Language) -> str:
 
 def say_no_table_takes_away(fit: Fit, language: Language) -> str:
     """Return the sentences on effects that no table of positions takes away; empty if there are none."""
-    named = (
+    reasons = (
         (_MOVES, list_what_moves_with_time(fit)),
         (_TOO_FINE, find_too_fine(find_waves_of(fit), fit.design.target_positions)),
     )
-    said = (words.given(effects=", ".join(effects)) for words, effects in named if effects)
+    said = (words.given(effects=", ".join(effects)) for words, effects in reasons if effects)
     return " ".join(words.in_language(language) for words in said)
 
 

@@ -87,8 +87,10 @@ def _select_leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
     return tuple(first[group] for group in _ORDER if group in first)
 
 
-def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) -> Section:
+def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, writer: Writer) -> Section:
     """Return how the error fell, effect by effect, and what a standard would say after each.
+
+    `forecast`: None of an error that no control corrects, such as a straightness.
 
     Its table has the columns ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``,
     ``cross_validated`` and one for each quantity, by its symbol.
@@ -96,6 +98,8 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast, writer: 
     say, language, whole = writer.say, writer.language, history[-1]
     axis, unit = whole.fit.design.axis, writer.deviation_unit.symbol
     largest = max(each.error.rms for each in history) or 1.0
+    quantities = forecast.quantities if forecast else ()
+    predicted = forecast.by_step.tolist() if forecast else [()] * len(history)
 
     def errors(error: ErrorNumbers) -> tuple[str, ...]:
         chi2 = error.chi2_per_dof
@@ -112,18 +116,18 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast, writer: 
         Column(say(Words("RMS error")), unit, Align.RIGHT, "rms"),
         Column("χ²/ν", "", Align.RIGHT, "chi2"),
         Column(say(Words("Cross-validated")), unit, Align.RIGHT, "cross_validated"),
-        *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in forecast.quantities),
+        *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in quantities),
     )
     names = [say(_WITHOUT), *(f"+ {name}" for name in whole.fit.model.identifiers)]
     rows = [
         (name, *errors(each.error), *map(writer.deviation, values))
-        for name, each, values in zip(names, history, forecast.by_step.tolist(), strict=True)
+        for name, each, values in zip(names, history, predicted, strict=True)
     ]
     floor = whole.error.noise_rms
     if floor is not None:
-        blank = ("",) * (2 + len(forecast.quantities))
+        blank = ("",) * (2 + len(quantities))
         rows.append((say(_FLOOR), _share(floor, largest), write_deviation(floor, axis, language), *blank))
-    caption = say(_FALL.given(designation=forecast.designation))
+    caption = say(_FALL.given(designation=forecast.designation) if forecast else FALL)
     left = say_no_table_takes_away(whole.fit, language)
     return Section(
         "fall",

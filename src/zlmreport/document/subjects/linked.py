@@ -10,10 +10,9 @@ import numpy as np
 
 from zlmreport.document.certificate.document import Linked
 from zlmreport.document.figures.model_diagram import SPREAD, ModelDiagram, estimate
-from zlmreport.document.figures.model_residuals import draw_over_position
+from zlmreport.document.figures.model_residuals import choose_time, convert_condition, draw_over_position
 from zlmreport.document.subjects.diagnosis import FAILURES, FailureRow, make_failure_row
-from zlmreport.language import Language, Words, same
-from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
+from zlmreport.language import Language, Words
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
 from zlmreport.model.fitting.blunders import find_outliers
@@ -23,14 +22,10 @@ if TYPE_CHECKING:
     from zlmreport.measurement.arrays import FloatArray
     from zlmreport.model.diagnosis.diagnosis import Diagnosis
 
-_MINUTE = 60.0
-_LONG = 600.0
 #: Decimals of values that are drawn: finer than any screen.
 _DECIMALS = 6
 
 _POSITION = Words("Position")
-_TIME = Words("Time")
-_COUNTED = Words("Number of the reading")
 _RUN = Words("Run")
 _DIRECTION = Words("Direction")
 _DEVIATION = Words("Deviation")
@@ -173,12 +168,8 @@ def _list_axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
         axis.position_unit.symbol,
         axis.position_unit.from_si(design.position),
     )
-    if design.time_is_counted:
-        yield _make_axis("time", _COUNTED.in_language(language), "", 1.0 + design.time)
-    else:
-        in_minutes = design.duration > _LONG
-        values = design.time / _MINUTE if in_minutes else design.time
-        yield _make_axis("time", _TIME.in_language(language), "min" if in_minutes else "s", values)
+    times, (title, _), unit = choose_time(design)
+    yield _make_axis("time", title.in_language(language), unit, times)
     yield _make_axis("run", _RUN.in_language(language), "", design.run.astype(np.float64))
     if design.is_bidirectional:
         yield _make_axis("direction", _DIRECTION.in_language(language), "", design.direction)
@@ -186,10 +177,7 @@ def _list_axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
         at = log[study.observed.reading]
         if np.isnan(at).all():
             continue
-        title, unit = CONDITION_NAMES.get(name, same(name)), ""
-        if name in CONDITIONS:
-            scale = CONDITIONS[name].unit
-            at, unit = scale.from_si(at), scale.symbol
+        at, title, unit = convert_condition(name, at)
         yield _make_axis(name, title.in_language(language), unit, at)
 
 

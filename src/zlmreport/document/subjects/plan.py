@@ -23,6 +23,7 @@ from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import write_fixed_number, write_general_number, write_percentage
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import with_unit, write_behind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Shape, find_unit_of
 from zlmreport.model.planning.methods import Method, Visit
@@ -159,7 +160,7 @@ class _Plan:
             is_dwell=self.say_assumed("measurement.dwell"),
         )
         yield Paragraph(self.say(motion))
-        way = position_in_words(self.axis, round(planned.travelled, 3))
+        way = with_unit(self.say(write_significant(unit.from_si(planned.travelled))), unit.symbol)
         minutes = max(1, round(planned.duration / _MINUTE))
         yield Paragraph(self.say(_TRAVELLED.given(way=way, minutes=minutes)))
         if self.axis.travel is not None and planned.beyond_travel is not None:
@@ -254,7 +255,7 @@ class _Plan:
         parameter, value = seen.smallest
         unit = find_unit_of(parameter.dimension, self.axis.kind)
         size = write_significant(value * unit.per_si, 2)
-        return _PARAMETER.given(name=parameter.name, size=size, unit=f" {unit.symbol}".rstrip())
+        return _PARAMETER.given(name=parameter.name, size=size, unit=write_behind(unit.symbol).rstrip())
 
     def write_percent(self, share: float) -> str:
         return write_percentage(share, self.language.decimal_sign)

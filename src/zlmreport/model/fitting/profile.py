@@ -77,9 +77,9 @@ def _list_intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
         ends, are_open = [], []
         for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
             most = abs(bound - each.value)
-            reach = _find_reach(
-                _make_rise(fitted, problem, index, each, sign), usual, most, each.coverage_factor
-            )
+            rise = _make_rise(fitted, problem, index, each, sign)
+            # Readings that scatter by nothing leave one value.
+            reach = _find_reach(rise, usual, most, each.coverage_factor) if usual else 0.0
             are_open.append(reach is None)
             ends.append(bound if reach is None else each.value + sign * min(hypot(reach, widening), most))
         yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
