@@ -32,8 +32,6 @@ _WIDEST_ANGLE = 0.1
 #: A full test of so many readings is refused if hardly any of them are there.
 _LARGE_TEST = 1_000_000
 _HARDLY_ANY = 0.01
-#: Of the largest position: what two computations of it may differ by.
-_NOISE = 1e-9
 #: Problems of one file that are named one by one.
 MOST_NAMED = 20
 
