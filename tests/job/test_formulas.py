@@ -76,6 +76,7 @@ def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
         ("a*P^(1/0)", {"a": _UM}, "a power of travel must be written as a number"),
         ("a*P^(log(-1))", {"a": _UM}, "a power of travel must be written as a number"),
         ("a*sin(P/L)", {"a": _UM, "L": _FROM_ZERO}, "no value where L is 0, an end of its range"),
+        ("a*exp(-P/L)", {"a": _UM, "L": _FROM_ZERO}, "no value where L is 0, an end of its range"),
         ("a*sin(P/L)", {"a": _UM, "L": _TOO_FINE}, r"steps of 1e-09 are 9.99e\+11 values from 1 to 1000"),
     ],
 )
@@ -86,7 +87,7 @@ def test_formula_that_cannot_be_meant_is_refused(
         refuse_unsound(_keys(formula, **parameters))
 
 
-@pytest.mark.parametrize("formula", ["a*exp(-P/L)", "a*sin(2*pi*(P - L)/travel_last)"])
+@pytest.mark.parametrize("formula", ["a*tanh((P - L)/travel_last)", "a*sin(2*pi*(P - L)/travel_last)"])
 def test_a_range_may_begin_at_zero_where_the_formula_has_a_value(formula: str) -> None:
     refuse_unsound(_keys(formula, a=_UM, L=_FROM_ZERO))
 
