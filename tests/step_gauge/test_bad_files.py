@@ -132,3 +132,8 @@ def test_a_point_beyond_all_machines(folder: Path, capsys: pytest.CaptureFixture
     """Its square is no number, and a library would say so."""
     changed(folder / "probed.csv", "319.6028,202.4096,209.0917", "319.6028,202.4096,1e308")
     assert "column z: '1e308' is too large for any machine" in refused(folder, capsys)
+
+
+def test_an_empty_calibration_is_not_called_a_job(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "gauge.yaml").write_text("", encoding="utf-8")
+    assert "gauge.yaml:1:1: is empty; a file of keys says first what it is" in refused(folder, capsys)
