@@ -28,6 +28,7 @@ from zlmreport.plugin import (
 from zlmreport.plugin.extension import FileFormat, JobInstrument, JobKeys, KeysFile, read_keys_file
 from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
+from zlmreport_step_gauge.keys import Temperature
 from zlmreport_step_gauge.tables import NamedRow, NamedTable, read_named_columns
 
 #: Of the file that a gauge's calibration is.
@@ -85,7 +86,7 @@ class StepGaugeFileKeys(JobPart):
     expansion_coefficient_uncertainty: NotNegative | None = Field(
         None, description="Standard uncertainty of α, micrometres/(m K).", examples=[0.5]
     )
-    reference_temperature: Finite = Field(20.0, description="At which the distances hold, °C.")
+    reference_temperature: Temperature = Field(20.0, description="At which the distances hold, °C.")
     block: BlockKeys = Field(
         default_factory=BlockKeys,
         description="The size of the blocks across the gauge.",

@@ -11,9 +11,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.plugin import Finite, JobPart, JobPath, NotNegative, Options, Positive, TextLine
+from zlmreport.plugin import CONDITIONS, Finite, JobPart, JobPath, NotNegative, Options, Positive, TextLine
 from zlmreport.plugin.extension import ProgramKeys
 
+_CELSIUS = CONDITIONS["air_temperature"]
+#: Of a gauge, °C: within what is taken for the temperature of anything near a machine.
+Temperature = Annotated[float, Field(ge=_CELSIUS.lowest, le=_CELSIUS.highest, allow_inf_nan=False)]
 #: Number of a block, from 1 at the beginning of the gauge.
 Block = Annotated[int, Field(ge=1, le=10_000)]
 
@@ -121,7 +124,7 @@ class StepGaugeKeys(Options):
         description="Standard uncertainty of a single touch by the probe's own repeatability, micrometres.",
         examples=[0.3],
     )
-    gauge_temperature: Finite | None = Field(
+    gauge_temperature: Temperature | None = Field(
         None, description="Temperature of the gauge during the test, °C.", examples=[20.3]
     )
     compensate: Literal["nothing", "gauge", "gauge-and-scale"] = Field(

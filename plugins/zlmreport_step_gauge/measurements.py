@@ -17,6 +17,7 @@ from zlmreport.plugin import (
     Approach,
     Axis,
     MeasurementSet,
+    PartRow,
     Place,
     Words,
 )
@@ -48,6 +49,7 @@ _NO_LOCATION = Words(
     "Measuring line: the line through the probed points of one side, for no initial points are stated; "
     "direction ({direction})."
 )
+_NUMBER = Words("{number}")
 _DISTANCES = Words(
     "The file gives distances from the reference face: in which direction they were projected, and which "
     "radius was taken off, it does not tell."
@@ -133,7 +135,7 @@ def _say_line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
         yield _DISTANCES
         return
     if set_up.located is None:
-        yield _NO_LOCATION.given(direction=" / ".join(f"{each:.6f}" for each in deviations.direction))
+        yield _NO_LOCATION.given(direction=_say_direction(deviations.direction))
         return
     yield _LINE
     for which, found in (
@@ -141,6 +143,10 @@ def _say_line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
         (_END, set_up.located.end_misalignment),
     ):
         yield _say_misalignment(which, found)
+
+
+def _say_direction(direction: tuple[float, float, float]) -> PartRow:
+    return PartRow(tuple(_NUMBER.given(number=round(each, 6) + 0.0) for each in direction))
 
 
 def _say_misalignment(which: Words, found: Misalignment) -> Words:

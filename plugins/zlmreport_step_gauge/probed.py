@@ -23,6 +23,8 @@ from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 
 #: Problems of one file that are named one by one.
 _MOST_NAMED = 20
+#: Digits of the number of a face: no gauge has more faces.
+_LONGEST_NUMBER = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +152,7 @@ def find_face_of(name: str, mapping: dict[str, int], place: Place) -> int:
     if name in mapping:
         return mapping[name]
     digits = name[len(name.rstrip("0123456789")) :]
-    if mapping or not digits or not int(digits):
+    if mapping or not digits.strip("0") or len(digits) > _LONGEST_NUMBER:
         near = did_you_mean(name[:40], list(mapping)) if mapping else "state measurement.source.faces"
         raise InputError.at(place, f"{name[:40]!r} names no face of the gauge; {near}")
     return int(digits)

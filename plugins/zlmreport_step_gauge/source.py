@@ -116,6 +116,12 @@ def is_calypso(header: str) -> bool:
     return set(_CALYPSO) <= set(header.split("\t"))
 
 
+def _find_header(text: TextFile) -> int:
+    """Return the index of the first line that is neither empty nor a comment; 0 if there is none."""
+    lines = enumerate(text.lines)
+    return next((index for index, line in lines if line.strip() and not line.lstrip().startswith("#")), 0)
+
+
 def read_calypso(path: Path, mapping: dict[str, int]) -> Points:
     """Read the distances in the table of characteristics of ZEISS Calypso, ``*_chr.txt``.
 
@@ -124,15 +130,18 @@ def read_calypso(path: Path, mapping: dict[str, int]) -> Points:
     be there or not. Distances are those of the surface.
     """
     text = read_text(path)
-    header = text.lines[0].split("\t")
+    first = _find_header(text)
+    header = text.lines[first].split("\t")
     missing = [name for name in _CALYPSO if name not in header]
     if missing:
-        raise InputError.at(text.place(1, 1), f"the header lacks {', '.join(missing)}; columns are tabbed")
+        raise InputError.at(
+            text.place(first + 1, 1), f"the header lacks {', '.join(missing)}; columns are tabbed"
+        )
     indices = {name: header.index(name) for name in _CALYPSO}
     problems: list[Problem] = []
     cycles: dict[str, int] = {}
     points = []
-    for number, line in enumerate(text.lines[1:], 2):
+    for number, line in enumerate(text.lines[first + 1 :], first + 2):
         if line.strip() and line.strip() != _END:
             point = _read_characteristic(text, number, line.split("\t"), indices, mapping, cycles, problems)
             if point:
@@ -169,6 +178,7 @@ def _read_characteristic(  # noqa: PLR0913, PLR0917 - a row with what it is read
     return ProbedPoint(text.place(line, 1), face, cycle, (value,))
 
 
+_ANSWER = re.compile(r"\s*[0-9]{5}\s+[&%#!]")
 _DATA = re.compile(r"\s*(?P<tag>[E\d]\d{4})\s+#\s*(?P<data>.*)")
 _ERROR = re.compile(r"\s*(?P<tag>[E\d]\d{4})\s+!\s*Error\((?P<text>.*)\)\s*")
 _COORDINATE = re.compile(r"\b(X|Y|Z)\(\s*([^()]*?)\s*\)")
@@ -338,9 +348,9 @@ def _add_faces(
 
 def _find_layout(text: TextFile) -> str:
     """Tell the layout by the first line that is no comment."""
-    first = next((line for line in text.lines if line.strip() and not line.lstrip().startswith("#")), "")
+    first = text.lines[_find_header(text)]
     if is_calypso(first):
         return "calypso"
-    if first.lstrip()[:5].isdecimal() and first.lstrip()[5:6].isspace() and first.split()[1][0] in "&%#!":
+    if _ANSWER.match(first):
         return "ipp-dme"
     return "table" if any(letter.isalpha() for letter in first) else "sequence"

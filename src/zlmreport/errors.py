@@ -106,7 +106,7 @@ def as_problems(job: Path, error: Exception) -> ZlmreportError:
         return error.of_job(job)
     if isinstance(error, OSError):
         if error.filename and error.strerror:
-            message = f"cannot be read or written: {error.strerror.lower()}"
+            message = f"cannot be read or written: {error.strerror[:1].lower()}{error.strerror[1:]}"
             return AccessError.at(Place(str(error.filename)), message)
         return AccessError.at(Place(str(job)), " ".join(str(error).split()))
     frame = traceback.extract_tb(error.__traceback__)[-1]

@@ -139,7 +139,7 @@ def write_job_of(looked: Looked, file: Path, directory: Path) -> str:
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
     return "\n".join(
         [
-            f"# A measuring report of {file.name}. 'zlmreport schema' describes every key.",
+            f"# A measuring report of {' '.join(file.name.split())}. 'zlmreport schema' describes every key.",
             "schema: zlmreport/job/1",
             "certificate: {number: REPORT-0001, kind: report}",
             *_write_measured(looked),
@@ -165,8 +165,9 @@ def _write_measured(looked: Looked) -> Iterator[str]:
         return
     if not looked.proposal.axis:
         yield "# Which axis is it? The file does not name it."
-    first, last = axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
-    yield f"axis: {{name: {axis.name}, kind: {axis.kind.value}, travel: [{first:.9g}, {last:.9g}]}}"
+    first, last = (axis.typed(float(each)) for each in looked.read.target_positions[[0, -1]])
+    travel = f", travel: [{first:.15g}, {last:.15g}]" if first < last else ""  # a single target tells none
+    yield f"axis: {{name: {axis.name}, kind: {axis.kind.value}{travel}}}"
 
 
 def _write_in_yaml(value: Any) -> str:

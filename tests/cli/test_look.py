@@ -106,6 +106,29 @@ def test_job_that_is_written_runs(kind: str, table: Any, capsys: pytest.CaptureF
     assert main(["init", "--from", str(path), "job"]) != 0  # nothing that is there is touched
 
 
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "target,direction,run,deviation\n50,+,1,1.5\n50,-,1,2.5\n",
+        "target (rad),direction,run,deviation (urad)\n0,+,1,0.1\n0.9,+,1,0.2\n1.8,+,1,0.3\n",
+    ],
+    ids=["a single target", "targets of many digits in degrees"],
+)
+def test_travel_that_is_written_holds_the_targets(
+    rows: str, table: Any, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = table(rows.encode())
+    assert main(["init", "--from", str(path), "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+
+
+def test_a_name_of_several_lines_stays_a_comment(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    path = table(LONG.encode())
+    path = path.rename(path.with_name("x\ny: 1.csv"))
+    assert main(["init", "--from", str(path), "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+
+
 def test_what_nobody_can_see_in_a_file_is_asked(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
     table(b"target,run,deviation\n0,1,1.5\n100,1,2.5\n")
     assert main(["look", "from shop/x-axis.csv"]) == 0

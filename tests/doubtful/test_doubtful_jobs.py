@@ -419,6 +419,13 @@ def test_what_the_readings_show_is_said_on_the_first_page(spoil, said: str, tmp_
     assert any(said in each.en or said in each.in_language(document.language) for each in document.evidence)
 
 
+def test_what_spans_too_much_is_not_said_to_have_been_read_in_the_unit_of_the_page(tmp_path: Path) -> None:
+    """The job, or the file itself, may name another, and only their size is known here."""
+    document = composed(tmp_path, SOUND, _nanometres(readings()))
+
+    assert "read as" not in next(each.en for each in document.evidence if "together span" in each.en)
+
+
 def test_drift_is_said_where_nothing_is_stated_of_it(tmp_path: Path) -> None:
     keys = without("uncertainty.environmental_variation", keys=changed(REPORT))
 

@@ -58,5 +58,14 @@ def test_honest_runs_whose_scatter_the_last_digit_shows_are_no_copies(step: floa
     assert [group_copies(honest(seed, step=step), step) for seed in range(200)] == [()] * 200
 
 
+def test_a_copy_with_many_digits_changed_is_found_among_the_readings_of_a_circle() -> None:
+    generator = np.random.default_rng(3)
+    series = np.round(3 * generator.standard_normal((7200, 3)), 1)
+    series[:, 1] = series[:, 0]
+    series[generator.choice(7200, 300, replace=False), 1] += 0.1
+
+    assert group_copies(series, 0.1) == ((0, 1),)
+
+
 def test_runs_of_one_value_say_nothing() -> None:
     assert group_copies(np.zeros((22, 3)), STEP) == ()

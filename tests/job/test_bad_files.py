@@ -14,11 +14,11 @@ from zlmreport.errors import AccessError, InputError
 from zlmreport.job.loading import load
 
 NO_JOBS: dict[str, tuple[bytes, str, str]] = {
-    "empty": (b"", "1:1", "is empty; a job file holds keys"),
+    "empty": (b"", "1:1", "is empty; a file of keys says first what it is"),
     "only comments": (b"# nothing yet\n", "1:1", "is empty"),
     "only a null": (b"~\n", "1:1", "is empty"),
-    "list": (b"- a\n- b\n", "1:1", "is a list; a job file holds keys"),
-    "text": (b"hello\n", "1:1", "is a text; a job file holds keys"),
+    "list": (b"- a\n- b\n", "1:1", "is a list; a file of keys says first what it is"),
+    "text": (b"hello\n", "1:1", "is a text; a file of keys says first what it is"),
     "UTF-16 with its mark": (
         codecs.BOM_UTF16_LE + "schema: x".encode("utf-16-le"),
         "1:1",

@@ -139,3 +139,16 @@ def test_the_list_of_a_file_that_is_extended_is_written_into_the_job(tmp_path: P
     edit.write()
     assert [each.run for each in load(path, registry()).keys.measurement.excluded] == [3, 4]
     assert edit.inherited_from.endswith("base.yaml")
+
+
+def test_a_reading_is_set_aside_at_a_target_of_many_digits(tmp_path: Path) -> None:
+    path = job(tmp_path, HEAD + MEASUREMENT + TAIL)
+    aside = EXCLUSION.model_copy(update={"target": 103.132403123548})
+    exclude(path, load(path, registry()), registry(), [aside]).write()
+    assert load(path, registry()).keys.measurement.excluded == [aside]
+
+
+def test_a_parameter_is_fixed_with_every_digit(tmp_path: Path) -> None:
+    path = job(tmp_path, f"{HEAD}{MEASUREMENT}{TAIL}model: {{effects: [backlash]}}\n")
+    with_parameter(path, "backlash", "lost_motion", 4.123456789012)
+    assert load(path, registry()).effects[0].values == {"lost_motion": 4.123456789012}

@@ -127,6 +127,25 @@ def test_every_pattern_without_a_file_is_named(tmp_path: Path) -> None:
         list_job_files(fleet)
 
 
+@pytest.mark.parametrize(
+    ("pattern", "said"),
+    [
+        ("/nowhere/*.yaml", "nothing matches 'nowhere' in /"),
+        (".", r"it is a folder; name the files in it, as in \./\*\.yaml"),
+        ("machines", r"it is a folder; name the files in it, as in machines/\*\.yaml"),
+        (f"{'m' * 300}/*.yaml", "nothing matches 'm"),
+    ],
+)
+def test_a_pattern_that_leads_nowhere_is_told_how_far_it_leads(
+    tmp_path: Path, pattern: str, said: str
+) -> None:
+    (tmp_path / "machines").mkdir()
+    path = tmp_path / "fleet.yaml"
+    path.write_text(f"schema: zlmreport/fleet/1\njobs: {pattern}\n", encoding="utf-8")
+    with pytest.raises(InputError, match=said):
+        list_job_files(load_fleet(path))
+
+
 def test_the_number_of_a_job_is_found_where_it_stands(tmp_path: Path) -> None:
     (tmp_path / "base.yaml").write_text("certificate: {number: CAL-7}\n", encoding="utf-8")
     path = tmp_path / "job.yaml"

@@ -15,6 +15,8 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.effect import Dimension, find_unit_of
 
 _UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}
+_FROM_ZERO: dict[str, Any] = {"unit": "mm", "range": [0, 1000]}
+_TOO_FINE: dict[str, Any] = {"unit": "mm", "range": [1, 1000], "step": 1e-9}
 
 
 def _keys(formula: str, **parameters: dict[str, Any]) -> FormulaKeys:
@@ -49,6 +51,8 @@ def test_formula_means_what_arithmetic_says(text: str, value: float) -> None:
         ("a.real", "'.' means nothing in a formula"),
         ("(" * 200 + "a", "nested deeper"),
         ("a" * 501, "at most 500 characters"),
+        ("a*²", "'²' cannot stand there"),
+        ("a*٣", "'٣' means nothing in a formula"),
     ],
 )
 def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
@@ -69,6 +73,11 @@ def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
         ("a + 0*b", {"a": _UM, "b": _UM}, "b changes nothing in it"),
         ("a", {"a": {"unit": "furlong"}}, "'furlong' is no unit"),
         ("P", {"P": {"unit": "mm"}}, "cannot be called 'P'"),
+        ("a*P^(1/0)", {"a": _UM}, "a power of travel must be written as a number"),
+        ("a*P^(log(-1))", {"a": _UM}, "a power of travel must be written as a number"),
+        ("a*sin(P/L)", {"a": _UM, "L": _FROM_ZERO}, "no value where L is 0, an end of its range"),
+        ("a*exp(-P/L)", {"a": _UM, "L": _FROM_ZERO}, "no value where L is 0, an end of its range"),
+        ("a*sin(P/L)", {"a": _UM, "L": _TOO_FINE}, r"steps of 1e-09 are 9.99e\+11 values from 1 to 1000"),
     ],
 )
 def test_formula_that_cannot_be_meant_is_refused(
@@ -76,6 +85,11 @@ def test_formula_that_cannot_be_meant_is_refused(
 ) -> None:
     with pytest.raises((ValidationError, FormulaError), match=sentence):
         refuse_unsound(_keys(formula, **parameters))
+
+
+@pytest.mark.parametrize("formula", ["a*tanh((P - L)/travel_last)", "a*sin(2*pi*(P - L)/travel_last)"])
+def test_a_range_may_begin_at_zero_where_the_formula_has_a_value(formula: str) -> None:
+    refuse_unsound(_keys(formula, a=_UM, L=_FROM_ZERO))
 
 
 @pytest.mark.parametrize(

@@ -137,8 +137,13 @@ def test_runs_are_counted_by_positive_integers(run: float) -> None:
 @pytest.mark.parametrize("target", [math.nan, math.inf, 1e8])
 def test_a_target_that_is_on_no_axis_is_refused(target: float) -> None:
     assert complaints([reading(2, target)]) == [
-        "x.csv:2:1: the target position is not on any axis; is its unit right?"
+        f"x.csv:2:1: the target position, {target:.9g} mm, is not on any axis; is its unit right?"
     ]
+
+
+def test_times_that_no_test_takes_are_refused_at_the_farthest() -> None:
+    readings = [reading(2, time=0.0), reading(3, 10, time=1e300), reading(4, 20, time=1e301)]
+    assert complaints(readings) == ["x.csv:4:1: no test takes 1e+301 s; is the unit of its time right?"]
 
 
 def test_no_quantity_is_infinite() -> None:

@@ -41,6 +41,13 @@ def test_a_unit_in_brackets_holds(tmp_path: Path) -> None:
     assert table.values[1] == pytest.approx(np.radians(1.0), rel=1e-15)
 
 
+@pytest.mark.parametrize("header", ["position / mm;deviation / nm", "position in mm;deviation in nm"])
+def test_a_unit_may_stand_behind_the_name_as_in_every_table(header: str, tmp_path: Path) -> None:
+    table = _read(tmp_path, f"{header}\n0;0\n100;5\n")
+    assert table.positions == (0.0, 0.1)
+    assert table.values == (0.0, pytest.approx(5e-9))
+
+
 def test_decimal_commas_are_read_where_no_comma_parts_cells(tmp_path: Path) -> None:
     assert _read(tmp_path, "position;deviation\n0,5;1,25\n1,5;2\n").values == (1.25e-6, 2e-6)
 

@@ -61,7 +61,7 @@ def test_a_report_has_numbers_by_their_names() -> None:
     }
 
 
-@pytest.mark.parametrize("text", ["X(1.0", "X(one)", "X(1.0) Y(2.0)", "1.0, 2.0"])
+@pytest.mark.parametrize("text", ["X(1.0", "X(one)", "X(1.0) Y(2.0)", "1.0, 2.0", "X(nan)", "X(1e999)"])
 def test_a_report_that_is_none_is_not_read(text: str) -> None:
     with pytest.raises(UnreadableError):
         read_data(text)

@@ -115,10 +115,25 @@ def test_a_source_without_its_gauge(folder: Path, capsys: pytest.CaptureFixture[
 def test_a_gauge_hotter_than_anything(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its expansion is a number whose square is none, and a library would say so."""
     changed(folder / "job.yaml", "gauge_temperature: 20.4", "gauge_temperature: 1e308")
-    assert "step_gauge.gauge_temperature: '1e308' is not a number of at most 1e+09" in refused(folder, capsys)
+    assert "step_gauge.gauge_temperature: '1e308' is not a number of at most 150" in refused(folder, capsys)
+
+
+def test_a_gauge_colder_than_nothing_can_be(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    changed(folder / "job.yaml", "gauge_temperature: 20.4", "gauge_temperature: -300")
+    assert "step_gauge.gauge_temperature: '-300' is not a number of at least -50" in refused(folder, capsys)
+
+
+def test_a_reference_temperature_in_kelvin(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    changed(folder / "gauge.yaml", "reference_temperature: 20", "reference_temperature: 293.15")
+    assert "reference_temperature: '293.15' is not a number of at most 150" in refused(folder, capsys)
 
 
 def test_a_point_beyond_all_machines(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its square is no number, and a library would say so."""
     changed(folder / "probed.csv", "319.6028,202.4096,209.0917", "319.6028,202.4096,1e308")
     assert "column z: '1e308' is too large for any machine" in refused(folder, capsys)
+
+
+def test_an_empty_calibration_is_not_called_a_job(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "gauge.yaml").write_text("", encoding="utf-8")
+    assert "gauge.yaml:1:1: is empty; a file of keys says first what it is" in refused(folder, capsys)

@@ -63,6 +63,16 @@ def test_a_file_that_is_no_journal_is_left_alone(tmp_path: Path) -> None:
     assert part.read_text("ascii") == "mine\n"
 
 
+@pytest.mark.parametrize("row", ["face three", "3", "3;1;300.0;0;0;0;-1;0", "²,1,0,0,0,0,-1,0"])
+def test_a_row_that_somebody_changed_is_refused_with_its_line(row: str, tmp_path: Path) -> None:
+    part = taken(tmp_path / "raw.csv")
+    changed = part.read_text("ascii") + f"{row}\n"
+    part.write_text(changed, encoding="utf-8")
+    with pytest.raises(InputError, match=r"raw.csv.part:5:1: is no row of face,cycle,x,y,z,i,j,k: .*; take"):
+        PointJournal(tmp_path / "raw.csv", PATH)
+    assert part.read_text("utf-8") == changed
+
+
 def test_a_finished_journal_has_the_name_of_the_result(tmp_path: Path) -> None:
     with PointJournal(tmp_path / "new" / "raw.csv", PATH) as journal:
         assert journal.finish() == tmp_path / "new" / "raw.csv"

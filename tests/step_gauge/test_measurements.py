@@ -7,6 +7,7 @@ import pytest
 
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
+from zlmreport.evaluation.checks import no_missing_readings
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.types import Options
 from zlmreport.language import Language
@@ -14,7 +15,13 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.gauge import Side
-from zlmreport_step_gauge.measurements import Sign, Targets, make_measurement_set
+from zlmreport_step_gauge.measurements import (
+    _NO_LOCATION,
+    Sign,
+    Targets,
+    _say_direction,
+    make_measurement_set,
+)
 from zlmreport_step_gauge.probed import ProbedPoint
 from zlmreport_step_gauge.set_up import GaugeSetUp, StatedRadius
 
@@ -76,6 +83,20 @@ def test_a_face_that_was_missed_in_a_cycle_is_a_missing_reading() -> None:
     points = touched(GAUGE, lost)
     found = measured(points=points[:-1])
     assert [(each.target_position, each.run) for each in found.missing()] == [(pytest.approx(0.09), 2)]
+
+
+def test_of_a_missed_face_it_is_said_by_how_many_readings_the_others_are_evaluated() -> None:
+    found = measured(points=touched(GAUGE, lost)[:-1])
+    assert no_missing_readings(found).found.in_language(Language.ENGLISH) == (
+        "1 of 20 missing; n from 1 to 2, evaluated by what is there"
+    )
+
+
+def test_the_direction_of_a_line_without_initial_points_is_written_as_the_language_writes() -> None:
+    remark = next(each for each in measured().provenance.remarks if "direction (" in each.en)
+    assert "direction (1; 0; 0)" in remark.in_language(Language.ENGLISH)
+    askew = _NO_LOCATION.given(direction=_say_direction((0.6, -0.8, -1e-9)))
+    assert "(0,6; −0,8; 0)" in askew.in_language(Language.GERMAN)
 
 
 def test_iso_reports_of_faces_what_needs_one_direction_at_a_target_and_nothing_else() -> None:

@@ -134,6 +134,25 @@ def test_a_table_of_characteristics_gives_distances_of_the_surface() -> None:
     assert means(read(CALYPSO, of)) == pytest.approx(by_hand, abs=1e-9)
 
 
+def test_remarks_may_stand_before_a_table_of_characteristics(tmp_path: Path) -> None:
+    of = whole(gauge=cut_section(CALIBRATED.gauge, 1, 2, HERE))
+    remarked = tmp_path / "part_chr.txt"
+    remarked.write_text(f"# measured by hand\n\n{CALYPSO.read_text(encoding='utf-8')}", encoding="utf-8")
+    assert means(read(remarked, of)) == pytest.approx(means(read(CALYPSO, of)))
+
+
+def test_a_number_that_no_face_has_is_told_as_a_name(tmp_path: Path) -> None:
+    table = tmp_path / "part_chr.txt"
+    table.write_text(f"partnb\tid\tactual\tunit\n1\tF{'3' * 5000}\t20.0\tmm\n", encoding="utf-8")
+    assert "names no face of the gauge; state measurement.source.faces" in refused(table)
+
+
+def test_a_line_that_holds_a_tag_alone_is_no_log(tmp_path: Path) -> None:
+    table = tmp_path / "points.txt"
+    table.write_text("12345 \n", encoding="utf-8")
+    assert "three numbers are expected, x y z: '12345'" in refused(table)
+
+
 def test_characteristics_of_other_names_are_mapped_by_the_job(tmp_path: Path) -> None:
     renamed = tmp_path / "part_chr.txt"
     text = CALYPSO.read_text(encoding="utf-8")

@@ -185,7 +185,7 @@ class Nmtba:
         """
         yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.APPLIED)
         yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
-        yield _number_of_positions(measurements)
+        yield _check_number_of_positions(measurements)
         yield no_missing_readings(measurements)
         yield positions_over_travel(measurements)
         yield from spacing_against_periods(measurements, Basis.APPLIED)
@@ -203,7 +203,7 @@ class Nmtba:
         yield graphs.draw_overall()
 
 
-def _number_of_positions(measurements: MeasurementSet) -> Finding:
+def _check_number_of_positions(measurements: MeasurementSet) -> Finding:
     """Return the open finding on the number of positions, for which no number is known."""
     requirement = Words("Number of target positions as the recommendation asks")
     found = Words("{positions}; no number known to hold them against")

@@ -13,12 +13,13 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, Self
 
-from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem
+from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem, quoted
 from zlmreport.plugin.extension import Job, JournalFile, take_names, unwritable
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
 from zlmreport_step_gauge.machines.session import (
@@ -40,6 +41,7 @@ from zlmreport_step_gauge.paths.programs import (
 )
 
 _COLUMNS = "face,cycle,x,y,z,i,j,k"
+_ROW = re.compile(r"(?P<face>[0-9]{1,9}),(?P<cycle>[0-9]{1,9}),")
 _FINGERPRINT = "# path "
 #: A face of a cycle.
 Key = tuple[int, int]
@@ -122,8 +124,11 @@ class PointJournal:
         lines = whole.decode("ascii", errors="replace").splitlines()
         head = list(self._make_head())
         if lines[1:3] == head[1:]:
+            done = {
+                self._read_key(line, number) for number, line in enumerate(lines[3:], 4) if line[:1] != "#"
+            }
             self._file.cut(len(whole) + len(end))
-            return {_read_key(line) for line in lines[3:] if not line.startswith("#")}
+            return done
         if lines == head[: len(lines)]:  # nothing but a part of the head
             self._file.cut(0)
             return set()
@@ -133,10 +138,14 @@ class PointJournal:
             "start again",
         )
 
-
-def _read_key(line: str) -> Key:
-    face, cycle, _ = line.split(",", 2)
-    return int(face), int(cycle)
+    def _read_key(self, line: str, number: int) -> Key:
+        row = _ROW.match(line)
+        if row is None:
+            raise InputError.at(
+                Place(str(self._part), number, 1),
+                f"is no row of {_COLUMNS}: {quoted(line)}; take the line out, and start again",
+            )
+        return int(row["face"]), int(row["cycle"])
 
 
 def digest_path(path: ProbingPath) -> str:

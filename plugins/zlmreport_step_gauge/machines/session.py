@@ -16,6 +16,7 @@ from enum import StrEnum
 from typing import NoReturn, Self
 
 from zlmreport.plugin import AccessError, Place, Problem
+from zlmreport.plugin.source import parse_number
 
 #: The tag of what the server sends unasked.
 UNASKED = "E0000"
@@ -112,7 +113,7 @@ def read_data(text: str) -> Mapping[str, tuple[float, ...]]:
         if item is None:
             raise UnreadableError(f"{text[position : position + 60]!r} is no report of I++ DME")
         try:
-            found[item["name"]] = tuple(float(value) for value in item["values"].split(","))
+            found[item["name"]] = tuple(parse_number(value.strip()) for value in item["values"].split(","))
         except ValueError:
             raise UnreadableError(f"{item['name']}({item['values'][:40]}) is no number") from None
         position = item.end()

@@ -77,8 +77,6 @@ def foretell(job: Job, keys: StepGaugeKeys) -> ExtensionPlan:
 
 def _make_files(planned: PlannedPath, language: Language) -> dict[str, str]:
     """Return the picture of the path, and its moves as a table."""
-    from zlmreport_step_gauge.paths.foretold import draw_path  # noqa: PLC0415 (brings the typeface)
-
     return {
         "path.svg": draw_path(planned, language),
         "path.csv": "".join(f"{line}\n" for line in _make_rows(planned.path)),

@@ -290,6 +290,8 @@ def no_missing_readings(measurements: MeasurementSet) -> Finding:
         complete = Words("the only reading") if total == 1 else several
         return Finding(requirement, complete, met=True)
     count = np.count_nonzero(present, axis=-1)[[approach.index for approach in measurements.approaches]]
+    if measurements.one_sided_targets:
+        count = count[count > 0]  # the other direction of a target is not missing
     found = Words("{missing} of {total} missing; n from {least} to {most}, evaluated by what is there")
     given = found.given(missing=missing, total=total, least=int(count.min()), most=int(count.max()))
     return Finding(requirement, given, met=False)

@@ -84,8 +84,15 @@ def _count_equal_differences(one: FloatArray, other: FloatArray, step: float) ->
 
 
 def _compute_chance_of_at_least(equal: int, count: int, share: float) -> float:
-    """Return the probability of `equal` or more of `count` trials of one probability."""
+    """Return the probability of `equal` or more of `count` trials of one probability, 0 < `share` < 1."""
+    # By logarithms: of the thousands of readings of a circle the numbers of ways are no doubles any more.
     return math.fsum(
-        math.comb(count, each) * share**each * (1 - share) ** (count - each)
+        math.exp(
+            math.lgamma(count + 1)
+            - math.lgamma(each + 1)
+            - math.lgamma(count - each + 1)
+            + each * math.log(share)
+            + (count - each) * math.log1p(-share)
+        )
         for each in range(equal, count + 1)
     )

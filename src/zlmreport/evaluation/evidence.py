@@ -71,11 +71,11 @@ _STRAY = Words(
     "than any other: a defect of the axis at this place, or readings of another place"
 )
 _TOO_SMALL = Words(
-    "All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
+    "All deviations together span {range} over {length}; if the file has {other}, state "
     "measurement.source.units: {{deviation: {other}}}"
 )
 _TOO_LARGE = Words(
-    "All deviations together span {range} over {length}: read as {unit}; if the file has another unit, "
+    "All deviations together span {range} over {length}; if the file has another unit, "
     "state it under measurement.source.units"
 )
 _AS_LEFT = Words("The readings are in every digit those of the measurement as left")
@@ -387,7 +387,6 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     yield words.given(
         range=_write_size(measurements, full_range),
         length=say_with_unit(unit.from_si(length), unit.symbol),
-        unit=axis.deviation_unit.symbol,
     )
 
 

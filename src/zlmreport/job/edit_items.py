@@ -88,7 +88,7 @@ def _make_effect_node(item: Node, effect: str, parameter: str, value: float | No
         entries = dict(_list_keys(item.entries[effect].value))
     entries.pop(parameter, None)
     if value is not None:
-        entries[parameter] = KeyEntry(parameter, place, Scalar(place, _number(value)))
+        entries[parameter] = KeyEntry(parameter, place, Scalar(place, _write_number(value)))
     if not entries:
         return Scalar(place, effect)
     return make_keys_of(place, (KeyEntry(effect, place, make_keys_of(place, tuple(entries.values()))),))
@@ -98,9 +98,9 @@ def _list_keys(node: Node) -> Mapping[str, KeyEntry]:
     return MappingProxyType({}) if isinstance(node, Scalar | Items) else node.entries
 
 
-def _number(value: float) -> str:
-    """Write a value as people would: ``4.2``, and ``10`` for 10.0."""
-    return f"{value:.10g}"
+def _write_number(value: float) -> str:
+    """Write a value as people would, ``4.2``, and ``10`` for 10.0, with every digit that it has."""
+    return repr(float(value)).removesuffix(".0")
 
 
 #: The list of readings that a job sets aside.
@@ -131,7 +131,7 @@ def include(path: Path, job: Job, registry: Installed, index: int) -> Edit:
 def _make_exclusion_node(exclusion: ExclusionKeys) -> Node:
     place = Place("")
     values = {
-        "target": Scalar(place, f"{exclusion.target:.10g}"),
+        "target": Scalar(place, _write_number(exclusion.target)),
         "direction": Scalar(place, exclusion.direction, plain=False),
         "run": Scalar(place, str(exclusion.run)),
         "reason": Scalar(place, exclusion.reason, plain=False),
@@ -175,7 +175,7 @@ def _spell(value: float | str) -> str:
     """Write a value as people would: ``10``, ``2026-11-20``, text with quotes only where it needs them."""
     if isinstance(value, str):
         return value if _DATE.fullmatch(value) else write_as_text(Scalar(Place(""), value, plain=False))
-    return f"{value:.10g}"
+    return _write_number(value)
 
 
 def _read_meaning(text: str) -> Any:
@@ -186,7 +186,7 @@ def _read_meaning(text: str) -> Any:
 def _add_to_meaning(stated: Any, names: Sequence[str], value: float | str) -> Any:
     """Return what a text is to say: what it says, and one key more."""
     if not names:
-        return value if isinstance(value, str) else f"{value:.10g}"
+        return value if isinstance(value, str) else _write_number(value)
     group = stated if isinstance(stated, dict) else {}
     return {**group, names[0]: _add_to_meaning(group.get(names[0]), names[1:], value)}
 

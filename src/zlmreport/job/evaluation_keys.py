@@ -160,8 +160,8 @@ class UncertaintyKeys(JobPart):
     )
 
 
-#: Keys that speak of lengths and their expansion.
-_OF_LINEAR_AXES = (
+#: Keys of an uncertainty that speak of lengths along an axis and their expansion.
+UNCERTAIN_LENGTHS = (
     "misalignment",
     "machine_temperature",
     "device_temperature",
@@ -184,7 +184,7 @@ _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 def _find_keys_not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...], str]]:
     """Yield keys that speak of something else than was measured, and what to do with them."""
     if kind is AxisKind.ROTARY:
-        yield _OF_LINEAR_AXES, "belongs to a linear axis; take it out, or state contributions of this axis"
+        yield UNCERTAIN_LENGTHS, "belongs to a linear axis; take it out, or state contributions of this axis"
     if is_circle:
         yield ("misalignment",), "belongs to a line along an axis, and this job is on a circle; take it out"
     else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 import glob
+import os.path
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -352,13 +353,16 @@ def _list_patterns(fleet: FleetFile) -> Iterator[tuple[str, Place]]:
 
 
 def _say_nearest(pattern: str, fleet: FleetFile) -> str:
-    """Say how far the folders of a pattern are there."""
+    """Say how far the folders of a pattern are there, or that it is one itself."""
     here = fleet.path.parent
-    for part in Path(pattern).parent.parts:
-        if glob.has_magic(part) or not (here / part).is_dir():
+    if os.path.isdir(here / pattern):  # noqa: PTH112 - says no of a name that is too long
+        return f"it is a folder; name the files in it, as in {pattern.rstrip('/')}/*.yaml"
+    *folders, missing = Path(pattern).parts
+    for part in folders:
+        if glob.has_magic(part) or not os.path.isdir(here / part):  # noqa: PTH112 - likewise
+            missing = part
             break
         here /= part
-    missing = Path(pattern).parts[len(here.relative_to(fleet.path.parent).parts)]
     return f"nothing matches {quoted(missing)} in {here.absolute()}"
 
 

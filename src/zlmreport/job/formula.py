@@ -6,6 +6,7 @@ frozen values, of which each name and each operation is known: nothing in it can
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -20,9 +21,8 @@ from zlmreport.errors import did_you_mean
 from zlmreport.measurement.arrays import FloatArray
 
 _LONGEST, _DEEPEST = 500, 40
-_TOKEN = re.compile(
-    r"\s*(?:(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?)|([^\W\d]\w*)|(\*\*|[-+*/^(),]))"
-)
+_NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_TOKEN = re.compile(rf"\s*(?:({_NUMBER})|([^\W\d]\w*)|(\*\*|[-+*/^(),]))")
 
 CONSTANTS = MappingProxyType({"pi": np.pi})
 _PURE: Mapping[str, Callable[[FloatArray], FloatArray]] = {
@@ -135,7 +135,7 @@ def parse_formula(text: str) -> Tree:
     if len(text) > _LONGEST:
         raise FormulaError(f"a formula has at most {_LONGEST} characters; this one has {len(text)}")
     tokens = list(_split_tokens(text))
-    tree, rest = _sum(tokens, 0, 0)
+    tree, rest = _parse_sum(tokens, 0, 0)
     if rest < len(tokens):
         raise FormulaError(f"{tokens[rest]!r} cannot stand there; an operation is missing before it")
     return tree
@@ -151,7 +151,7 @@ def _split_tokens(text: str) -> Iterator[str]:
         yield found.group().strip().replace("**", "^")
 
 
-def _sum(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+def _parse_sum(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     left, place = _parse_product(tokens, place, depth)
     while place < len(tokens) and tokens[place] in "+-":
         right, after = _parse_product(tokens, place + 1, depth)
@@ -184,10 +184,10 @@ def _parse_atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     if place == len(tokens):
         raise FormulaError("it ends where a number, a name or a bracket is expected")
     found = tokens[place]
-    if found[0].isdigit() or found[0] == ".":
+    if found[0] in "0123456789.":
         return Number(float(found)), place + 1
     if found == "(":
-        inner, place = _sum(tokens, place + 1, depth + 1)
+        inner, place = _parse_sum(tokens, place + 1, depth + 1)
         return inner, _require_closed(tokens, place)
     if not (found[0].isalpha() or found[0] == "_"):
         raise FormulaError(f"{found!r} cannot stand there; a number, a name or a bracket is expected")
@@ -202,7 +202,7 @@ def _parse_function(tokens: list[str], place: int, depth: int) -> tuple[Tree, in
         raise FormulaError(f"there is no function {name!r}; {did_you_mean(name, FUNCTIONS)}")
     arguments: list[Tree] = []
     while not arguments or (place < len(tokens) and tokens[place] == ","):
-        argument, place = _sum(tokens, place + 1, depth + 1)
+        argument, place = _parse_sum(tokens, place + 1, depth + 1)
         arguments.append(argument)
     wanted = _ARGUMENTS.get(name, 1)
     if len(arguments) != wanted:
@@ -272,7 +272,7 @@ def _derive_raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent
     if extents[0] == NUMBER:
         return NUMBER
     power = _find_constant(trees[1])
-    if power is None:
+    if power is None or not math.isfinite(power):
         raise FormulaError(f"a power of {extents[0]} must be written as a number")
     return extents[0].raise_to(Fraction(power).limit_denominator(64))
 

@@ -85,6 +85,8 @@ UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
         },
     }
 )
+#: Values of a parameter of which only some make sense: each is tried.
+_MOST_SENSIBLE = 10_000
 _SAMPLES, _STEP, _DEPENDENT, _SEED = 60, 1e-4, 1e-7, 20_261_122
 _NEAR = tuple(np.linspace(-1.2, 1.2, 25).tolist())
 #: Between which positions formulas are tried, m or rad. A step at 1.8 m or at -0.5 m shows on no first metre.
@@ -186,6 +188,7 @@ class Formula:
                 raise FormulaError(
                     f"{name} is no factor of a whole term and must be searched; state its range"
                 )
+            _refuse_countless(name, keys.parameters[name])
         for name in parts:
             if keys.parameters[name].value is not None or keys.parameters[name].equals is not None:
                 raise FormulaError(f"{name} is the size of a wave, which has two parts; give neither")
@@ -247,6 +250,7 @@ class Formula:
         """
         free = [name for name in self.searched if name not in self.given]
         names = [*self.linear, *free]
+        self._refuse_zeros(free)
         tried = [self._compute_slopes(free, *positions) for positions in _POSITIONS]
         finite = [each for each in tried if np.all(np.isfinite(each))]
         if not finite:
@@ -258,14 +262,28 @@ class Formula:
         if np.linalg.svd(together / lengths, compute_uv=False)[-1] < _DEPENDENT:
             raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
 
-    def _compute_slopes(self, free: list[str], first: float, last: float) -> FloatArray:
-        """Return what each parameter changes at readings between two positions, m or rad, shape (N, k)."""
+    def _refuse_zeros(self, free: list[str]) -> None:
+        """Refuse a range that begins or ends at 0 where the formula divides by the parameter."""
+        for name in free:
+            ends = self.keys.parameters[name].range
+            if ends and 0.0 in ends:
+                theta = {each: self._find_middle(each) for each in self.searched} | {name: 0.0}
+                tried = (
+                    self.compute_values(self._make_readings(theta, *positions), theta)
+                    for positions in _POSITIONS
+                )
+                if not any(np.isfinite(each).all() for each in tried):
+                    raise FormulaError(
+                        f"it has no value where {name} is 0, an end of its range; let the range leave 0 out"
+                    )
+
+    def _make_readings(self, theta: Mapping[str, float], first: float, last: float) -> dict[str, Any]:
+        """Return readings between two positions, m or rad, at which a formula is tried."""
         random = np.random.default_rng(_SEED)
-        theta = {name: self._find_middle(name) for name in self.searched}
         places = np.append(random.uniform(first, last, _SAMPLES), self._place_around(theta, TRAVEL))
         moments = np.append(random.uniform(1.0, 3600.0, _SAMPLES), self._place_around(theta, TIME))
         count = max(len(places), len(moments))
-        readings: dict[str, Any] = {
+        return {
             **_TRIED,
             "P": np.resize(places, count),
             "D": random.choice([-1.0, 1.0], count),
@@ -278,6 +296,11 @@ class Formula:
             "air_index": random.uniform(-1e-6, 1e-6, count),
             **{name: random.uniform(-1e-5, 1e-5, count) for name in TABLES},
         }
+
+    def _compute_slopes(self, free: list[str], first: float, last: float) -> FloatArray:
+        """Return what each parameter changes at readings between two positions, m or rad, shape (N, k)."""
+        theta = {name: self._find_middle(name) for name in self.searched}
+        readings = self._make_readings(theta, first, last)
         columns = self.compute_values(readings, theta)
         slopes = [columns]
         for name in free:
@@ -345,6 +368,18 @@ def _is_searchable(parameter: FormulaParameter) -> bool:
         or parameter.value is not None
         or bool(parameter.search or parameter.stated or parameter.values)
     )
+
+
+def _refuse_countless(name: str, parameter: FormulaParameter) -> None:
+    """Refuse a step that is too fine for its range: every value between its ends is tried."""
+    low, high = parameter.range or (None, None)
+    if parameter.step is not None and low is not None and high is not None:
+        count = (high - low) / parameter.step
+        if count > _MOST_SENSIBLE:
+            raise FormulaError(
+                f"{name}: steps of {parameter.step:g} are {count:.3g} values from {low:g} to {high:g}, and "
+                f"{_MOST_SENSIBLE:,} are the most; take a larger step, or none"
+            )
 
 
 def _refuse_names(keys: FormulaKeys, used: Sequence[str]) -> None:

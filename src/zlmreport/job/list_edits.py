@@ -148,7 +148,7 @@ def find_own_list(written: Written, where: ListKey) -> WrittenValue | None:
 def add_item(text: str, where: ListKey, item: Node) -> str:
     """Return a text that has a list, with one item more at its end."""
     written = Written.of(text)
-    listed = _write_list(written, where)
+    listed = _take_own_list(written, where)
     quote = _quote_of(text, listed.parts[-1]) if listed.parts else _quote_of(text, written.root.parts[0])
     if listed.form is ValueForm.BRACKETS:
         return add_member(written, listed, find_members(listed.parts), write_as_text(item, quote))
@@ -161,7 +161,7 @@ def add_item(text: str, where: ListKey, item: Node) -> str:
 def change_item(text: str, where: ListKey, index: int, item: Node) -> str:
     """Return a text that has a list, with one of its items written anew; comments within it forbid that."""
     written = Written.of(text)
-    listed = _write_list(written, where)
+    listed = _take_own_list(written, where)
     old = listed.parts[index]
     if "#" in text[old.start : old.end] or text.startswith(("&", "*"), old.start):
         raise UneditableError
@@ -172,7 +172,7 @@ def change_item(text: str, where: ListKey, index: int, item: Node) -> str:
 def drop_item(text: str, where: ListKey, index: int) -> str:
     """Return a text that has a list, without one of its items."""
     written = Written.of(text)
-    listed = _write_list(written, where)
+    listed = _take_own_list(written, where)
     if listed.form is ValueForm.BRACKETS:
         return drop_member(written, listed, find_members(listed.parts), index)
     item = listed.parts[index]
@@ -274,7 +274,7 @@ def _quote_of(text: str, neighbour: WrittenValue) -> str:
     return mark if neighbour.form is ValueForm.SCALAR and mark in {"'", '"'} else ""
 
 
-def _write_list(written: Written, where: ListKey) -> WrittenValue:
+def _take_own_list(written: Written, where: ListKey) -> WrittenValue:
     listed = find_own_list(written, where)
     if listed is None:
         raise UneditableError

@@ -84,7 +84,7 @@ class CorrectionKeys(JobPart):
 _SPELLINGS = {"up": "+", "↑": "+", "1": "+", "down": "-", "↓": "-", "-1": "-", "−": "-"}
 
 
-def _sign(value: Any) -> Any:
+def _take_sign(value: Any) -> Any:
     return _SPELLINGS.get(str(value).strip().lower(), value)
 
 
@@ -92,7 +92,7 @@ class ExclusionKeys(JobPart):
     """A reading that is set aside, as if it had not been taken; the document names it with the reason."""
 
     target: Finite = Field(description="Its target position, mm or degrees.", examples=[213.4])
-    direction: Annotated[Literal["+", "-"], BeforeValidator(_sign)] = Field(
+    direction: Annotated[Literal["+", "-"], BeforeValidator(_take_sign)] = Field(
         description="Direction of approach: + or -, in quotes.", examples=["+"]
     )
     run: int = Field(ge=1, description="Number of its run, from 1.", examples=[3])

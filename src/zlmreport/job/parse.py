@@ -50,7 +50,10 @@ MOST_VALUES = 20_000
 _QUICK: Any = yaml.CSafeLoader if yaml.__with_libyaml__ else yaml.SafeLoader
 _LET_PASS = frozenset("\t?")
 
-_ADVICE = "'zlmreport init DIR' writes one to begin with"
+_ADVICE = (
+    "a file of keys says first what it is, as in 'schema: zlmreport/job/1' "
+    "('zlmreport init DIR' writes a job to begin with)"
+)
 
 
 def decode(content: bytes, file: str) -> str:
@@ -61,7 +64,7 @@ def decode(content: bytes, file: str) -> str:
     if len(content) > LARGEST:
         raise InputError.at(
             Place(file, 1, 1),
-            "is larger than 1 MiB; a job file holds keys, and names the files that hold readings",
+            "is larger than 1 MiB; a file of keys names the files that hold readings",
         )
     if content.startswith(_UTF16) or content[:2].count(0) == 1:
         raise InputError.at(Place(file, 1, 1), "is UTF-16; save it as UTF-8")
@@ -164,9 +167,9 @@ def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
 
 def _say_no_keys(root: Node | None) -> str:
     if root is None or (isinstance(root, Scalar) and root.is_nothing):
-        return f"is empty; a job file holds keys such as 'schema: zlmreport/job/1' ({_ADVICE})"
+        return f"is empty; {_ADVICE}"
     found = "a list" if isinstance(root, Items) else "a text"
-    return f"is {found}; a job file holds keys such as 'schema: zlmreport/job/1' ({_ADVICE})"
+    return f"is {found}; {_ADVICE}"
 
 
 class _Reader:

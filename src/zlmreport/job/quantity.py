@@ -7,6 +7,7 @@ from typing import Any
 
 from zlmreport.errors import InputError, Problem, did_you_mean, quoted
 from zlmreport.job.choices import EffectChoice
+from zlmreport.job.evaluation_keys import UNCERTAIN_LENGTHS
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, place_of
@@ -193,16 +194,6 @@ def find_quantity_contradictions(
         yield ("model", "sessions"), f"belongs to positioning, and this job is on {measurand.identifier}"
 
 
-#: Keys of an uncertainty that speak of a length, and what would say why not over time.
-_UNCERTAIN_LENGTHS = (
-    "misalignment",
-    "machine_temperature",
-    "device_temperature",
-    "expansion_coefficient",
-    "device_expansion_coefficient",
-)
-
-
 def _find_keys_of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the keys of an uncertainty that do not go with readings over time."""
     stated = keys.uncertainty
@@ -211,7 +202,7 @@ def _find_keys_of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str
             ("uncertainty", "environmental_variation"),
             "is what this job measures: the machine's environment over time; take it out",
         )
-    for name in _UNCERTAIN_LENGTHS:
+    for name in UNCERTAIN_LENGTHS:
         if getattr(stated, name) is not None:
             yield (
                 ("uncertainty", name),

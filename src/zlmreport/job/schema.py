@@ -55,7 +55,7 @@ def make_job_schema(registry: Installed) -> Schema:
         "description": definitions[StandardKeys.__name__]["description"],
         "anyOf": [
             {"enum": [name for standard in registry.standards for name in _list_names(standard)]},
-            *(_standard(standard, definitions) for standard in registry.standards),
+            *(_describe_standard(standard, definitions) for standard in registry.standards),
         ],
     }
     for key, value in _make_of_the_measurement(registry, definitions).items():
@@ -189,7 +189,7 @@ def _list_names(standard: InstalledStandard) -> tuple[str, ...]:
     return (standard.identifier, *list_adoptions_of(standard))
 
 
-def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
+def _describe_standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
     of_all = StandardKeys.model_json_schema()["properties"]
     limit = of_all["tolerances"]["additionalProperties"]

@@ -32,8 +32,6 @@ _WIDEST_ANGLE = 0.1
 #: A full test of so many readings is refused if hardly any of them are there.
 _LARGE_TEST = 1_000_000
 _HARDLY_ANY = 0.01
-#: Of the largest position: what two computations of it may differ by.
-_NOISE = 1e-9
 #: Problems of one file that are named one by one.
 MOST_NAMED = 20
 
@@ -124,7 +122,7 @@ def collect(
             return measurements
     elif not found:
         found.append(Problem(place, "holds no readings"))
-    raise InputError(_cap_problems(found))
+    raise InputError(cap_problems(found))
 
 
 def is_run(number: float) -> bool:
@@ -137,13 +135,21 @@ def say_no_run(number: float) -> str:
     return f"{number:.9g} is no number of a run; runs are counted 1, 2, 3 and so on"
 
 
+def _say_too_long(seconds: float) -> str:
+    return f"no test takes {seconds:.3g} s; is the unit of its time right?"
+
+
 def _find_wrong_alone(reading: Reading, axis: Axis) -> Iterator[Problem]:
     """Yield what is wrong with a reading whatever the others are."""
     if axis.measurand.coordinate is Coordinate.TIME:
         if not abs(reading.target_position) <= _LONGEST:
-            yield Problem(reading.place, "no test takes so long; is the unit of its time right?")
+            yield Problem(reading.place, _say_too_long(reading.target_position))
     elif not abs(reading.target_position) <= _FARTHEST:
-        yield Problem(reading.place, "the target position is not on any axis; is its unit right?")
+        unit = axis.position_unit
+        position = with_unit(f"{unit.from_si(reading.target_position):.9g}", unit.symbol)
+        yield Problem(
+            reading.place, f"the target position, {position}, is not on any axis; is its unit right?"
+        )
     if not is_run(reading.run):
         yield Problem(reading.place, say_no_run(reading.run))
     quantities = {"the deviation": reading.deviation, "the time": reading.time or 0.0, **reading.conditions}
@@ -206,7 +212,7 @@ def _find_targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
     return distinct[by_frequency[first]], cluster[spelling]
 
 
-def _cap_problems(problems: Sequence[Problem]) -> list[Problem]:
+def cap_problems(problems: Sequence[Problem]) -> list[Problem]:
     """Return the first problems in the order of the file, and how many more there are."""
     ordered = sorted(set(problems))
     named, more = ordered[:MOST_NAMED], ordered[MOST_NAMED:]
@@ -337,10 +343,17 @@ def _check_something_was_read(measurements: MeasurementSet, places: Sequence[Pla
         yield Problem(Place(places[0].file), "every reading is missing; there is nothing to evaluate")
 
 
-def _check_times_do_not_fall(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_times_are_those_of_a_test(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
+    """Refuse times that fall, and those that lie too far apart."""
     if measurements.time is None:
         return
     logged = np.flatnonzero(~np.isnan(measurements.time))
+    longest = int(logged[np.argmax(np.abs(measurements.time[logged]))])
+    if abs(measurements.time[longest]) > _LONGEST:
+        yield Problem(places[longest], _say_too_long(float(measurements.time[longest])))
+        return
     for later in np.flatnonzero(np.diff(measurements.time[logged]) < 0) + 1:
         yield Problem(
             places[logged[later]],
@@ -372,7 +385,7 @@ _CHECKS: tuple[Check, ...] = (
     _check_no_target_is_off_the_list,
     _check_deviations_are_credible,
     _check_something_was_read,
-    _check_times_do_not_fall,
+    _check_times_are_those_of_a_test,
     _check_conditions_are_credible,
 )
 

@@ -11,7 +11,7 @@ from typing import ClassVar, Protocol, TypeVar
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.language.formatting import DecimalSign
-from zlmreport.measurement.collect import is_run, say_no_run
+from zlmreport.measurement.collect import cap_problems, is_run, say_no_run
 from zlmreport.measurement.table import THOUSANDS, UNITS, TextRow, TextTable
 from zlmreport.measurement.text_file import parse_number
 from zlmreport.measurement.units import DEGREE, Scale, Unit, find_unit_named
@@ -131,22 +131,29 @@ class Cells:
     #: What was found wrong so far. A method that returns None has noted why.
     problems: list[Problem] = field(default_factory=list)
 
-    def number(self, row: TextRow, column: TextColumn) -> float | None:
-        """Return a number, in SI if the column has a unit; NaN for an empty cell."""
+    def number(self, row: TextRow, column: TextColumn, advice: str = "") -> float | None:
+        """Return a number, in SI if the column has a unit; NaN for an empty cell.
+
+        `advice`: What to say behind a complaint, with what parts the two.
+        """
         text = row.cells[column.index]
-        if not text or (self.missing and text.casefold() in self.missing):
+        if self.is_missing(text):
             return math.nan
         try:
             value = parse_number(text, self._sign_of(text))
         except ValueError as error:
-            return self._read_otherwise(row, column, str(error))
+            return self._read_otherwise(row, column, str(error), advice)
         return column.unit.to_si(value) if column.unit else value
+
+    def is_missing(self, text: str) -> bool:
+        """Whether a cell holds nothing, or what the job says stands for nothing."""
+        return not text or (bool(self.missing) and text.casefold() in self.missing)
 
     def _sign_of(self, text: str) -> DecimalSign:
         """Return the decimal sign of a number: in a workbook, what is stored as a number has a point."""
         return DecimalSign.POINT if self.table.source.of_cells and "," not in text else self.sign
 
-    def _read_otherwise(self, row: TextRow, column: TextColumn, complaint: str) -> float | None:
+    def _read_otherwise(self, row: TextRow, column: TextColumn, complaint: str, advice: str) -> float | None:
         """Return a number with its unit, with thousands, or in degrees, minutes and seconds."""
         text = row.cells[column.index]
         if DEGREE.symbol in column.units and (angle := self._read_sexagesimal(text)) is not None:
@@ -162,7 +169,7 @@ class Cells:
             if groups and is_sure and not self.thousands:
                 named = next(name for name, signs in THOUSANDS.items() if groups[3] in signs)
                 complaint = f"{quoted(text)} has thousands separators; say 'thousands: {named}' in the job"
-            self.note(row, column, complaint)
+            self.note(row, column, f"{complaint}{advice}")
             return None
         unit = unit or column.unit
         return unit.to_si(value) if unit else value
@@ -202,7 +209,7 @@ class Cells:
             return None
 
     def _is_left_out(self, row: TextRow, column: TextColumn) -> bool:
-        if row.cells[column.index]:
+        if not self.is_missing(row.cells[column.index]):
             return False
         self.note(row, column, f"there is no {column.name}; only a reading may be missing")
         return True
@@ -290,7 +297,7 @@ def read_headings(
         )
     problems = [*_find_unnamed(table, found), *_find_not_there(table, found, options)]
     if problems:
-        raise InputError(problems)
+        raise InputError(cap_problems(problems))
     return tuple(
         heading
         for heading in found

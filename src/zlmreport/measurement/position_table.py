@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,10 +11,9 @@ import numpy as np
 from zlmreport.errors import InputError, Problem, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.axis import PositionTable
+from zlmreport.measurement.columns import read_heading
 from zlmreport.measurement.text_file import TextCell, TextFile, parse_number, read_text
 from zlmreport.measurement.units import Unit, find_unit_named
-
-_BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +43,7 @@ def read_position_table(
     names = {_name_cell(cell) for cell in header}
     if directions and names & set(directions) and value.name not in names:
         columns = (position, *(replace(value, name=name) for name in directions))
-    order = _order(text, header, columns)
+    order = _find_order(text, header, columns)
     units = [_read_unit(column, header[index]) for column, index in zip(columns, order, strict=True)]
     problems: list[Problem] = []
     sign = _find_decimal_sign(rows)
@@ -63,7 +61,7 @@ def read_position_table(
     return PositionTable(positions, values, text.source, *reverse)
 
 
-def _order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableColumn]) -> list[int]:
+def _find_order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableColumn]) -> list[int]:
     """Return the index of each column; the header has these and no others."""
     names = [_name_cell(cell) for cell in header]
     wanted = [column.name for column in columns]
@@ -78,16 +76,11 @@ def _order(text: TextFile, header: Sequence[TextCell], columns: Sequence[TableCo
 
 
 def _name_cell(cell: TextCell) -> str:
-    return _split(cell.text)[0].casefold()
-
-
-def _split(heading: str) -> tuple[str, str | None]:
-    match = _BRACKETED.fullmatch(heading)
-    return (match[1], match[2]) if match else (heading, None)
+    return read_heading(cell.text).name.casefold()
 
 
 def _read_unit(column: TableColumn, cell: TextCell) -> Unit:
-    spelling = _split(cell.text)[1]
+    spelling = read_heading(cell.text).bracket
     try:
         return find_unit_named(spelling, column.units) if spelling else column.unit
     except ValueError as error:

@@ -124,11 +124,7 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
     delimiter = delimiter or _find_delimiter(content, options, names_column)
     number, line = content[0]
     if delimiter is None:
-        raise InputError.at(
-            text.place(number, 1),
-            f"the header {quoted(line.strip())} has a single column; columns are parted by commas, "
-            "semicolons or tabs, or by blanks if the job says 'delimiter: blanks'",
-        )
+        raise InputError.at(text.place(number, 1), _say_single_column(line.strip(), options))
     problems: list[Problem] = []
     rows = list(_list_rows(content, delimiter, text, problems))
     if options.transposed:
@@ -154,6 +150,19 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
     if is_plain:
         _refuse_lying(table, names_column)
     return table
+
+
+def _say_single_column(line: str, options: FileTableLayout) -> str:
+    """Return what is wrong with a first row that no delimiter parts as it should."""
+    if options.header:
+        return (
+            f"'header' names {len(options.header)} columns, and no delimiter parts {quoted(line)} into so "
+            "many cells; name every column, or say what parts them, as in 'delimiter: blanks'"
+        )
+    return (
+        f"the header {quoted(line)} has a single column; columns are parted by commas, semicolons or tabs, "
+        "or by blanks if the job says 'delimiter: blanks'"
+    )
 
 
 def _split_content(text: TextFile, options: FileTableLayout) -> tuple[list[tuple[int, str]], str | None]:

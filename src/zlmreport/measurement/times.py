@@ -31,6 +31,8 @@ _AMERICAN = re.compile(
 #: An hour of one digit behind a day of ISO 8601, and how it is written with two.
 _ONE_DIGIT, _PADDED = re.compile(r"^((?:[0-9]{4}-[0-9]{2}-[0-9]{2})?[ T])([0-9])(?=:)"), r"\g<1>0\2"
 _NOON = 12
+#: What is said of a time that is no number where the first time is none that is read otherwise.
+_ADVICE = "; a time is a number of seconds, or written as 2026-11-18 08:15:00 (ISO 8601)"
 _GERMAN_DAY = re.compile(r"([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4}|[0-9]{2})(?:,?\s+(.+?)(?:\s*Uhr)?)?")
 
 
@@ -39,16 +41,16 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
     if column is None:
         return lambda _row: math.nan
     index = column.index
-    first = next((row.cells[index] for row in cells.table.rows if row.cells[index]), "")
+    first = next((text for row in cells.table.rows if not cells.is_missing(text := row.cells[index])), "")
     beginning = read_moment(first)
     if beginning is None or _is_number(first, cells):
-        return lambda row: cells.number(row, column)
+        return lambda row: cells.number(row, column, _ADVICE)
     days, before = 0.0, 0.0
 
     def seconds(row: TextRow) -> float | None:
         nonlocal days, before
         text = row.cells[index]
-        if not text:
+        if cells.is_missing(text):
             return math.nan
         found = read_moment(text)
         if found is None or _find_kind(found) != _find_kind(beginning):
@@ -68,7 +70,7 @@ def find_days(cells: Cells, column: TextColumn | None) -> ReadingDays | None:
     """Return the days of the first and the last time of a column; None for times without a date."""
     if column is None:
         return None
-    texts = [row.cells[column.index] for row in cells.table.rows if row.cells[column.index]]
+    texts = [text for row in cells.table.rows if not cells.is_missing(text := row.cells[column.index])]
     found = [read_moment(text) for text in texts[:1] + texts[-1:] if not _is_number(text, cells)]
     moments = [each for each in found if each is not None and each.year != _NO_DATE]
     if not moments:

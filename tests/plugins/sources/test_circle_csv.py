@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 
 from plugins.sources.reading import MM, UM, File, said
+from zlmreport.errors import InputError
+from zlmreport.looking import look_at
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurand import CIRCLE
+from zlmreport.plugin.registry.find import find_plugins
 from zlmreport_plugins.sources.circle_csv import CircleCsv
 
 #: Radius 150 mm, feed 1000 mm/min.
@@ -270,3 +273,27 @@ def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
     path = tmp_path / "rotary.csv"
     path.write_text("angle,deviation\n" + "".join(f"{10 * n},{n}\n" for n in range(36)), encoding="utf-8")
     assert not list(CircleCsv().proposals(path))
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        "angle,radial error\n",
+        "angle,radial error\n0,1\n",
+        "sense,run,angle,radius\nccw,1,0,\nccw,1,90,\n",
+    ],
+)
+def test_a_table_that_tells_nothing_of_a_circle_is_looked_at_without_a_warning(
+    tmp_path: Path, rows: str
+) -> None:
+    path = tmp_path / "empty.csv"
+    path.write_text(rows, encoding="utf-8")
+    assert all(each.circle for each in CircleCsv().proposals(path))
+
+
+def test_deviations_in_a_column_of_radii_are_told_from_radii(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    turn = [f"ccw,1,{angle},{0.01 + angle / 1e6:.6f}" for angle in range(0, 360, 10)]
+    path.write_text("\n".join(["sense,run,angle,radius", *turn]) + "\n", encoding="utf-8")
+    with pytest.raises(InputError, match="are they deviations, or is a unit wrong"):
+        look_at(path, find_plugins({}))

@@ -6,6 +6,7 @@ import itertools
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 from pydantic import ValidationError
 
@@ -90,6 +91,50 @@ def test_a_header_of_one_column_is_asked_for_its_delimiter(file: File) -> None:
         "x.csv:1:1: the header 'target direction run deviation' has a single column; columns are parted by "
         "commas, semicolons or tabs, or by blanks if the job says 'delimiter: blanks'"
     )
+
+
+def test_names_that_the_job_gives_are_as_many_as_the_cells(file: File) -> None:
+    assert file.complaint("0,+,1,1\n", header=("target", "deviation")) == (
+        "x.csv:1:1: 'header' names 2 columns, and no delimiter parts '0,+,1,1' into so many cells; name "
+        "every column, or say what parts them, as in 'delimiter: blanks'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("row", "complaint"),
+    [
+        ("---,+,1,1", "x.csv:3:1: there is no target; only a reading may be missing"),
+        ("10,---,1,1", "x.csv:3:4: there is no direction; only a reading may be missing"),
+        ("10,+,---,1", "x.csv:3:6: there is no run; only a reading may be missing"),
+    ],
+)
+def test_what_stands_for_a_missing_reading_is_no_target_direction_or_run(
+    file: File, row: str, complaint: str
+) -> None:
+    table = f"target,direction,run,deviation\n0,+,1,1\n{row}\n"
+    assert file.complaint(table, missing=("---",)) == complaint
+
+
+def test_a_time_may_be_missing_by_the_same_word(file: File) -> None:
+    table = "target,direction,run,deviation,time\n0,+,1,1,---\n10,+,1,1,8:15\n20,+,1,1,8:16\n"
+    time = file.read(table, missing=("---",)).time
+    assert time is not None
+    np.testing.assert_array_equal(time, [np.nan, 0.0, 60.0])
+
+
+def test_a_time_of_another_spelling_is_told_how_times_are_written(file: File) -> None:
+    table = "target,direction,run,deviation,time\n0,+,1,1,11/18/2026 8:00\n"
+    assert file.complaint(table) == (
+        "x.csv:2:9: '11/18/2026 8:00' stands where a number belongs; a time is a number of seconds, or "
+        "written as 2026-11-18 08:15:00 (ISO 8601)"
+    )
+
+
+def test_of_many_wrong_headings_the_first_are_named(file: File) -> None:
+    header = ",".join(["target", *["again"] * 30])
+    said = file.complaints(f"{header}\n0{',1' * 30}\n")
+    assert len(said) == 21
+    assert said[-1].endswith("and 9 more")
 
 
 def test_a_number_that_may_have_a_decimal_comma_or_a_thousands_separator_is_a_question(file: File) -> None:

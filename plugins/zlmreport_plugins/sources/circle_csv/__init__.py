@@ -37,7 +37,7 @@ from zlmreport.plugin.source import (
     SourceProposal,
     collect_readings,
 )
-from zlmreport.plugin.table import Cells, days_of_readings, folded, read_headings
+from zlmreport.plugin.table import Cells, TextColumn, days_of_readings, folded, read_headings
 from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
 from zlmreport_plugins.sources.circle_csv.options import CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
@@ -112,8 +112,7 @@ class CircleCsv:
             if layout.sense is None and not keys:
                 continue
             if layout.value.name == "radius":
-                radii = [each for row in cells.table.rows if (each := cells.number(row, layout.value))]
-                circle = replace(circle, radius=round(float(np.nanmedian(radii)), 3))
+                circle = replace(circle, radius=_guess_radius(cells, layout.value))
             return [SourceProposal(keys, asks=(_say_asked(layout),), circle=circle)]
         return []
 
@@ -130,7 +129,7 @@ class CircleCsv:
         table = cells.table
         rows = list(read_circle_rows(cells, layout, options))
         problems = [*table.problems, *cells.problems]
-        if not problems:
+        if rows and not problems:
             problems = list(find_misread(rows, layout, table, circle, options))
         if problems or not rows:
             raise InputError(_take_first(problems) or [Problem(table.source.place(), "holds no readings")])
@@ -177,8 +176,18 @@ def _find_keys_of_one_turn(file: Path) -> dict[str, Any]:
     if layout.angle is None:
         return {}
     angles = np.array([cells.number(row, layout.angle) or 0.0 for row in cells.table.rows])
+    if len(angles) < 2:
+        return {}
     way = "ccw" if float(np.median(np.diff(angles))) > 0 else "cw"
     return {"sense": way, "columns": {"deviation": radial[0]}}
+
+
+def _guess_radius(cells: Cells, column: TextColumn) -> float:
+    """Return the nominal radius that radii tell, in whole mm, m; the usual one where they tell none."""
+    numbers = (cells.number(row, column) for row in cells.table.rows)
+    radii = [each for each in numbers if each is not None and math.isfinite(each)]
+    found = round(float(np.median(radii)), 3) if radii else 0.0
+    return found if found > 0 else _USUAL_RADIUS
 
 
 def _is_radial(text: str) -> bool:

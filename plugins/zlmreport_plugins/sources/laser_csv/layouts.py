@@ -237,15 +237,9 @@ def _find_missing(
 
 def _keep_condition(cells: Cells, row: TextRow, condition: TextColumn) -> float:
     """Return a condition; NaN if it is none, which is noted then."""
-    noted = len(cells.problems)
-    value = cells.number(row, condition)
-    if value is not None:
-        return value
-    if condition.name not in CONDITIONS:
-        problem = cells.problems[noted]
-        advice = f"a column that holds no numbers is named in the job under 'ignore': {condition.text}"
-        cells.problems[noted] = Problem(problem.place, f"{problem.message}; {advice}")
-    return math.nan
+    advice = f"; a column that holds no numbers is named in the job under 'ignore': {condition.text}"
+    value = cells.number(row, condition, "" if condition.name in CONDITIONS else advice)
+    return math.nan if value is None else value
 
 
 _RULE = (

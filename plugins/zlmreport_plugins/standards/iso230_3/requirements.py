@@ -47,7 +47,7 @@ def check_requirements(
     yield _check_directions(tests)
     yield from _check_tilts(tests, distances)
     yield _check_temperatures(tests)
-    yield _complete(tests)
+    yield _check_completeness(tests)
     yield from _check_averaged(tests)
     yield from _check_one_clock(tests)
 
@@ -167,7 +167,7 @@ def _say_span(name: str, span: float) -> Words:
     return _SPAN.given(name=condition, span=float(f"{span:.2g}"))
 
 
-def _complete(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_completeness(tests: Mapping[str, MeasurementSet]) -> Finding:
     missing = {name: int(np.count_nonzero(~np.isfinite(each.deviation))) for name, each in tests.items()}
     total = sum(len(each.deviation) for each in tests.values())
     lacking = {name: count for name, count in missing.items() if count}

@@ -33,7 +33,6 @@ from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, compute_abo
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6
-#: Decimals that readings may show, µm or ″.
 _KEY = "measurement.excluded"
 
 

@@ -115,7 +115,6 @@ def propagate(
     taken out of the readings first, errors are drawn about what is left, and U has in it whole what the
     parameter changes by (JCGM 100, F.2.4.5).
     """
-    measurements = evaluations[0][0].measurements
     evaluations, known = _remove_known_errors(budget, evaluations)
     measurements = evaluations[0][0].measurements
     if not any(np.isfinite(each.deviation).any() for each in measurements.lines):

@@ -15,6 +15,7 @@ from zlmreport.evaluation.correction.compensated import find_compensated_by_inst
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.uncertainty.budget import Acts
 from zlmreport.evaluation.uncertainty.round_the_circle import OF_A_RADIUS
+from zlmreport.job.evaluation_keys import UNCERTAIN_LENGTHS
 from zlmreport.job.job import Job
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurand import Coordinate
@@ -28,13 +29,6 @@ _AT_REFERENCE = 0.05
 INSTRUMENT = "instrument"
 _RESOLUTION = "resolution"
 _OF_EVERY_AXIS = ("environmental_variation", _RESOLUTION)
-_OF_LENGTHS = (
-    "misalignment",
-    "machine_temperature",
-    "device_temperature",
-    "expansion_coefficient",
-    "device_expansion_coefficient",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +166,7 @@ def has_radius(job: Job) -> bool:
 
 def name_contributors_of_length(job: Job) -> tuple[str, ...]:
     """Return the contributors of the length that was measured; none where it was none."""
-    return _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
+    return UNCERTAIN_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
 
 
 def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
