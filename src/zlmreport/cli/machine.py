@@ -118,8 +118,8 @@ def _write_certificate(
         for name, each in zip(name_files(certificate.number, renderers), renderers, strict=True)
     ]
     write(documents)
-    shown = [show_path(each.path) for each in documents]
-    return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": shown}
+    shown, files = zip(*((show_path(each.path), str(each.path)) for each in documents), strict=True)
+    return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": files}
 
 
 def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
