@@ -26,6 +26,7 @@ from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.study import Fitted, correct_by_model
 from zlmreport.model.effects.design import Design
@@ -181,20 +182,28 @@ class Panels:
         return write_deviation(value, self.design.axis, self.language)
 
     def _make_row(self, parameter: EvaluatedParameter, forecast: Any) -> dict[str, Any]:
-        writer, quantity = self.writer, parameter.quantity
-        value, uncertainty = write_with_uncertainty(parameter, writer)
+        quantity, decision = parameter.quantity, parameter.decision
+        writer = self.writer.of_quantity(quantity)
+        value, uncertainty = write_with_uncertainty(parameter, self.writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)
-        decision = parameter.decision
+
+        def written(number: str) -> str:
+            """Return a number with its unit, where that is another than the panel says."""
+            is_usual = writer.deviation_unit == self.writer.deviation_unit
+            return (
+                number if is_usual or number == NOTHING else with_unit(number, writer.deviation_unit.symbol)
+            )
+
         return {
             "symbol": split_symbol(quantity.notation),
             "name": self.say(quantity.name),
-            "value": value,
-            "uncertainty": "" if uncertainty == NOTHING else uncertainty,
-            "limit": NOTHING if parameter.limit is None else writer.deviation(parameter.limit),
+            "value": written(value),
+            "uncertainty": "" if uncertainty == NOTHING else written(uncertainty),
+            "limit": NOTHING if parameter.limit is None else written(writer.deviation(parameter.limit)),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
-            "by_table": writer.deviation(by_table),
-            "by_model": writer.deviation(by_model),
+            "by_table": written(writer.deviation(by_table)),
+            "by_model": written(writer.deviation(by_model)),
         }
 
 
