@@ -138,7 +138,7 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
 def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Write tables across axes with their forecast, or hold circles that were run with them against it."""
     sections, files, values = compensate(machine, registry, options)
-    further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
+    further = [f"written: {', '.join(map(show_path, files))}"] if files else ["--output DIR writes it"]
     if not options.trial:
         further.append("next: load it, run the circles again, then the same with --confirm CIRCLE.yaml")
     return _lay_out(machine, sections, *([] if options.confirm else ["", *further])), values
