@@ -12,6 +12,7 @@ from zlmreport import pipeline
 from zlmreport.document.blocks import Facts
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
+from zlmreport.document.certificate.values import limit
 from zlmreport.document.subjects.fit import (
     FLOOR,
     LEFT_OUT,
@@ -199,7 +200,7 @@ class Panels:
             "name": self.say(quantity.name),
             "value": written(value),
             "uncertainty": "" if uncertainty == NOTHING else written(uncertainty),
-            "limit": NOTHING if parameter.limit is None else written(writer.deviation(parameter.limit)),
+            "limit": written(limit(parameter, self.writer)),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
             "by_table": written(writer.deviation(by_table)),
