@@ -315,7 +315,7 @@ def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Hap
     for job, standing in latest.values():
         subject = standing.subject
         due = compute_due_date(subject.measured, subject.interval or known.fleet.keys.interval)
-        if due and due <= now[:10] and subject.name_term(due) not in told:
+        if due and due < now[:10] and subject.name_term(due) not in told:
             why = (
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
             )

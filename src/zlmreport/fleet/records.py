@@ -13,6 +13,7 @@ from typing import Any, Self
 
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.report import report_parameter
+from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import MachineUnderTest
@@ -212,7 +213,7 @@ class Subject:
     #: machine and axis: The machine's designation with its serial number, and the axis's name.
     machine: str = ""
     axis: str = ""
-    measured: str = ""  #: Date of the measurement, ISO 8601.
+    measured: str = ""  #: Last day of the measurement, ISO 8601.
     #: Days after which the job itself says that the axis is to be measured again.
     interval: int | None = None
     instrument: str = ""  #: With which it was measured.
@@ -236,7 +237,7 @@ class Subject:
     def of(cls, job: Job) -> Self:
         """Return what a job is about."""
         keys = job.keys
-        day = keys.measurement.date
+        day = find_last_day(keys.measurement)
         measured = day.isoformat() if day else ""
         machine, used = write_designation(keys.machine), keys.instrument
         # Not by its certificate: a new one makes no new instrument of it.
