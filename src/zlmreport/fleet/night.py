@@ -153,8 +153,8 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 names = [known.name_job(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
                 state = describe_state(fleet.name, ledger.list_entries(), names, now, rules)
-                names = _find_names(plugins) if state.trends else Names(())
-                night.report(tuple(find_news_of(state, language, names)))
+                printed = _find_names(plugins) if state.trends else Names(())
+                night.report(tuple(find_news_of(state, language, printed)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
             night.end(read_clock())
