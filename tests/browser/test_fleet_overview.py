@@ -12,7 +12,7 @@ from playwright.sync_api import Page
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import make_overview
-from zlmreport.fleet.overview_cells import Names
+from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import describe_state
 from zlmreport.language import Language

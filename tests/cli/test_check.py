@@ -9,7 +9,12 @@ import pytest
 
 from cli.commands import Shop
 from zlmreport.cli import main
+from zlmreport.cli.jobs import tell_requirements
+from zlmreport.document.writer import Writer
+from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job import days
+from zlmreport.language import Language, Words
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 
 
 def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:
@@ -33,10 +38,39 @@ def test_nothing_is_called_sound_above_a_doubt_or_an_incomplete_uncertainty(shop
     checked = shop.run("check", "job.yaml").output.splitlines()
     made = shop.run("job.yaml").output.splitlines()
     assert checked[0] == "job.yaml  can be evaluated, with reservations"
-    (incomplete, unlikely) = checked[1:3]
-    assert incomplete.startswith("  open     U incomplete: Misalignment of the measuring line; Temperature")
-    assert unlikely.endswith("68.2 °F would be 20.1 °C")
-    assert {incomplete, unlikely} <= set(made)
+    notices = checked[1 : checked.index("  EX 1")]
+    assert notices[0].startswith("  open     U incomplete: Misalignment of the measuring line; Temperature")
+    assert " ".join(" ".join(notices).split()).endswith("68.2 °F would be 20.1 °C")
+    assert set(notices) <= set(made)
+
+
+def test_a_requirement_stays_in_a_line_where_there_is_room_and_else_says_below_what_was_found(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    temperatures = Words("Temperatures reported, and where they were measured")
+    expansion = Words("Results for 20 °C: measured there, corrected to it, or within 1 K of it, with U")
+    found = [
+        Finding(Words("At least 5 runs"), Words("5 runs"), met=True),
+        Finding(temperatures, Words("not stated: temperature of the air"), met=None),
+        Finding(expansion, Words("the temperature or the coefficient is not known"), met=False),
+    ]
+    writer = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 1)
+    monkeypatch.setenv("COLUMNS", "80")
+    assert list(tell_requirements("EX 1", found, writer)) == [
+        "  EX 1",
+        "    met      At least 5 runs: 5 runs",
+        "    open     Temperatures reported, and where they were measured:",
+        "             not stated: temperature of the air",
+        "    not met  Results for 20 °C: measured there, corrected to it, or within 1 K",
+        "               of it, with U:",
+        "             the temperature or the coefficient is not known",
+    ]
+    monkeypatch.delenv("COLUMNS")  # as in a pipe
+    _, *lines = tell_requirements("EX 1", found[:2], writer)
+    assert lines == [
+        "    met   At least 5 runs: 5 runs",
+        f"    open  {temperatures.en}: not stated: temperature of the air",
+    ]
 
 
 def test_nothing_is_written(shop: Shop) -> None:

@@ -69,6 +69,22 @@ def test_without_a_word_it_says_what_one_can_do_and_every_line_of_it_is_a_comman
         ),
         (["init"], "zlmreport init: the following arguments are required: DIR"),
         (["init", "a", "b"], "zlmreport init: 'b' is one argument too many"),
+        (["init", "a", "--from", "b.csv", "--machine", "c.csv"], "zlmreport init: --from writes a job"),
+        (["init", "a", "--sheet", "Readings"], "zlmreport init: --sheet names a sheet"),
+        (
+            ["machine", "predict", "m.yaml", "--format", "pdf"],
+            "zlmreport machine: --format belongs to certificate, not to predict",
+        ),
+        (
+            ["machine", "check", "m.yaml", "-o", "out"],
+            "zlmreport machine: --output belongs to certificate and compensate, not to check",
+        ),
+        (["machine", "plan", "m.yaml", "--step", "0"], "zlmreport machine: --step belongs to compensate"),
+        (
+            ["machine", "compensate", "m.yaml", "--trial", "--confirm", "c.yaml"],
+            "zlmreport machine: --trial writes one value",
+        ),
+        (["plan", "job.yaml", "--decide", "bow", "--run", "2"], "zlmreport plan: --run writes programs"),
     ],
 )
 def test_wrong_command_line_is_answered_with_what_would_be_right(

@@ -19,6 +19,8 @@ argcomplete = pytest.importorskip("argcomplete")
         ("zlmreport fleet re", {"rebuild", "report"}),
         ("zlmreport model a", {"add"}),
         ("zlmreport model add x-axis.yaml backlash-g", {"backlash-gradient"}),
+        ("zlmreport machine p", {"plan", "predict"}),
+        ("zlmreport machine add x-axis.yaml servo-m", {"servo-mismatch"}),
         ("zlmreport new st", {"standard"}),
         ("zlmreport x-axis.yaml --format pdf,ht", {"pdf,html"}),
     ],

@@ -172,7 +172,7 @@ def test_a_fit_tells_its_parameters(shop: Shop) -> None:
 @pytest.mark.usefixtures("diagnosed")
 def test_the_main_job_says_that_its_model_lacks_something(shop: Shop) -> None:
     run = shop.run("job.yaml", "--output", "out", "--format", "json")
-    assert "model  Missing effect: screw-pitch, which explains the rest.\n" in run.output
+    assert "model    Missing effect: screw-pitch, which explains the rest.\n" in run.output
     assert "see: zlmreport model diagnose job.yaml\n" in run.output
 
 
@@ -188,7 +188,7 @@ def test_the_main_job_shows_the_share_that_is_done(shop: Shop, monkeypatch: pyte
 def test_a_check_says_that_an_adequate_model_is_one(shop: Shop) -> None:
     change(shop, (LAST, f"{LAST}    - screw-pitch\n"))
     run = shop.run("check", "job.yaml")
-    assert "model  The model describes the readings" in run.output
+    assert "model    The model describes the readings" in run.output
     assert "see: zlmreport model" not in run.output
 
 

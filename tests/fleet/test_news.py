@@ -24,12 +24,14 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import find_news_of, write_digest
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.plan import PlannedJob
+from zlmreport.fleet.printing import Names, write_change
 from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language, same
+from zlmreport.language.formatting import DecimalSign
 from zlmreport.plugin import AccessError, Options, Place, Words, hookimpl
 from zlmreport.plugin.notifier import Message, Occasion
-from zlmreport.plugin.registry import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect, find_plugins
 
 NOTIFY = "notify: [{plugin: post, to: Ada}]\n"
 
@@ -158,7 +160,9 @@ def test_a_new_way_is_told_what_is_still_so_and_no_history(fleet: Fleet, post: P
 
 def test_a_message_that_begins_with_its_job_names_it_once() -> None:
     failed = entry(dt.date(2026, 8, 1), job="z.yaml", state=State.FAILED, message="z.yaml: was stopped")
-    (told,) = find_news_of(describe_state("Hall North", [failed], ["z.yaml"], None), Language.ENGLISH)
+    (told,) = find_news_of(
+        describe_state("Hall North", [failed], ["z.yaml"], None), Language.ENGLISH, Names(())
+    )
     assert told.text == "z.yaml: was stopped"
 
 
@@ -168,7 +172,7 @@ def test_a_folder_that_is_gone_is_told_though_nothing_is_done(fleet: Fleet, post
     for _ in range(2):
         with pytest.raises(MissingError):
             fleet.spend()
-    assert [title for title, _ in post.letters] == ["Hall North: 1 the whole night"]
+    assert [title for title, _ in post.letters] == ["Hall North: 1 notice"]
 
 
 def test_a_wrong_way_is_refused_before_the_night(fleet: Fleet) -> None:
@@ -215,6 +219,8 @@ def test_a_way_that_hangs_does_not_stop_the_night(
     assert notice.english == "the news was not sent by post Ada: it was not taken within 0.05 s"
 
 
+#: The symbols and signs of the standards that are installed.
+NAMES = Names(find_plugins().standards)
 #: A parameter that rises from year to year.
 RISING = (5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1)
 
@@ -226,13 +232,13 @@ def _write_morning(language: Language, hall: str, clock: str, further: Sequence[
     last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (NightNotice(About.CLOCK, same(clock)),))
     state = describe_state(hall, entries, [], last, Rules(365))
     keys = SimpleNamespace(name=hall, keys=SimpleNamespace(language=language))
-    return write_digest(keys, tuple(find_news_of(state, language)))  # type: ignore[arg-type]
+    return write_digest(keys, tuple(find_news_of(state, language, NAMES)))  # type: ignore[arg-type]
 
 
 def test_news_is_in_the_language_of_the_fleet() -> None:
     message = _write_morning(Language.GERMAN, "Halle Nord", "die Uhr steht auf …")
     assert message.title == (
-        "Halle Nord: 1 zum ganzen Lauf, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"
+        "Halle Nord: 1 Hinweis, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"
     )
     machine = "Example Works MT 500, serial 1"
     for line in (
@@ -243,6 +249,39 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
         f"- {machine}, Z: gemessen am 2026-08-01, war bis 2027-08-01 erneut zu messen",
     ):
         assert line in message.text
+
+
+def _tell(*entries: LedgerEntry) -> Message:
+    state = describe_state("Hall North", entries, ["q.yaml", "r.yaml"], None)
+    keys = SimpleNamespace(name="Hall North", keys=SimpleNamespace(language=Language.ENGLISH))
+    return write_digest(keys, tuple(find_news_of(state, Language.ENGLISH, NAMES)))  # type: ignore[arg-type]
+
+
+def test_a_value_that_exceeds_its_limit_is_told_to_the_digits_that_show_it() -> None:
+    stated = parameter(20.04, symbol="A_fwd", expanded_uncertainty=0.02, conforms=False)
+    told = _tell(entry(dt.date(2026, 8, 1), stated))
+    assert "X: A↑ = 20.040 µm, limit 20 µm" in told.text
+
+
+def test_a_change_has_the_sign_that_the_standard_prints_and_is_never_zero() -> None:
+    of_1988 = [
+        replace(
+            each,
+            axis="Y",
+            parameters=(replace(each.parameters[0], standard="iso230-2:1988", symbol="B_mean", limit=None),),
+        )
+        for each in history([0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 7.01])
+    ]
+    assert "Y: B̄ − 7.0 µm since 2026-07-15" in _tell(*of_1988).text
+    assert write_change(0.034, "um", DecimalSign.POINT) == "+ 0.03 µm"
+
+
+def test_a_title_counts_in_words_of_their_number() -> None:
+    drafts = [
+        entry(dt.date(2026, 8, 1), job=f"{name}.yaml", number=name, state=State.DRAFT, message="differs")
+        for name in "qr"
+    ]
+    assert _tell(*drafts).title == "Hall North: 2 drafts"
 
 
 def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:

@@ -17,7 +17,7 @@ import pytest
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import make_overview
-from zlmreport.fleet.overview_cells import Names
+from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import describe_state
 from zlmreport.language import Language, same

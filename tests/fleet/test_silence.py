@@ -296,6 +296,24 @@ def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> Non
     assert [(term.due.isoformat(), term.is_over) for term in state.terms] == [("2027-11-18", True)]
 
 
+def test_an_axis_is_overdue_once_its_day_is_over(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
+    on_that_day = night_of("2027-11-18")
+    state = describe_state("Hall North", fleet.entries(), ["jobs/x.yaml"], on_that_day, Rules(365))
+    assert (state.overdue, [term.due.isoformat() for term in state.soon]) == ((), ["2027-11-18"])
+    fleet.write("fleet.yaml", f"{FLEET}interval: 365\n")
+    told = []
+    for day in ("2027-11-18", "2027-11-19"):
+        on_a_day(day, monkeypatch)
+        told.append(sum(each.what is What.OVERDUE for each in fleet.spend().seen))
+    assert told == [0, 1]
+
+
+def test_an_axis_that_was_measured_for_days_is_due_from_the_last_of_them(fleet: Fleet) -> None:
+    fleet.job("u", ("date: 2026-11-18", "date: 2026-11-18\n  end: 2026-11-20"))
+    fleet.spend()
+    assert {each.number: each.measured for each in fleet.entries()}["CAL-U"] == "2026-11-20"
+
+
 def night_of(day: str) -> PastNight:
     return PastNight(dt.datetime.fromisoformat(f"{day}T02:00:00+00:00"), None)
 

@@ -127,6 +127,7 @@ def test_a_parameter_that_the_test_does_not_define_is_answered_with_those_it_doe
         ({"standard": "iso230-2:2O14"}, "did you mean 'iso230-2:2014'"),
         ({"standard": "nmtba", "tolerances": {"Q": 1}}, "'Q' is no parameter of nmtba"),
         ({"standard": "nmtba", "tolerances": {"P": -1}}, "is not a number greater than 0"),
+        ({"standard": "nmtba", "tolerances": {"P": "wide"}}, "tolerances.P: 'wide' is not a number"),
         ({"standard": "nmtba", "decision_rule": "hope"}, "'hope' is unknown"),
         ({"standard": "nmtba", "toleranzen": 1}, "unknown key 'toleranzen'"),
     ],
@@ -208,6 +209,12 @@ def test_conditions_of_a_frame_are_kept_in_their_units() -> None:
     [
         ({"target": [0]}, "no column direction, deviation or position"),
         ({"target": [0], "direction": ["x"], "deviation": [0]}, "columns:1:1: 'x' is no direction"),
+        ({"target": ["a"], "direction": ["+"], "deviation": [0]}, "columns: target is no array of numbers"),
+        ({"target": [0], "direction": ["+"], "deviation": [0], "oil": ["warm"]}, "oil is no array of numb"),
+        (
+            {"target": [0, 1], "direction": ["+"], "deviation": [0, 1], "run": [1, 1, 1]},
+            "columns: target has 2 rows, and not as many: direction 1, run 3",
+        ),
     ],
 )
 def test_a_frame_that_lacks_something_is_refused(columns: dict[str, list[object]], message: str) -> None:
@@ -292,6 +299,15 @@ def test_a_plan_of_keys_is_that_of_a_job(tmp_path: Path) -> None:
     assert of_keys.targets.tolist() == of_keys.to_frame()["target"][:6].to_list()
     assert of_keys.minutes > 0
     assert of_keys.hidden["screw-pitch"] == "the job does not state axis.screw_pitch"
+
+
+def test_a_plan_asks_only_for_effects_of_what_is_measured() -> None:
+    planned = z.plan(
+        axis={"name": "Y", "travel": [0, 400]}, measurement={"error": "EXY"}, evaluate=["iso230-1:2012"]
+    )
+    seen = {each["effect"] for each in planned.to_dict()["visibility"]}
+    assert "backlash-gradient" in seen
+    assert not seen & {"compensation-sign", "dead-path", "air-index"}
 
 
 def test_a_plan_that_makes_no_sense_is_refused() -> None:
@@ -444,6 +460,12 @@ def small_job(folder: Path) -> Path:
 def test_a_folder_gets_all_formats_of_the_job(tmp_path: Path) -> None:
     z.certificate(small_job(tmp_path)).save(tmp_path / "out")
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["R-1.html", "R-1.json"]
+
+
+def test_a_folder_that_is_there_may_have_a_dot_in_its_name(tmp_path: Path) -> None:
+    (folder := tmp_path / "certificates.2026").mkdir()
+    z.certificate(small_job(tmp_path)).save(folder)
+    assert sorted(path.name for path in folder.iterdir()) == ["R-1.html", "R-1.json"]
 
 
 def test_a_format_that_nobody_writes_is_refused(tmp_path: Path) -> None:

@@ -69,6 +69,17 @@ def test_before_it_begins_the_page_says_what_to_do(desk: Desk) -> None:
     assert [each["state"] for each in found["visits"]] == ["next", "open", "open", "open"]
 
 
+def test_a_plan_that_changes_in_a_shared_file_is_that_of_the_page(desk: Desk, tmp_path: Path) -> None:
+    job = tmp_path / "job.yaml"
+    shared = job.rename(tmp_path / "shared.yaml")
+    job.write_text("extends: shared.yaml\n", encoding="utf-8")
+    assert [each["target"] for each in desk.get()["visits"]][1] == "20.000 mm"
+    text = shared.read_text(encoding="utf-8")
+    assert "[0, 20]" in text
+    shared.write_text(text.replace("[0, 20]", "[0, 25]"), encoding="utf-8")
+    assert [each["target"] for each in desk.get()["visits"]][1] == "25.000 mm"
+
+
 def test_numbers_and_steps_are_in_the_language_of_the_page(desk: Desk) -> None:
     found = desk.get(lang="de")
     assert found["steps"][0] == "Die Achse bei −5,000 mm stillstehen lassen, für den Bezug."

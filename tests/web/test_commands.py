@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import tempfile
 from pathlib import Path
@@ -14,6 +15,7 @@ from processes import awaited
 from web.jobs import registry
 from zlmreport.job.loading import load
 from zlmreport.web.app import Workbench
+from zlmreport.web.making import make_documents
 
 _DEMANDED = "which table was active during this test"
 
@@ -101,6 +103,16 @@ def test_a_table_is_written_and_a_second_test_held_against_it(
     assert browser.get("/api/job").json()["offered"]["jobs"] == ["after.yaml"]
     found = made(browser, "confirmation", controller="csv", after="after.yaml")
     assert found["values"]["verdict"] == "other"  # the same readings: no table acts in them
+
+
+def test_a_mistake_is_told_as_a_terminal_has_it_with_a_line_or_without() -> None:
+    place = {"file": "job.yaml", "line": 3, "column": 7}
+    problems = [
+        {**place, "message": "is wrong"},
+        {"file": "out", "line": None, "column": None, "message": "cannot be written"},
+    ]
+    found = make_documents(json.dumps({"jobs": [{"files": [], "problems": problems}]}), "")
+    assert found.problems == ("job.yaml:3:7: is wrong", "out: cannot be written")
 
 
 @pytest.mark.parametrize(

@@ -217,11 +217,12 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
         return str(value) if not isinstance(value, Path) else os.path.relpath(value, folder)
 
     source = before.source.options.model_dump(exclude_unset=True, exclude={"instrument"})
-    measurement: dict[str, Any] = {"source": {"plugin": before.source.identifier, **source}}
-    if before.keys.measurement.date is not None:
-        measurement = {"date": before.keys.measurement.date, **measurement}
+    stated = before.keys.measurement.model_dump(
+        exclude_unset=True, by_alias=True, exclude={"source", "tests"}
+    )
+    measurement = {**stated, "source": {"plugin": before.source.identifier, **source}}
     control = say(made.controller.title)
-    found = {
+    found: dict[str, Any] = {
         "adjustment": f"Compensation table of {len(made.decoded.positions)} rows in the control ({control}).",
         "measurement": measurement,
     }

@@ -7,14 +7,17 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from zlmreport.cli.arguments import COMMANDS, make_parser_for
-from zlmreport.cli.arguments.documents import MODEL_ACTIONS
+from zlmreport.cli.arguments.documents import MACHINE_ACTIONS, MODEL_ACTIONS
 from zlmreport.cli.new import GUIDES
-from zlmreport.plugin.kinds import CONTROLLER, EFFECT, INSTRUMENT, RENDERER, Kind
+from zlmreport.plugin.kinds import CIRCLE_EFFECT, CONTROLLER, EFFECT, INSTRUMENT, RENDERER, Kind
 from zlmreport.plugin.registry import find_plugins
 
 _LINE, _POINT = "COMP_LINE", "COMP_POINT"
-#: The plugins whose identifiers an argument takes.
+#: The words that the first argument of a command is one of.
+_WORDS = {"model": MODEL_ACTIONS, "machine": MACHINE_ACTIONS, "new": GUIDES}
+#: The plugins whose identifiers an argument takes; an effect of a machine is one of circles.
 _PLUGINS = {"format": RENDERER, "controller": CONTROLLER, "effect": EFFECT, "instrument": INSTRUMENT}
+_OF_MACHINES = {**_PLUGINS, "effect": CIRCLE_EFFECT}
 
 
 def complete() -> None:
@@ -30,11 +33,12 @@ def complete() -> None:
     parser = make_parser_for(command)
     actions: list[Any] = parser._actions  # noqa: SLF001 - argparse has no other list
     positional = [action for action in actions if not action.option_strings]
+    plugins = _OF_MACHINES if command == "machine" else _PLUGINS
     for action in actions:
-        if action.dest in _PLUGINS:
-            action.completer = _complete_identifiers(_PLUGINS[action.dest])
+        if action.dest in plugins:
+            action.completer = _complete_identifiers(plugins[action.dest])
         elif action.dest in {"action", "kind"}:
-            action.choices = MODEL_ACTIONS if action.dest == "action" else tuple(GUIDES)
+            action.choices = tuple(_WORDS[command])
         elif positional and action is positional[0] and action.choices is None:
             further = _list_further_words(command) if rest == rest[-1:] else ()
             action.completer = _complete_files_or(further, FilesCompleter())

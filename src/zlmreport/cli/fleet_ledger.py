@@ -16,7 +16,7 @@ from zlmreport.fleet.basis import write_path_in
 from zlmreport.fleet.exports import write_calendar, write_metrics
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.overview import make_overview
-from zlmreport.fleet.overview_cells import Names
+from zlmreport.fleet.printing import Names
 from zlmreport.fleet.state import FleetState, Rules, describe_state
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, load_fleet
 from zlmreport.job.parse import count_in_words

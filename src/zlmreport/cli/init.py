@@ -10,7 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport.cli.terminal import say, show_path, wrap
+from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write_new
+from zlmreport.job.parse import count_in_words
 from zlmreport.language.formatting import DecimalSign, write_general_number
 from zlmreport.looking import Looked, look_at, write_job_of
 from zlmreport.machines.beginning import begin_machine
@@ -19,12 +21,17 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import Unit, write_behind
 from zlmreport.plugin.registry import Registry, find_plugins
 
+_PLACE = Place("zlmreport init")
 _STARTER = ("job.yaml", "laboratory.yaml", "x-axis.csv")
 
 
 def run(options: Namespace) -> int:
     """Write the starter job; no file that is there already is touched."""
     directory: Path = options.directory
+    if options.machine and options.origin:
+        raise InputError.at(_PLACE, "--from writes a job, and --machine a machine file: take one of them")
+    if options.sheet and not options.origin:
+        raise InputError.at(_PLACE, "--sheet names a sheet of the workbook of --from: state both")
     if options.machine:
         return _begin_machine(options.machine, directory, find_plugins(files=options.plugin))
     if options.origin:
@@ -97,8 +104,8 @@ def _summarise(read: MeasurementSet) -> str:
     senses = f"both {sense}s" if read.is_bidirectional else f"one {sense}"
     travel = f"from {_write_range(at[0], at[-1], place)}"
     parts = [
-        f"{_count_in_words(count, 'reading')} of {_count_in_words(len(at), target)} {travel}",
-        f"{_count_in_words(len(read.runs), run)}, {senses}",
+        f"{count_in_words(count, 'reading')} of {count_in_words(len(at), target)} {travel}",
+        f"{count_in_words(len(read.runs), run)}, {senses}",
     ]
     if count:
         parts.append(f"deviations {_write_range(np.nanmin(deviation), np.nanmax(deviation), size)}")
@@ -110,17 +117,13 @@ def _summarise_over_time(read: MeasurementSet, count: int) -> str:
     """Return in a line what was read over time, and what was logged beside it."""
     place, size = read.axis.position_unit, read.axis.deviation_unit
     lasts = _write_number(place.from_si(float(read.target_positions[-1] - read.target_positions[0])))
-    parts = [f"{_count_in_words(count, 'reading')} over {lasts} {place.symbol}"]
+    parts = [f"{count_in_words(count, 'reading')} over {lasts} {place.symbol}"]
     if count:
         smallest, largest = (size.from_si(float(end(read.deviation))) for end in (np.nanmin, np.nanmax))
         parts.append(_write_range(smallest, largest, size))
     if read.conditions:
         parts.append(f"with {', '.join(read.conditions)}")
     return "; ".join(parts)
-
-
-def _count_in_words(number: int, what: str) -> str:
-    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _write_range(low: float, high: float, unit: Unit) -> str:

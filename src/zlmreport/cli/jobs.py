@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import textwrap
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -14,11 +13,14 @@ from typing import TYPE_CHECKING, Any
 from zlmreport.cli.terminal import (
     Colour,
     collect_problem,
+    lay_out_beside,
     lay_out_table,
+    measure_line,
     measure_width,
     print_json,
     print_problems,
     show_path,
+    wrap,
 )
 from zlmreport.document.blocks import Notice
 from zlmreport.document.certificate.conformity import STATEMENTS
@@ -28,12 +30,12 @@ from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import limit
 from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
 from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems
+from zlmreport.evaluation.report import report_parameter
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
 from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
-from zlmreport.measurement.units import Unit
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:
@@ -49,9 +51,16 @@ if TYPE_CHECKING:
 
 
 SCHEMA = "zlmreport/summary/1"
+#: What the summary has of a parameter in the results file; null where that has nothing.
+_OF_PARAMETER = (
+    *("symbol", "name", "value", "unit"),
+    *("expanded_uncertainty", "coverage_factor", "limit", "conforms"),
+)
 
-#: In letters: the width of a terminal that has none, between two columns, and what is always shown of a name.
-_USUAL_WIDTH, _GAP, _SHORTEST_NAME = 120, 2, 24
+#: In letters: between two columns, and what is always shown of a name.
+_GAP, _SHORTEST_NAME = 2, 24
+#: Column in which notices begin, behind the longest of their labels.
+_NOTICES_AT = 11
 _SOUND = "the job and its data are sound"
 
 
@@ -187,29 +196,12 @@ def _collect_job(result: JobResult) -> dict[str, Any]:
     }
 
 
-def _convert_to_unit(unit: Unit, value: float | None) -> float | None:
-    return None if value is None else unit.from_si(value)
-
-
 def _collect_evaluation(evaluation: Evaluation) -> dict[str, Any]:
     usual = evaluation.measurements.axis.deviation_unit
-
+    reported = (report_parameter(each, usual, Language.ENGLISH) for each in evaluation.parameters)
     return {
         "standard": evaluation.standard,
-        "parameters": [
-            {
-                "symbol": parameter.quantity.symbol,
-                "name": parameter.quantity.name.in_language(Language.ENGLISH),
-                "value": unit.from_si(parameter.value),
-                "unit": unit.ascii,
-                "expanded_uncertainty": _convert_to_unit(unit, parameter.expanded_uncertainty),
-                "coverage_factor": parameter.coverage_factor,
-                "limit": _convert_to_unit(unit, parameter.limit),
-                "conforms": parameter.conforms,
-            }
-            for parameter in evaluation.parameters
-            for unit in (parameter.quantity.unit_or(usual),)
-        ],
+        "parameters": [{key: each.get(key) for key in _OF_PARAMETER} for each in reported],
         "requirements": [
             {
                 "requirement": finding.requirement.in_language(Language.ENGLISH),
@@ -274,7 +266,7 @@ def tell_findings(result: JobResult) -> Iterator[str]:
     sound = Colour.YELLOW.set("can be evaluated, with reservations") if reserved else _SOUND
     yield f"{Colour.BOLD.set(str(result.path))}  {Colour.RED.set('its data look wrong') if faults else sound}"
     for fault in faults:
-        yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
+        yield from wrap(f"{writer.say(fault.statement)}; {writer.say(fault.remedy)}")
     yield from reserved
     for evaluation in result.evaluations:
         yield from tell_requirements(evaluation.designation, evaluation.findings, writer)
@@ -300,10 +292,19 @@ def tell_requirements(designation: str, found: Iterable[Finding], writer: Writer
     """Yield the lines on what a standard asks of a test."""
     yield f"  {designation}"
     words = {True: "met", False: Colour.RED.set("not met"), None: Colour.YELLOW.set("open")}
-    yield from lay_out_table(
-        (words[finding.met], f"{writer.say(finding.requirement)}: {writer.say(finding.found)}")
-        for finding in found
-    )
+    told = [
+        (f"    {words[each.met]}", writer.say(each.requirement), writer.say(each.found)) for each in found
+    ]
+    column = max((measure_width(label) for label, _, _ in told), default=0) + _GAP
+    for label, requirement, had in told:
+        yield from _lay_out_finding(label, requirement, had, column)
+
+
+def _lay_out_finding(label: str, requirement: str, found: str, column: int) -> Iterator[str]:
+    """Yield what is asked and what was found in a line, or below each other where that has no room."""
+    in_a_line = f"{requirement}: {found}"
+    fits = len(wrap(in_a_line, " " * column)) == 1
+    yield from lay_out_beside(label, [in_a_line] if fits else [f"{requirement}:", found], column)
 
 
 def _name_subject(job: Job) -> str:
@@ -342,7 +343,7 @@ def _tell_parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
         *("limit" if has_limits else "", ""),
     ]
     without_names = lay_out_table([headings, *zip(*columns, strict=True)])
-    room = max(_SHORTEST_NAME, _measure_terminal() - max(map(measure_width, without_names)) - _GAP)
+    room = max(_SHORTEST_NAME, measure_line() - max(map(measure_width, without_names)) - _GAP)
     names = [_name_lines(writer.say(each.quantity.name), room) for each in parameters]
     rows = [
         row
@@ -354,10 +355,6 @@ def _tell_parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
     start = len(first) - len(first.lstrip()) - 1
     yield f"  {evaluation.designation}".ljust(start) + first[start:]
     yield from below
-
-
-def _measure_terminal() -> int:
-    return shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns
 
 
 def _write_value(parameter: EvaluatedParameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
@@ -389,12 +386,11 @@ def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
         *_tell_missing(result, writer),
     ]
     for evaluation in result.evaluations:
-        notices.extend(
-            f"  {Colour.YELLOW.set('not met')}  {evaluation.designation}: "
-            f"{writer.say(finding.requirement)}: {writer.say(finding.found)}"
-            for finding in evaluation.findings
-            if finding.met is False
-        )
+        for finding in evaluation.findings:
+            if finding.met is False:
+                asked = f"{evaluation.designation}: {writer.say(finding.requirement)}"
+                label, found = f"  {Colour.YELLOW.set('not met')}", writer.say(finding.found)
+                notices.extend(_lay_out_finding(label, asked, found, _NOTICES_AT))
     notices.extend(_tell_model(result))
     if notices:
         yield ""
@@ -406,25 +402,23 @@ def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
     if isinstance(result.budget, Budget):
         for block in say_uncertainty(result.budget, result.evaluations, writer):
             if isinstance(block, Notice):
-                yield f"  {Colour.YELLOW.set('open')}     {block.heading}"
+                yield from _tell_notice("open", block.heading)
 
 
 def _tell_unlikely(result: JobResult, writer: Writer) -> Iterator[str]:
     for doubt in result.doubts:
-        yield f"  {Colour.YELLOW.set('unlikely')} {writer.say(doubt)}"
+        yield from _tell_notice("unlikely", writer.say(doubt))
     for shown in result.evidence:
-        yield f"  {Colour.YELLOW.set('doubtful')} {writer.say(shown)}"
+        yield from _tell_notice("doubtful", writer.say(shown))
 
 
 def _tell_missing(result: JobResult, writer: Writer) -> Iterator[str]:
     for name, measurements in _name_measured_sets(result):
         own, before = Writer.of(measurements, writer.language), f"{name}: " if name else ""
         for notice in list_missing_readings(measurements, own):
-            yield f"  {Colour.YELLOW.set('missing')}  {before}{notice.heading}"
-            yield from (f"           {item}" for item in notice.items)
+            yield from _tell_notice("missing", f"{before}{notice.heading}", *notice.items)
         for notice in make_exclusion_notice(measurements, own):
-            yield f"  {Colour.YELLOW.set('aside')}    {before}{notice.heading}"
-            yield from (f"           {item}" for item in notice.items)
+            yield from _tell_notice("aside", f"{before}{notice.heading}", *notice.items)
 
 
 def _tell_model(result: JobResult) -> Iterator[str]:
@@ -434,10 +428,15 @@ def _tell_model(result: JobResult) -> Iterator[str]:
     from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
     from zlmreport.model.diagnosis.report import write_verdict_statement  # noqa: PLC0415
 
-    label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).set("model")
-    yield f"  {label}  {write_verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
-    if diagnosis.verdict is not Verdict.ADEQUATE:
-        yield f"         see: zlmreport model diagnose {show_path(result.path)}"
+    is_adequate = diagnosis.verdict is Verdict.ADEQUATE
+    statement = write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
+    yield from _tell_notice("model", statement, colour=Colour.GREEN if is_adequate else Colour.YELLOW)
+    if not is_adequate:
+        yield f"{'':{_NOTICES_AT}}see: zlmreport model diagnose {show_path(result.path)}"
+
+
+def _tell_notice(label: str, *texts: str, colour: Colour = Colour.YELLOW) -> Iterator[str]:
+    yield from lay_out_beside(f"  {colour.set(label)}", texts, _NOTICES_AT)
 
 
 def _name_lines(name: str, room: int) -> list[str]:

@@ -118,8 +118,8 @@ def _write_certificate(
         for name, each in zip(name_files(certificate.number, renderers), renderers, strict=True)
     ]
     write(documents)
-    shown = [show_path(each.path) for each in documents]
-    return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": shown}
+    shown, files = zip(*((show_path(each.path), str(each.path)) for each in documents), strict=True)
+    return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": files}
 
 
 def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
@@ -138,7 +138,7 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
 def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Write tables across axes with their forecast, or hold circles that were run with them against it."""
     sections, files, values = compensate(machine, registry, options)
-    further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
+    further = [f"written: {', '.join(map(show_path, files))}"] if files else ["--output DIR writes it"]
     if not options.trial:
         further.append("next: load it, run the circles again, then the same with --confirm CIRCLE.yaml")
     return _lay_out(machine, sections, *([] if options.confirm else ["", *further])), values

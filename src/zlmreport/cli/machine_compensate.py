@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
-from zlmreport.cli.terminal import show_path
 from zlmreport.document.blocks import Section
 from zlmreport.errors import NOT_MET, InputError, Place
 from zlmreport.files import write_new
@@ -41,7 +41,7 @@ _SAY = Sayer(Language.ENGLISH)
 
 def compensate(
     machine: MachineFile, registry: Registry, options: Namespace
-) -> tuple[Sequence[Section], Sequence[str], dict[str, Any]]:
+) -> tuple[Sequence[Section], Sequence[Path], dict[str, Any]]:
     """Return what is said of the tables, the files that were written, and the values.
 
     Raises `InputError` if the control takes no such tables, or its sign is neither known nor stated.
@@ -52,15 +52,15 @@ def compensate(
     wanted = CrossWanted(options.controller, options.moves, step, _COMMAND, is_command=True)
     if options.trial:
         control, table, files = make_trial(machine, registry, wanted)
-        shown = _write_tables(files, machine, options, "-trial")
-        values = {"schema": SCHEMA, "controller": control.identifier, "trial": True, "files": shown}
-        return [lay_out_trial(table, PEAK, _SAY)], shown, values
+        written = _write_tables(files, machine, options, "-trial")
+        values = {"schema": SCHEMA, "controller": control.identifier, "trial": True}
+        return [lay_out_trial(table, PEAK, _SAY)], written, {**values, "files": list(map(str, written))}
     made = make_cross(machine, registry, wanted)
     if options.confirm:
         found = confirm(machine, made, options.confirm, registry, _COMMAND)
         return [lay_out_confirmation(found, _SAY)], (), collect_confirmation(found)
-    shown = _write_tables(made.files, machine, options, "")
-    return lay_out_cross(made, _SAY), shown, {**collect_cross(made), "files": shown}
+    written = _write_tables(made.files, machine, options, "")
+    return lay_out_cross(made, _SAY), written, {**collect_cross(made), "files": list(map(str, written))}
 
 
 def find_exit_code(values: Mapping[str, Any]) -> int:
@@ -69,9 +69,8 @@ def find_exit_code(values: Mapping[str, Any]) -> int:
     return NOT_MET if is_confirmation and values["verdict"] != CrossVerdict.HELD.value else 0
 
 
-def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> list[str]:
+def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> Sequence[Path]:
     if options.output is None:
-        return []
+        return ()
     documents = make_table_documents(files, options.output, f"{machine.number}{mark}")
-    write_new(documents)
-    return [show_path(each.path) for each in documents]
+    return write_new(documents)

@@ -50,10 +50,10 @@ _TEST = Place("zlmreport plan --test")
 
 def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
+    if options.decide:
+        return _decide(options)
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry).line(options.test, _TEST)
-    if options.decide:
-        return _decide(options, job, registry)
     if job.axis.circle:
         return plan_circle(options, job, registry)
     own = _plan_of_extension(job, registry)
@@ -114,8 +114,19 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _decide(options: Namespace, job: Job, registry: Registry) -> int:
+def _refuse_programs(options: Namespace) -> None:
+    """Refuse programs of the experiment that decides: the plan of its own job has them."""
+    given = next((name for name in ("program", "run") if getattr(options, name) is not None), None)
+    if given:
+        message = f"--{given} writes programs of this plan, and --decide the job of another: take one of them"
+        raise InputError.at(Place("zlmreport plan"), message)
+
+
+def _decide(options: Namespace) -> int:
     """Write or print the job of the experiment that decides between effects."""
+    _refuse_programs(options)
+    registry = find_plugins(files=options.plugin)
+    job = load(options.job, registry).line(options.test, _TEST)
     names = [name.strip() for name in options.decide.split(",") if name.strip()]
     study: Study | None = None
     try:

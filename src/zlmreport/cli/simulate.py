@@ -124,7 +124,7 @@ def write_table(table: Document, job: Document) -> Iterator[str]:
         What is printed of each.
     """
     is_new = not job.path.exists()
-    yield from (str(show_path(path)) for path in write([table, job] if is_new else [table]))
+    yield from (show_path(path) for path in write([table, job] if is_new else [table]))
     if not is_new:
         yield f"{show_path(job.path)} is there already and was left as it is"
 

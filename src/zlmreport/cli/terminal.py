@@ -56,11 +56,22 @@ def wrap(text: str, indent: str = "  ") -> list[str]:
 
 def fill(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; blanks that are held stay."""
-    width = max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)
     further = f"{indent}  "
     return textwrap.wrap(
-        text, width, initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
+        text, measure_line(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
     )
+
+
+def measure_line() -> int:
+    """Return how many letters a line may have: those of the terminal; of a pipe, always as many."""
+    return max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)
+
+
+def lay_out_beside(label: str, texts: Iterable[str], column: int) -> Iterator[str]:
+    """Yield a label, and right of it texts in lines that fit: each text begins in the same column."""
+    first, *further = (line for text in texts for line in wrap(text, " " * column))
+    yield label + " " * (column - measure_width(label)) + first[column:]
+    yield from further
 
 
 def lay_out_table(

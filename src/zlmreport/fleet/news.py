@@ -18,6 +18,7 @@ from zlmreport.fleet.drifts import Trend, group_by_axis
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.overview_words import ABOUTS
 from zlmreport.fleet.plan import Evening
+from zlmreport.fleet.printing import Names, write_change, write_value
 from zlmreport.fleet.records import About, News, NewsKind, NightNotice, name_axis
 from zlmreport.fleet.state import FleetState
 from zlmreport.job.contradictions import validate
@@ -25,8 +26,8 @@ from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, find_at
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, join_parts, named
-from zlmreport.language.formatting import write_fixed_number, write_general_number
-from zlmreport.measurement.units import find_printed_symbol, write_behind
+from zlmreport.language.formatting import write_general_number, write_plain
+from zlmreport.measurement.units import find_printed_symbol, with_unit
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -39,6 +40,16 @@ _KINDS = {
     NewsKind.DRIFTING: Words("drifting"),
     NewsKind.OVERDUE: Words("overdue"),
     NewsKind.DRAFT: Words("draft"),
+}
+#: How many there are of each, in the title of a message.
+_COUNTED = {
+    NewsKind.NIGHT: Words("{number} notice", plural="{number} notices"),
+    NewsKind.FAILED: Words("{number} failed"),
+    NewsKind.NOT_MET: Words("{number} limit not met", plural="{number} limits not met"),
+    NewsKind.CHANGED: Words("{number} changed", plural="{number} changed"),
+    NewsKind.DRIFTING: Words("{number} drifting", plural="{number} drifting"),
+    NewsKind.OVERDUE: Words("{number} overdue", plural="{number} overdue"),
+    NewsKind.DRAFT: Words("{number} draft", plural="{number} drafts"),
 }
 _NOT_MET = Words("{symbol} = {value}, limit {limit}")
 _WILDER = Words("scatters more than before")
@@ -61,8 +72,10 @@ def find_news_of_night(notices: Iterable[NightNotice], language: Language) -> It
         yield News(NewsKind.NIGHT, subject, named(ABOUTS[each.about], text).in_language(language))
 
 
-def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
+def find_news_of(state: FleetState, language: Language, names: Names) -> Iterator[News]:
     """Yield all that is so on a morning, whether or not it was told before."""
+    state = replace(state, trends=tuple(map(names.as_printed, state.trends)))
+    say = _TrendSayer(language, names)
     yield from find_news_of_night(state.notices, language)
     for failure in state.failures:
         entry = failure.entry
@@ -70,13 +83,13 @@ def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
         told = message if message.startswith(entry.job) else f"{entry.job}: {message}"
         yield News(NewsKind.FAILED, f"{entry.job}|{message}", told)
     for (machine, axis), trends in group_by_axis(state.not_met).items():
-        stated = ", ".join(_say_not_met(each, language) for each in trends)
+        stated = ", ".join(map(say.say_not_met, trends))
         told = named(name_axis(machine, axis), stated).in_language(language)
         yield News(NewsKind.NOT_MET, f"{machine}|{axis}", told)
     for (machine, axis), trends in group_by_axis(state.changed).items():
-        yield _report_change(machine, axis, trends, state, language)
+        yield _report_change(machine, axis, trends, state, say)
     for (machine, axis), trends in group_by_axis(state.drifting).items():
-        stated = join_parts((_say_drift(each, language) for each in trends), language)
+        stated = join_parts(map(say.say_drift, trends), language)
         told = named(name_axis(machine, axis), stated).in_language(language)
         yield News(NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", told)
     for term in state.overdue:
@@ -89,11 +102,11 @@ def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
 
 
 def write_digest(fleet: FleetFile, news: Sequence[News]) -> Message:
-    """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 changed``."""
+    """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 drafts``."""
     language = fleet.keys.language
     counted = Counter(each.kind for each in news)
     said = {kind: words.in_language(language) for kind, words in _KINDS.items() if counted[kind]}
-    numbers = ", ".join(f"{counted[kind]} {word}" for kind, word in said.items())
+    numbers = ", ".join(_COUNTED[kind].given(number=counted[kind]).in_language(language) for kind in said)
     title = named(fleet.name, numbers).in_language(language)
     parts = [
         "\n".join([word[0].upper() + word[1:], *(f"- {each.text}" for each in news if each.kind is kind)])
@@ -120,49 +133,56 @@ def find_news_of_job(happened: Happened, known: Evening) -> Message | None:
 
 
 def _report_change(
-    machine: str, axis: str, trends: Sequence[Trend], state: FleetState, language: Language
+    machine: str, axis: str, trends: Sequence[Trend], state: FleetState, say: _TrendSayer
 ) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
-    name = name_axis(machine, axis)
+    name, language = name_axis(machine, axis), say.language
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
         return News(NewsKind.CHANGED, subject, named(name, _WILDER).in_language(language))
     cause = find_cause_of(stepped[0], state.effects)
     since = cause.since.isoformat() if cause else ""
     changes = ", ".join(
-        f"{each.series.symbol} {_write_signed(each.step.change, each.series.unit, language)}"
+        f"{say.name_symbol(each)} {say.write_change(each.step.change, each.series.unit)}"
         for each in stepped
         if each.step
     )
     text = named(name, _SINCE.given(changes=changes, since=since)).in_language(language)
     if cause and cause.effect:
-        effect = f"{cause.effect} {_write_signed(cause.change, cause.unit, language)}"
+        effect = f"{cause.effect} {say.write_change(cause.change, cause.unit)}"
         text = join_parts((text, effect), language)
     if cause and cause.after:
         text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
     return News(NewsKind.CHANGED, f"{machine}|{axis}|{since}", text)
 
 
-def _say_not_met(trend: Trend, language: Language) -> str:
-    latest, sign = trend.series.latest, language.decimal_sign
-    unit = write_behind(find_printed_symbol(trend.series.unit))
-    value = f"{write_fixed_number(latest.value, 1, sign)}{unit}"
-    limit = f"{write_general_number(latest.limit or 0.0, sign)}{unit}"
-    return _NOT_MET.given(symbol=trend.series.symbol, value=value, limit=limit).in_language(language)
+@dataclass(frozen=True, slots=True)
+class _TrendSayer:
+    """Says what the tests of a parameter show, with symbols and signs as the page has them."""
 
+    language: Language
+    names: Names
 
-def _say_drift(trend: Trend, language: Language) -> str:
-    change = _write_signed(trend.line.slope if trend.line else 0.0, trend.series.unit, language)
-    told = _DRIFT.given(symbol=trend.series.symbol, change=change).in_language(language)
-    if trend.forecast:
-        told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
-    return told
+    def name_symbol(self, trend: Trend) -> str:
+        return write_plain(self.names.name_symbol(trend.series.standard, trend.series.symbol))
 
+    def write_change(self, change: float, unit: str) -> str:
+        return write_change(change, unit, self.language.decimal_sign)
 
-def _write_signed(change: float, unit: str, language: Language) -> str:
-    number = write_fixed_number(abs(change), 1, language.decimal_sign)
-    return f"{'+' if change > 0 else '−'} {number}{write_behind(find_printed_symbol(unit))}"
+    def say_not_met(self, trend: Trend) -> str:
+        latest, sign = trend.series.latest, self.language.decimal_sign
+        number = write_general_number(latest.limit or 0.0, sign)
+        limit = with_unit(number, find_printed_symbol(latest.unit))
+        told = _NOT_MET.given(symbol=self.name_symbol(trend), value=write_value(latest, sign), limit=limit)
+        return told.in_language(self.language)
+
+    def say_drift(self, trend: Trend) -> str:
+        change = self.write_change(trend.line.slope if trend.line else 0.0, trend.series.unit)
+        told = _DRIFT.given(symbol=self.name_symbol(trend), change=change).in_language(self.language)
+        if trend.forecast:
+            told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(self.language)
+        return told
 
 
 #: For which the night waits until a message is taken, s: nothing that tells of a night may stop it.

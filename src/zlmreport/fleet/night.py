@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
-from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place, Problem
+from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.files import Document, find_confinement, write
 from zlmreport.fleet.basis import CertificateBasis, Disk, find_program_versions, say_changes, write_path_in
 from zlmreport.fleet.exports import make_priors, write_heartbeat
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
-from zlmreport.fleet.making import Failed, Limits, Task, digest_defaults
+from zlmreport.fleet.making import Failed, Limits, Task, digest_defaults, find_plugins_once
 from zlmreport.fleet.news import (
     Ways,
     find_news_of,
@@ -37,6 +37,7 @@ from zlmreport.fleet.notices import (
     say_of_last,
 )
 from zlmreport.fleet.plan import Due, Evening, PlannedJob, find_reasons, plan
+from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, compute_due_date
 from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.fleet.workers import Cluster, Pool
@@ -152,10 +153,19 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 names = [known.name_job(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
                 state = describe_state(fleet.name, ledger.list_entries(), names, now, rules)
-                night.report(tuple(find_news_of(state, language)))
+                printed = _find_names(plugins) if state.trends else Names(())
+                night.report(tuple(find_news_of(state, language, printed)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
             night.end(read_clock())
+
+
+def _find_names(plugins: tuple[Path, ...]) -> Names:
+    """Return what standards print; plugins that cannot be loaded are said of each job, and stop no news."""
+    try:
+        return Names(find_plugins_once(plugins).standards)
+    except ZlmreportError:
+        return Names(())
 
 
 @contextlib.contextmanager
@@ -305,7 +315,7 @@ def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Hap
     for job, standing in latest.values():
         subject = standing.subject
         due = compute_due_date(subject.measured, subject.interval or known.fleet.keys.interval)
-        if due and due <= now[:10] and subject.name_term(due) not in told:
+        if due and due < now[:10] and subject.name_term(due) not in told:
             why = (
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
             )

@@ -32,8 +32,9 @@ from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import LEAST_MACHINES, Shared, find_shared
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, group_by_axis
-from zlmreport.fleet.overview_cells import CellWriter, Names, make_key_of
+from zlmreport.fleet.overview_cells import CellWriter, make_key_of
 from zlmreport.fleet.overview_trend import show_trend_in_full
+from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
 from zlmreport.fleet.state import DueDate, FailingJob, FleetState
 from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, compute_level_of

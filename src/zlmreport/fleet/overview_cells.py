@@ -10,10 +10,10 @@ from urllib.parse import quote
 
 from zlmreport.document.typesetting.overview import LinkContext, OverviewCellContext, make_drawing
 from zlmreport.document.typesetting.templates import set_symbol
-from zlmreport.evaluation.evaluation import Quantity
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import find_cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
+from zlmreport.fleet.printing import Names, write_change, write_value
 from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Series
 from zlmreport.fleet.trend_graph import Period, draw_trend
@@ -27,47 +27,8 @@ from zlmreport.language.formatting import (
 )
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import find_printed_symbol, with_unit
-from zlmreport.plugin.protocols import Standard
 
-
-@dataclass(frozen=True, slots=True)
-class Names:
-    """The standards that are installed; of one that no longer is, the ledger's own words are printed."""
-
-    standards: Sequence[Standard]
-
-    def name_standard(self, standard: str) -> str:
-        """Return a standard as printed: ``ISO 230-2:2014``."""
-        found = self._find_standard(standard)
-        return found.designation if found else standard
-
-    def name_symbol(self, standard: str, symbol: str) -> str:
-        """Return a symbol as printed, in notation."""
-        quantity = self._find_quantity(standard, symbol)
-        return quantity.notation if quantity else symbol
-
-    def as_printed(self, trend: Trend) -> Trend:
-        """Return a trend with the sign that the standard prints."""
-        quantity = self._find_quantity(trend.series.standard, trend.series.symbol)
-        if quantity is None or quantity.printed_sign > 0:
-            return trend
-        calibrations = tuple(
-            replace(each, parameter=replace(each.parameter, value=-each.parameter.value))
-            for each in trend.series.calibrations
-        )
-        line = trend.line and replace(trend.line, level=-trend.line.level, slope=-trend.line.slope)
-        step = trend.step and replace(trend.step, change=-trend.step.change)
-        return replace(trend, series=replace(trend.series, calibrations=calibrations), line=line, step=step)
-
-    def _find_standard(self, identifier: str) -> Standard | None:
-        return next((each for each in self.standards if each.identifier == identifier), None)
-
-    def _find_quantity(self, standard: str, symbol: str) -> Quantity | None:
-        found = self._find_standard(standard)
-        quantities = found.quantities if found else ()
-        return next((each for each in quantities if each.symbol == symbol), None)
-
-
+#: Of numbers in the description of a graph.
 _DECIMALS = 2
 #: The test of a trend knows no tail beyond it.
 _LEAST_P = 1e-4
@@ -101,9 +62,7 @@ class CellWriter:
         """Return the latest value with its expanded uncertainty."""
         latest = trend.series.latest
         if latest.expanded_uncertainty is None:
-            return OverviewCellContext(
-                self._write_number(latest.value, _DECIMALS, latest.unit), style="number"
-            )
+            return OverviewCellContext(write_value(latest, self.language.decimal_sign), style="number")
         return self.write_mean(latest.value, latest.expanded_uncertainty, latest.unit)
 
     def write_limit(self, trend: Trend) -> OverviewCellContext:
@@ -197,7 +156,7 @@ class CellWriter:
         return OverviewCellContext(self._write_pair(value, expanded_uncertainty, unit), style="number")
 
     def _write_signed(self, value: float, unit: str) -> str:
-        return f"{'+' if value > 0 else '−'} {self._write_number(abs(value), 1, unit)}"
+        return write_change(value, unit, self.language.decimal_sign)
 
     def _write_number(self, value: float, decimals: int, unit: str) -> str:
         return with_unit(

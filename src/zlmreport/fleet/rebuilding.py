@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
@@ -15,7 +14,14 @@ from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256, write_path_in
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.making import MARK
-from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State, Subject, list_parameters_of_model
+from zlmreport.fleet.records import (
+    LedgerEntry,
+    RecordedParameter,
+    State,
+    Subject,
+    list_parameters_by,
+    list_parameters_of_model,
+)
 from zlmreport.job.fleet import FleetFile, list_job_files, number_of
 from zlmreport.job.loading import load
 from zlmreport.job.parse import count_in_words
@@ -126,15 +132,5 @@ def _read_results(files: list[Path]) -> Mapping[str, Any]:
 
 def _read_parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
     for evaluation in results["evaluations"]:
-        for each in evaluation["parameters"]:
-            if isinstance(each["value"], int | float) and math.isfinite(each["value"]):
-                yield RecordedParameter(
-                    standard=evaluation["standard"],
-                    symbol=each["symbol"],
-                    value=float(each["value"]),
-                    unit=each["unit"],
-                    expanded_uncertainty=each.get("expanded_uncertainty"),
-                    limit=each.get("limit"),
-                    conforms=each.get("conforms"),
-                )
+        yield from list_parameters_by(evaluation["standard"], evaluation["parameters"])
     yield from list_parameters_of_model(results.get("model", {}))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import date, datetime, timedelta
 from enum import StrEnum
@@ -12,11 +12,12 @@ from pathlib import PurePosixPath
 from typing import Any, Self
 
 from zlmreport.document.certificate.document import Certificate
+from zlmreport.evaluation.report import report_parameter
+from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import MachineUnderTest
 from zlmreport.language import Language, Words
-from zlmreport.measurement.units import Unit
 
 
 class State(StrEnum):
@@ -212,7 +213,7 @@ class Subject:
     #: machine and axis: The machine's designation with its serial number, and the axis's name.
     machine: str = ""
     axis: str = ""
-    measured: str = ""  #: Date of the measurement, ISO 8601.
+    measured: str = ""  #: Last day of the measurement, ISO 8601.
     #: Days after which the job itself says that the axis is to be measured again.
     interval: int | None = None
     instrument: str = ""  #: With which it was measured.
@@ -236,7 +237,7 @@ class Subject:
     def of(cls, job: Job) -> Self:
         """Return what a job is about."""
         keys = job.keys
-        day = keys.measurement.date
+        day = find_last_day(keys.measurement)
         measured = day.isoformat() if day else ""
         machine, used = write_designation(keys.machine), keys.instrument
         # Not by its certificate: a new one makes no new instrument of it.
@@ -266,24 +267,30 @@ class LedgerEntry(Subject):
 
 
 def list_parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
-    """Yield every parameter by every standard, in the units of the results file."""
+    """Yield every parameter by every standard, in the units of the results file, and those of the model."""
     for evaluation in certificate.evaluations:
         usual = evaluation.measurements.axis.deviation_unit
-        for each in evaluation.parameters:
-            unit = each.quantity.unit_or(usual)
-            yield RecordedParameter(
-                standard=evaluation.standard,
-                symbol=each.quantity.symbol,
-                value=float(unit.from_si(each.value)),
-                unit=unit.ascii,
-                expanded_uncertainty=_convert_to_unit(unit, each.expanded_uncertainty),
-                limit=_convert_to_unit(unit, each.limit),
-                conforms=None if each.conforms is None else bool(each.conforms),
-            )
+        reported = (report_parameter(each, usual, Language.ENGLISH) for each in evaluation.parameters)
+        yield from list_parameters_by(evaluation.standard, reported)
     if certificate.diagnosis:
         from zlmreport.model.diagnosis.report import report_model  # noqa: PLC0415 - only where there is a model
 
         yield from list_parameters_of_model(report_model(certificate.diagnosis.fit))
+
+
+def list_parameters_by(standard: str, reported: Iterable[Mapping[str, Any]]) -> Iterator[RecordedParameter]:
+    """Yield the parameters by a standard, out of the ``parameters`` of a results file."""
+    for each in reported:
+        if isinstance(each["value"], int | float) and math.isfinite(each["value"]):
+            yield RecordedParameter(
+                standard=standard,
+                symbol=each["symbol"],
+                value=float(each["value"]),
+                unit=each["unit"],
+                expanded_uncertainty=_take_number(each.get("expanded_uncertainty")),
+                limit=_take_number(each.get("limit")),
+                conforms=each.get("conforms"),
+            )
 
 
 def list_parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParameter]:
@@ -295,5 +302,6 @@ def list_parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParam
             yield RecordedParameter(MODEL, symbol, float(value), each["unit"], stated)
 
 
-def _convert_to_unit(unit: Unit, value: float | None) -> float | None:
-    return None if value is None else float(unit.from_si(value))
+def _take_number(value: float | None) -> float | None:
+    """Return a number as databases take it: plain, and none of numpy."""
+    return None if value is None else float(value)

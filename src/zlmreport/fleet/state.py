@@ -26,7 +26,7 @@ class DueDate:
 
     entry: LedgerEntry  #: Its latest certificate.
     due: date  #: The day.
-    is_over: bool  #: Whether it was over when the last run began.
+    is_over: bool  #: Whether that day was over when the last run began.
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +164,7 @@ def _list_terms(
         for entry in latest.values()
     )
     days = [(entry, date.fromisoformat(day)) for entry, day in stated if day]
-    terms = [DueDate(entry, day, is_over=now is not None and day <= now.date()) for entry, day in days]
+    terms = [DueDate(entry, day, is_over=now is not None and day < now.date()) for entry, day in days]
     return tuple(sorted(terms, key=lambda term: (term.due, term.entry.machine, term.entry.axis)))
 
 

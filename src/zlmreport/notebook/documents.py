@@ -63,7 +63,8 @@ class Certificate:
         Parameters
         ----------
         path
-            A file whose suffix says the format, ``x.pdf``; or a folder, for all formats of the job.
+            A file whose suffix says the format, ``x.pdf``; or a folder, for all formats of the job: one that
+            is there, or a name without a suffix.
         plugin
             Identifier of the renderer, where several write such files: ``pdf-typst``.
 
@@ -75,7 +76,7 @@ class Certificate:
             If it cannot be written.
         """
         path = Path(path)
-        if path.suffix:
+        if path.suffix and not path.is_dir():
             (content,) = self._render([plugin or _find_renderer_of(path)])
             return write([Document(path, content)])[0]
         known = {each.identifier: each for each in registry().renderers}

@@ -14,12 +14,12 @@ from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.cross_confirmation import confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
-from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
+from zlmreport.machines.diagnosis import MachineDiagnosis, compute_rms_of, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
-from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.carrier import find_results_in
 
@@ -133,7 +133,7 @@ class Machine:
     @property
     def rms(self) -> float:
         """Root mean square of what axes and effects leave of the circles, µm."""
-        return float((self.study.residual**2).mean() ** 0.5 * 1e6)
+        return MICROMETRE.from_si(compute_rms_of(self.study))
 
     def predict(self) -> dict[str, Any]:
         """Return what the axes predict of tests, work space and diagonals, as ``--json`` has it."""

@@ -20,6 +20,7 @@ from zlmreport.job.loading import load
 from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.measurand import is_for
 from zlmreport.model.planning.planned_test import describe_planned_test
 from zlmreport.model.planning.programs import plan_motion_of
 from zlmreport.model.planning.visibility import Sight
@@ -48,7 +49,8 @@ class Plan:
     """A planned test: ``plan.targets``, ``plan.to_frame()``, ``plan.minutes``, ``plan.hidden``."""
 
     def __init__(self, job: Job) -> None:
-        planned = describe_planned_test(job, pipeline.choose_standards(job, registry()), registry().effects)
+        effects = [each for each in registry().effects if is_for(each, job.axis.measurand)]
+        planned = describe_planned_test(job, pipeline.choose_standards(job, registry()), effects)
         plan = planned.proposal.plan
         self._values = plan_values(job, planned)
         self._sections = plan_sections(job, planned, Language.ENGLISH)

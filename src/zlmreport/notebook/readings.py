@@ -292,6 +292,11 @@ def _read_columns(columns: Mapping[str, NDArray[Any]], axis: Axis) -> Measuremen
     if missing or not value:
         wanted = ", ".join([*missing, *([] if value else ["deviation or position"])])
         raise InputError.at(place, f"there is no column {wanted} (there are: {', '.join(columns)})")
+    rows = {name: len(np.atleast_1d(column)) for name, column in columns.items()}
+    uneven = [f"{name} {count}" for name, count in rows.items() if count != rows["target"]]
+    if uneven:
+        message = f"target has {count_in_words(rows['target'], 'row')}, and not as many: {', '.join(uneven)}"
+        raise InputError.at(place, message)
     problems: list[Problem] = []
     readings = list(_rows(columns, value, axis, problems))
     return collect(readings, axis, Provenance("columns"), place=place, problems=problems)
@@ -301,10 +306,10 @@ def _rows(
     columns: Mapping[str, NDArray[Any]], value: str, axis: Axis, problems: list[Problem]
 ) -> Iterator[Reading]:
     position, deviation = axis.position_unit, axis.deviation_unit
-    target = position.to_si(np.asarray(columns["target"], dtype=np.float64))
-    found = np.asarray(columns[value], dtype=np.float64)
+    target = position.to_si(_take_numbers("target", columns["target"], "columns"))
+    found = _take_numbers(value, columns[value], "columns")
     found = deviation.to_si(found) if value == "deviation" else position.to_si(found) - target
-    runs = np.asarray(columns.get("run", np.ones(len(target))), dtype=np.float64)
+    runs = _take_numbers("run", columns.get("run", np.ones(len(target))), "columns")
     seconds = _convert_to_seconds(columns["time"]) if "time" in columns else np.full(len(target), np.nan)
     known = {*_NEEDED, "run", "time", value}
     logs = {name: _read_log(name, log) for name, log in columns.items() if name not in known}
@@ -329,11 +334,11 @@ def _rows(
 def _convert_to_seconds(times: NDArray[Any]) -> FloatArray:
     if times.dtype.kind == "M":
         return np.asarray((times - times.min()) / np.timedelta64(1, "s"), dtype=np.float64)
-    return np.asarray(times, dtype=np.float64)
+    return _take_numbers("time", times, "columns")
 
 
 def _read_log(name: str, values: NDArray[Any]) -> FloatArray:
-    log = np.asarray(values, dtype=np.float64)
+    log = _take_numbers(name, values, "columns")
     return log * CONDITIONS[name].unit.si + CONDITIONS[name].unit.zero if name in CONDITIONS else log
 
 
@@ -395,13 +400,13 @@ def of_arrays(
     return Readings(collect(readings, of, Provenance("arrays"), place=place))
 
 
-def _take_numbers(name: str, values: ArrayLike) -> FloatArray:
+def _take_numbers(name: str, values: ArrayLike, where: str = "test") -> FloatArray:
     """Return an array of numbers; raise `InputError` if it holds other things, or rows of unlike lengths."""
     try:
         return np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError) as error:
         message = f"{name} is no array of numbers: {error}; a missing reading is nan"
-        raise InputError.at(Place("test"), message) from error
+        raise InputError.at(Place(where), message) from error
 
 
 def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys: Any) -> Readings:

@@ -14,7 +14,7 @@ from zlmreport.errors import InputError, Place, Problem
 from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
 from zlmreport.evaluation.evaluation import Arithmetic, EvaluatedParameter, Evaluation
-from zlmreport.evaluation.report import collect_position_columns, report_evaluation
+from zlmreport.evaluation.report import collect_position_columns, report_evaluation, report_parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
 from zlmreport.job.standards import choose_standards, convert_tolerances_to_si
@@ -149,19 +149,11 @@ class Result:
         )
 
     def _make_value(self, parameter: EvaluatedParameter) -> Value:
-        unit = parameter.quantity.unit_or(self.data.measurements.axis.deviation_unit)
-        expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
-        return Value(
-            parameter.quantity.symbol,
-            parameter.quantity.name.in_language(Language.ENGLISH),
-            unit.from_si(parameter.value),
-            unit.ascii,
-            None if expanded is None else unit.from_si(expanded),
-            parameter.coverage_factor,
-            None if limit is None else unit.from_si(limit),
-            None if decision is None else decision.conformity.value,
-            parameter.conforms,
-        )
+        unit = self.data.measurements.axis.deviation_unit
+        found = report_parameter(parameter, unit, Language.ENGLISH)
+        statement = found.get("decision", {}).get("statement")
+        told: dict[str, Any] = {name: found.get(name) for name in Value._fields if name != "statement"}
+        return Value(**told, statement=statement)
 
     @property
     def positions(self) -> Any:
@@ -287,8 +279,9 @@ def evaluate(
     data = readings_of(data, _NAME)
     if not isinstance(tolerances, Mapping | None):
         raise InputError.at(Place(_NAME), "tolerances are limits by symbols, such as {'A': 20}")
-    limits = {} if tolerances is None else {symbol: float(limit) for symbol, limit in tolerances.items()}
-    chosen, options = _standard(standard, tuple(limits.items()), tuple(sorted(keys.items(), key=str)))
+    stated = tuple((tolerances or {}).items())
+    chosen, options = _standard(standard, stated, tuple(sorted(keys.items(), key=str)))
+    limits = {symbol: float(limit) for symbol, limit in stated}
     if decision_rule != "simple":
         checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
     result = Result(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import Record, from_record
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.bench import PLACE, Bench
+from zlmreport.web.bench import PLACE, Bench, make_stamp_of
 from zlmreport.web.capturing import CaptureProcess, CaptureRequest
 
 _SECONDS_A_MINUTE = 60
@@ -42,7 +42,9 @@ class CapturePage:
     path: Path  #: The job file.
     registry: Registry
     process: CaptureProcess
-    _known: tuple[str, Job, Assignment] | None = field(default=None)
+    _known: tuple[Job, Assignment] | None = None
+    #: The files behind it, and their state when they were read.
+    _watched: tuple[tuple[Path, ...], str] = ((), "")
 
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path] = ()) -> CapturePage:
@@ -101,14 +103,16 @@ class CapturePage:
 
     def _find_assignment(self) -> tuple[Job, Assignment] | None:
         """Return the job and what it asks to be captured; None if it names no live instrument."""
-        stamp = Bench(self.path, self.registry).make_stamp()
-        if self._known is None or self._known[0] != stamp:
+        files, stamp = self._watched
+        if self._known is None or make_stamp_of(files) != stamp:
             job = load(self.path, self.registry)
             if find_options_of(job) is None or job.source.instrument is None:
                 return None
             plan = propose(job, pipeline.choose_standards(job, self.registry)).plan
-            self._known = stamp, job, make_assignment_of(job, plan)
-        return self._known[1:]
+            files = tuple(each.path for each in job.files if each.path is not None)
+            self._watched = files, make_stamp_of(files)
+            self._known = job, make_assignment_of(job, plan)
+        return self._known
 
 
 def _read_history(assignment: Assignment) -> History | None:

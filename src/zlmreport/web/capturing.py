@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from threading import Lock, Thread
-from typing import Any, Literal
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -49,7 +49,7 @@ class CaptureRequest(BaseModel):
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
-    step: Literal["begin", "retake", "order", "stop", "close"]
+    step: CaptureAction
     text: str = Field("", max_length=300, pattern=r"^[^\r\n]*$")
 
 
@@ -73,7 +73,7 @@ class CaptureProcess:
 
         Raises `InputError` where there is no capture to order something, or one is under way already.
         """
-        match CaptureAction(request.step):
+        match request.step:
             case CaptureAction.BEGIN:
                 self._begin("--steered", *(["--resume"] if has_begun else []))
             case CaptureAction.RETAKE:

@@ -50,6 +50,7 @@ _NOTHING_TO_UNDO = Words(
     "There is nothing to take back: the job is not as the last step on this page left it."
 )
 
+#: What a page sends of a text.
 ShortText = Annotated[str, StringConstraints(max_length=500)]
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
-from typing import Annotated, Any
+from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, StringConstraints
+from pydantic import BaseModel, ConfigDict, Field
 
 from zlmreport.errors import InputError
 from zlmreport.files import Document, write
@@ -18,6 +18,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.web.bench import PLACE, Bench, Loaded
+from zlmreport.web.changes import ShortText
 from zlmreport.web.making import Making, make_documents, make_values
 
 #: What answers by values alone.
@@ -25,8 +26,6 @@ _BY_VALUES = ("table", "confirmation", "experiment", "build")
 _SUFFIXES = {".yaml", ".yml"}
 #: Jobs beside this one that are offered as its second test.
 _MOST = 200
-
-ShortText = Annotated[str, StringConstraints(max_length=500)]
 
 
 class Wanted(BaseModel):

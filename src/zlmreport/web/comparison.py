@@ -190,7 +190,9 @@ def _compare_standards(tests: Sequence[_Test], here: _Test, language: Language) 
                 {
                     "symbol": split_symbol(own.quantity.notation),
                     "name": own.quantity.name.in_language(language),
-                    "limit": None if own.limit is None else writer.deviation_unit.from_si(own.limit),
+                    "limit": None
+                    if own.limit is None
+                    else own.quantity.unit_or(writer.deviation_unit).from_si(own.limit),
                     "cells": [
                         _make_cell(None if other is None else other.parameter(own.quantity.symbol), writer)
                         for other in others
@@ -202,17 +204,19 @@ def _compare_standards(tests: Sequence[_Test], here: _Test, language: Language) 
 
 
 def _make_cell(parameter: EvaluatedParameter | None, writer: Writer) -> dict[str, Any] | None:
-    """Return a parameter and its U as text, and as numbers to be drawn."""
+    """Return a parameter and its U as text and as numbers to be drawn, with a unit that is its own."""
     if parameter is None:
         return None
     value, uncertainty = write_with_uncertainty(parameter, writer)
+    unit = parameter.quantity.unit_or(writer.deviation_unit)
     expanded = parameter.expanded_uncertainty
-    number = writer.deviation_unit.from_si(parameter.printed_value)
+    number = unit.from_si(parameter.printed_value)
     return {
         "value": value,
         "uncertainty": "" if uncertainty == NOTHING else uncertainty,
+        "unit": "" if unit == writer.deviation_unit else unit.symbol,
         "number": number if np.isfinite(number) else None,
-        "expanded": None if expanded is None else writer.deviation_unit.from_si(expanded),
+        "expanded": None if expanded is None else unit.from_si(expanded),
     }
 
 

@@ -26,7 +26,8 @@ from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.web.bench import PLACE
 from zlmreport.web.blocks import list_all_sections
-from zlmreport.web.commands import ShortText, list_siblings
+from zlmreport.web.changes import ShortText
+from zlmreport.web.commands import list_siblings
 from zlmreport.web.machine_bench import LoadedMachine, MachineBench
 from zlmreport.web.naming import Naming
 

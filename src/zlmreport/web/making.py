@@ -20,6 +20,8 @@ from typing import Any
 
 import pypdfium2
 
+from zlmreport.errors import Place, Problem
+
 #: Pixels for each point of the page: 108 to the inch, for a screen.
 _SCALE = 1.5
 #: The library behind is not made for several threads.
@@ -55,9 +57,15 @@ def make_documents(output: str, complaints: str) -> CommandResult:
         job, *sheets = json.loads(output)["jobs"]
     except (ValueError, KeyError, TypeError):
         return CommandResult(problems=_list_lines(complaints))
-    problems = (f"{each['file']}:{each['line']}: {each['message']}" for each in job["problems"])
+    problems = map(_write_problem, job["problems"])
     sheet = next((Path(name) for each in sheets for name in each["files"] if name.endswith(_PDF)), None)
     return CommandResult(tuple(map(Path, job["files"])), tuple(problems), sheet=sheet)
+
+
+def _write_problem(problem: dict[str, Any]) -> str:
+    """Return a mistake of a summary as a terminal has it: not every mistake has a line."""
+    place = Place(problem["file"], problem["line"] or 0, problem["column"] or 0)
+    return str(Problem(place, problem["message"]))
 
 
 def make_values(output: str, complaints: str) -> CommandResult:

@@ -12,6 +12,7 @@ from zlmreport import pipeline
 from zlmreport.document.blocks import Facts
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
+from zlmreport.document.certificate.values import limit
 from zlmreport.document.subjects.fit import (
     FLOOR,
     LEFT_OUT,
@@ -26,6 +27,7 @@ from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.study import Fitted, correct_by_model
 from zlmreport.model.effects.design import Design
@@ -181,20 +183,28 @@ class Panels:
         return write_deviation(value, self.design.axis, self.language)
 
     def _make_row(self, parameter: EvaluatedParameter, forecast: Any) -> dict[str, Any]:
-        writer, quantity = self.writer, parameter.quantity
-        value, uncertainty = write_with_uncertainty(parameter, writer)
+        quantity, decision = parameter.quantity, parameter.decision
+        writer = self.writer.of_quantity(quantity)
+        value, uncertainty = write_with_uncertainty(parameter, self.writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)
-        decision = parameter.decision
+
+        def written(number: str) -> str:
+            """Return a number with its unit, where that is another than the panel says."""
+            is_usual = writer.deviation_unit == self.writer.deviation_unit
+            return (
+                number if is_usual or number == NOTHING else with_unit(number, writer.deviation_unit.symbol)
+            )
+
         return {
             "symbol": split_symbol(quantity.notation),
             "name": self.say(quantity.name),
-            "value": value,
-            "uncertainty": "" if uncertainty == NOTHING else uncertainty,
-            "limit": NOTHING if parameter.limit is None else writer.deviation(parameter.limit),
+            "value": written(value),
+            "uncertainty": "" if uncertainty == NOTHING else written(uncertainty),
+            "limit": written(limit(parameter, self.writer)),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
-            "by_table": writer.deviation(by_table),
-            "by_model": writer.deviation(by_model),
+            "by_table": written(writer.deviation(by_table)),
+            "by_model": written(writer.deviation(by_model)),
         }
 
 

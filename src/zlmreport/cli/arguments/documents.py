@@ -12,6 +12,7 @@ from zlmreport.cli.arguments.parser import (
     JSON_HELP,
     CommandParser,
     add_jobs,
+    read_number,
     read_point,
     read_port,
     read_position,
@@ -50,6 +51,13 @@ MACHINE_ACTIONS = {
     "compensate": "tables across axes for a control (straightness, squareness), with their forecast",
     "add": "write an effect into the machine file, and show the error before and after",
     "remove": "take an effect out of the machine file, and show the same",
+}
+#: To which actions an option belongs.
+_OPTIONS_OF_MACHINE = {
+    **dict.fromkeys(("controller", "moves", "confirm", "trial", "step"), ("compensate",)),
+    "output": ("certificate", "compensate"),
+    "format": ("certificate",),
+    "dry_run": ("build",),
 }
 _MOST_WORKERS = 1024
 
@@ -332,7 +340,7 @@ def machine(command: str) -> CommandParser:
     parser.add_argument(
         "--step",
         metavar="MM",
-        type=read_position,
+        type=read_number,
         help="of compensate: between rows; as measured without it",
     )
     parser.add_flag("--dry-run", "of build: write nothing")
@@ -341,7 +349,7 @@ def machine(command: str) -> CommandParser:
 
 
 def demand_machine_action(options: argparse.Namespace, parser: CommandParser) -> None:
-    """Refuse an action that there is not."""
+    """Refuse an action that there is not, and what does not belong to it."""
     if options.action not in MACHINE_ACTIONS:
         parser.error(
             f"unknown action {options.action!r}; {did_you_mean(options.action, list(MACHINE_ACTIONS))}"
@@ -351,11 +359,13 @@ def demand_machine_action(options: argparse.Namespace, parser: CommandParser) ->
         parser.error(f"{options.action} needs the name of an effect, such as servo-mismatch")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
-    named = ("controller", "moves", "confirm", "trial", "step")
-    if options.action != "compensate" and (given := [each for each in named if getattr(options, each)]):
-        parser.error(f"--{given[0]} belongs to compensate, not to {options.action}")
-    if options.dry_run and options.action != "build":
-        parser.error(f"--dry-run belongs to build, not to {options.action}")
+    for name, actions in _OPTIONS_OF_MACHINE.items():
+        given = getattr(options, name)
+        if given is not None and given is not False and options.action not in actions:
+            belongs = " and ".join(actions)
+            parser.error(f"--{name.replace('_', '-')} belongs to {belongs}, not to {options.action}")
+    if options.trial and options.confirm:
+        parser.error("--trial writes one value, --confirm holds circles against tables: take one of them")
 
 
 def surface(command: str) -> CommandParser:

@@ -10,8 +10,8 @@ from zlmreport.cli.arguments.parser import (
     add_jobs,
     read_course,
     read_fault,
+    read_number,
     read_port,
-    read_position,
     read_setting,
 )
 
@@ -92,7 +92,7 @@ def compensate(command: str) -> CommandParser:
     parser.add_argument(
         "--step",
         metavar="S",
-        type=read_position,
+        type=read_number,
         help="distance of the rows, mm or degrees; without it a rule says where they are, and why",
     )
     parser.add_argument(
@@ -146,7 +146,7 @@ def emulate(command: str) -> CommandParser:
     parser.add_argument(
         "--dwell",
         metavar="S",
-        type=read_position,
+        type=read_number,
         default=5.0,
         help="how long the axis rests at each position, s; 5 without it",
     )
@@ -199,7 +199,7 @@ def simulate(command: str) -> CommandParser:
     parser.add_argument(
         "--start",
         metavar="S",
-        type=read_position,
+        type=read_number,
         default=10.0,
         help="with --emulate: how long the axis rests once somebody reads the port, s; 10 without it",
     )

@@ -120,13 +120,22 @@ def read_port(text: str) -> int:
 
 def read_position(text: str) -> float:
     """Read a position."""
+    return _read_finite(text, "position; write a number, such as 250")
+
+
+def read_number(text: str) -> float:
+    """Read a distance or a time."""
+    return _read_finite(text, "number; write one, such as 5")
+
+
+def _read_finite(text: str, wanted: str) -> float:
     try:
-        position = float(text)
+        number = float(text)
     except ValueError:
-        position = math.nan
-    if not math.isfinite(position):
-        raise argparse.ArgumentTypeError(f"{text!r} is no position; write a number, such as 250")
-    return position
+        number = math.nan
+    if not math.isfinite(number):
+        raise argparse.ArgumentTypeError(f"{text!r} is no {wanted}")
+    return number
 
 
 def read_point(text: str) -> tuple[float, float]:

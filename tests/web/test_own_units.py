@@ -1,0 +1,56 @@
+"""A quantity in a unit of its own, such as the slope of a straightness test, is shown in that unit."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from web.jobs import registry
+from zlmreport.language import Language
+from zlmreport.web.bench import Bench
+from zlmreport.web.comparison import ComparedTests
+from zlmreport.web.view import make_results
+
+_JOB = """schema: zlmreport/job/1
+certificate: {number: S-1, kind: report}
+machine: {model: MT 500}
+axis: {name: Y, travel: [0, 400]}
+measurement: {date: 2026-01-02, error: EXY, source: {plugin: laser-csv, file: straight.csv}}
+evaluate: [{standard: "iso230-1:2012", tolerances: {EXY: 2.125}}]
+model: {effects: [offset]}
+"""
+#: µm/m.
+_SLOPE = 12.0
+
+
+@pytest.fixture
+def straight(tmp_path: Path) -> Bench:
+    rows = [
+        f"{target},{direction},{run},{_SLOPE * target / 1000 + 0.3 * (run - 2):.1f}"
+        for run in (1, 2, 3)
+        for direction in "+-"
+        for target in range(0, 401, 50)[:: 1 if direction == "+" else -1]
+    ]
+    (tmp_path / "straight.csv").write_text("\n".join(["target,direction,run,deviation", *rows]) + "\n")
+    for name in ("job.yaml", "second.yaml"):
+        (tmp_path / name).write_text(_JOB)
+    return Bench(tmp_path / "job.yaml", registry())
+
+
+def test_of_the_standards_panel(straight: Bench) -> None:
+    (standard,) = make_results(straight, straight.load(), Language.GERMAN)["standards"]
+    slope = standard["rows"][-1]
+    assert standard["unit"] == "µm"
+    assert (slope["value"], slope["limit"]) == ("12,00 µm/m", "–")
+    assert [each["limit"] for each in standard["rows"]][:2] == ["2,125", "–"]  # as the job states it
+    assert not any(each["value"].endswith("m") for each in standard["rows"][:-1])
+
+
+def test_of_compared_tests(straight: Bench) -> None:
+    second = Bench(straight.path.with_name("second.yaml"), registry())
+    (standard,) = ComparedTests.of(straight, [second]).list_values(Language.ENGLISH)["standards"]
+    for cell in standard["rows"][-1]["cells"]:
+        assert (cell["value"], cell["unit"]) == ("12.00", "µm/m")
+        assert cell["number"] == pytest.approx(_SLOPE)
+    assert {cell["unit"] for row in standard["rows"][:-1] for cell in row["cells"]} == {""}
