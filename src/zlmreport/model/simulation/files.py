@@ -88,8 +88,8 @@ def _read_targets(file: SimulationFile) -> FloatArray:
         )
     except ValueError as error:
         raise InputError.at(file.place_of("targets", "count"), f"targets.count: {error}") from error
-    # as they can be typed into a part program, and never beyond an end
-    typed = np.floor(drawn * 10**POSITION_DIGITS) / 10**POSITION_DIGITS
+    # as they can be typed into a part program, and never beyond an end; 208.8 may come as 208.79999999999998
+    typed = np.floor(np.round(drawn * 10**POSITION_DIGITS, 6)) / 10**POSITION_DIGITS
     return read_only_floats(unit.to_si(np.maximum(typed, keys.axis.travel[0])))
 
 
