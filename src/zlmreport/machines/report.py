@@ -47,7 +47,7 @@ def collect_errors(machine: Machine) -> list[dict[str, Any]]:
                 "range": None if curve.is_single else (curve.nodes[[0, -1]] * _MILLI).tolist(),
                 "at": {axis: place * _MILLI for axis, place in curve.line.others.items()},
                 "tool": [place * _MILLI for place in curve.line.tool],
-                "source": curve.source,
+                "source": curve.source or "stated",
             }
         )
     return found
