@@ -85,3 +85,13 @@ def test_an_error_that_is_stated_twice_is_named_by_what_it_is(run):
     twice = MACHINE + "  - {EXX: {0: 0, 300: 1}, expanded_uncertainty: 0.6}\n"
     code, said = run(twice, "predict")
     assert (code, said) == (2, "machine.yaml:7:5: EXX was named already, by a stated value; name it once")
+
+
+def test_an_arc_in_which_no_axis_turns_says_nothing_of_play(folder, capsys):
+    head, *rows = (folder / "circle-xy.csv").read_text("utf-8").splitlines()[1:]
+    (folder / "circle-xy.csv").write_text("\n".join([head, *rows[:40]]), encoding="utf-8")
+    assert main(["machine", "diagnose", str(folder / "machine.yaml"), "--json"]) == 0
+    values = json.loads(capsys.readouterr().out)
+    assert values["verdict"] == "adequate"
+    assert 0 < values["p_value"] <= 1
+    assert {"circle-backlash", "lateral-play"}.isdisjoint(each["effect"] for each in values["beside"])

@@ -86,14 +86,15 @@ class Absent:
 def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[Absent]:
     """Return what effects that are asked for and not in a model would be beside it.
 
-    A value beyond its U is not told: of it nobody can say that it is not there.
+    A value beyond its U is not told: of it nobody can say that it is not there. Nor is one whose U is beyond
+    all that physics allows: an arc in which no axis turns says nothing of play.
     """
     found = []
     for effect in catalogue:
         form = make_plain_form(effect, study.design)
         if effect.is_asked_for and effect.identifier not in study.names and form.terms:
             estimates = add_form(study, effect, form).list_estimates_of(effect.identifier)
-            terms = tuple(each for each in estimates if each.term is not None and _is_within_u(each))
+            terms = tuple(each for each in estimates if _is_within_u(each))
             if not terms:
                 continue
             found.append(Absent(effect.identifier, terms, tuple(effect.absence(list_said_estimates(terms)))))
@@ -101,7 +102,10 @@ def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[A
 
 
 def _is_within_u(found: EstimatedTerm) -> bool:
-    return found.expanded_uncertainty is not None and abs(found.value) <= found.expanded_uncertainty
+    term, u = found.term, found.expanded_uncertainty
+    if term is None or u is None:
+        return False
+    return abs(found.value) <= u <= max(abs(term.low), abs(term.high))
 
 
 def list_findings(study: CircleStudy) -> list[Words]:
