@@ -167,6 +167,7 @@ def test_rows_stand_where_the_step_has_them(controls, step):
         (["--trial", "--step", "300"], "two rows have no middle for a trial value"),
         (["--trial", "--step", "501"], "the step is longer than the measured length"),
         (["--moves", "plus", "--step", "501"], "the step is longer than the measured length"),
+        (["--moves", "plus", "--step", "0.0001"], "the step makes more than 10000 rows"),
     ],
 )
 def test_a_step_that_leaves_no_rows_is_refused_and_nothing_is_written(

@@ -121,7 +121,7 @@ def _make_tables(job: Job, registry: Registry, options: Namespace) -> tuple[Made
         _COMMAND,
         controller,
         own,
-        step=job.axis.position_unit.to_si(options.step) if options.step else None,
+        step=job.axis.position_unit.to_si(options.step) if options.step is not None else None,
         budget=budget if isinstance(budget, Budget) else None,
     )
     return made, measurements

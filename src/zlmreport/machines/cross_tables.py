@@ -30,12 +30,13 @@ from zlmreport.machines.volume import (
 )
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.making import count_steps
 from zlmreport.model.effects.circle_design import AXES
 from zlmreport.plugin.registry import Registry
 
 #: Fewest rows of a table.
 _ROWS = 11
-_STEP_DIGITS, _ROUNDING = 9, 1e-9
+_STEP_DIGITS = 9
 #: What a double makes of a straight line by rounding, m.
 _NOTHING = 1e-12
 
@@ -54,8 +55,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
 
     `step`: Between rows, m; without it that of the measured positions.
 
-    Raises `InputError` at `place` if no error is known that a table could hold, or if the step is longer than
-    what was measured.
+    Raises `InputError` at `place` if no error is known that a table could hold, or the step is none for it.
     """
     tables: list[CrossTable] = []
     taken: list[str] = []
@@ -108,9 +108,7 @@ def _make_rows(stretch: tuple[float, float, float], step: float | None, place: P
         count *= max(1, -(-(_ROWS - 1) // count))
         step = (high - low) / count
     else:
-        count = int((high - low) / step + _ROUNDING)
-    if count < 1:
-        raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
+        count = count_steps(high - low, step, place)
     return np.asarray(np.round(low + step * np.arange(count + 1), _STEP_DIGITS), dtype=np.float64)
 
 

@@ -209,6 +209,14 @@ def test_a_table_that_csv_wrote_was_active_in_both_directions(folder: Path) -> N
             "raise magnification (3623)",
         ),
         (", compensation_table: none", ["--controller", "csv", "--confirm"], "--confirm takes two jobs"),
+        (", compensation_table: none", ["--controller", "csv", "--step", "0"], "the step is not more than 0"),
+        (
+            ", compensation_table: none",
+            ["--controller", "csv", "--step", "-5"],
+            "the step is not more than 0",
+        ),
+        (", compensation_table: none", ["--controller", "csv", "--step", "1e-5"], "more than 10000 rows"),
+        (", compensation_table: none", ["--controller", "csv", "--step", "1e5"], "the step is longer than"),
     ],
 )
 def test_a_mistake_ends_with_2_and_writes_nothing(
