@@ -16,7 +16,7 @@ from zlmreport.cli import main
 from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv
-from zlmreport_plugins.standards import iso230_2
+from zlmreport_plugins.standards import iso230_1, iso230_2
 
 TARGETS = tuple(range(0, 501, 50))
 LINES = (100, 200, 300, 400)
@@ -26,6 +26,7 @@ BOW = (0.02, -3e-5, 0.01, 2e-5)
 
 _SHARED = """\
 certificate: {kind: report}
+machine: {serial: EXAMPLE}
 axis: {name: X, travel: [0, 500]}
 instrument: {name: Laser interferometer, expanded_uncertainty: 0.4}
 evaluate: [iso230-2:2014]
@@ -88,7 +89,8 @@ class Bench:
 
 @pytest.fixture
 def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Bench:
-    registry = collect((Plugin(module.__name__), module) for module in (laser_csv, iso230_2, json_results))
+    modules = (laser_csv, iso230_1, iso230_2, json_results)
+    registry = collect((Plugin(module.__name__), module) for module in modules)
     monkeypatch.setattr("zlmreport.cli.surface.find_plugins", lambda **_: registry)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "shared.yaml").write_text(_SHARED, encoding="utf-8")
@@ -159,7 +161,25 @@ def test_without_points_a_table_covers_the_plane(bench: Bench) -> None:
         (
             [("measurement:", "axis: {name: W}\nmeasurement:")],
             "200.yaml:4:",
-            "of axis W, the first one of axis X",
+            "of axis W (linear), the first one of axis X (linear)",
+        ),
+        (
+            [("measurement:", "axis: {kind: rotary}\nmeasurement:")],
+            "shared.yaml:3:",
+            "of axis X (rotary), the first one of axis X (linear)",
+        ),
+        (
+            [
+                ("measurement:", 'evaluate: ["iso230-1:2012"]\nmeasurement:'),
+                ("  plane:", "  error: EYX\n  plane:"),
+            ],
+            "200.yaml:7:",
+            "of error EYX, the first one of error EXX",
+        ),
+        (
+            [("measurement:", "machine: {serial: OTHER}\nmeasurement:")],
+            "200.yaml:4:",
+            "of machine OTHER, the first one of machine EXAMPLE",
         ),
         (
             [("measurement:", "instrument: {expanded_uncertainty: 0.9}\nmeasurement:")],

@@ -28,7 +28,6 @@ NAMES = {
     ("name", "symbol"),
     [
         ("EYX", "EYX"),
-        ("c0y-square", "C0Y"),
         ("X-Achse_Positionierung", "EXX"),
         ("y-straightness-z", "EZY"),
         ("z straightness in x", "EXZ"),
@@ -49,6 +48,7 @@ def test_the_name_of_a_file_says_which_error_it_holds(name: str, symbol: str) ->
         ("x-straightness", "EYX or EZX"),
         ("z-pitch", "EAZ or EBZ"),
         ("measurement-17", "which axis moved"),
+        ("c0y-square", "which line of C0Y it is: EYX or EXY"),
     ],
 )
 def test_what_a_name_leaves_open_is_asked(name: str, doubt: str) -> None:
@@ -157,6 +157,28 @@ def test_one_job_makes_one_document_of_all_that_was_measured(
     job = load(tmp_path / "mill" / "document.yaml", find_plugins())
     assert {*job.measurements} == {"EXX", "EYY", "EZZ", "EXY", "ballbar-XY-R150-F1000-ccw", "diagonals"}
     assert job.measurements["diagonals"].axis.measurand.identifier == "diagonals"
+
+
+def test_jobs_that_are_begun_are_sound_whatever_their_files_are_called(
+    readings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for path in readings.iterdir():
+        if path.name not in [NAMES[f"{axis}-positioning.csv"] for axis in "xyz"]:
+            path.unlink()
+    names = ["_Gerät X Ä.csv", "测量 y.csv", f"z{'z' * 150} Z.csv", "squareness-C0Y.csv"]
+    for path, name in zip(sorted(readings.iterdir()), names, strict=False):
+        path.rename(readings / name)
+    (readings / names[3]).write_bytes((readings / names[0]).read_bytes())
+    mill = tmp_path / "mill"
+    assert main(["init", str(mill), "--machine", str(readings)]) == 0
+    assert "squareness-C0Y.csv: not known: which line of C0Y it is: EYX or EXY" in capsys.readouterr().out
+    jobs = [path for path in mill.glob("*.yaml") if path.stem not in {"machine", "shared", "document"}]
+    assert {"Gerat-X-A", "y"} < {path.stem for path in jobs}
+    assert len(jobs) == len(names)
+    for path in (
+        each for each in jobs if not each.stem.startswith("squareness")
+    ):  # that one is to be filled in
+        assert load(path, find_plugins()).keys.certificate.number == path.stem
 
 
 def test_nothing_is_written_over_and_a_file_of_no_table_is_told(

@@ -152,6 +152,68 @@ def test_what_a_control_cannot_take_is_said_by_its_name(folder, capsys, control,
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("step", [30, 25, 400])
+def test_rows_stand_where_the_step_has_them(controls, step):
+    machine = bare_machine([curve("EYX", BOW)])
+    (table,) = plan_tables(machine, PLACE, step / 1e3).tables
+    assert table.positions * 1e3 == pytest.approx(np.arange(0, 401, step))
+    (text,) = controls.controller("siemens-840d-cec", PLACE).cross_files([table], 1).values()
+    assert f"$AN_CEC_STEP[0]={step:.6f}" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--trial", "--step", "300"], "two rows have no middle for a trial value"),
+        (["--trial", "--step", "501"], "the step is longer than the measured length"),
+        (["--moves", "plus", "--step", "501"], "the step is longer than the measured length"),
+        (["--moves", "plus", "--step", "0.0001"], "the step makes more than 10000 rows"),
+    ],
+)
+def test_a_step_that_leaves_no_rows_is_refused_and_nothing_is_written(
+    folder, tmp_path, capsys, arguments, said
+):
+    path, out = folder / "machine.yaml", tmp_path / "out"
+    command = ["machine", "compensate", str(path), "--controller", "siemens-840d-cec", "-o", str(out)]
+    assert main([*command, *arguments]) == 2
+    assert said in capsys.readouterr().err
+    assert not out.exists()
+
+
+STATED = """\
+schema: zlmreport/machine/1
+chain: XYFZ
+errors:
+  - {EYX: {0: 0, 250: 9, 500: 0}, expanded_uncertainty: 0.5}
+  - {EYY: {0: 0, 400: 2}, expanded_uncertainty: 0.5}
+  - {C0Y: 25, expanded_uncertainty: 0.6}
+"""
+
+
+def test_what_linuxcnc_holds_is_squareness_alone_and_its_sign_needs_no_trial(tmp_path, capsys):
+    path = tmp_path / "machine.yaml"
+    path.write_text(STATED, encoding="utf-8")
+    command = ["machine", "compensate", str(path), "--controller"]
+    assert main([*command, "siemens-840d-cec", "--moves", "plus"]) == 0
+    assert "They hold EYX, C0Y." in capsys.readouterr().out
+    assert main([*command, "linuxcnc"]) == 0
+    assert "They hold C0Y." in capsys.readouterr().out
+    assert values(capsys, *command, "linuxcnc")["taken"] == ["C0Y"]
+    assert main([*command, "linuxcnc", "--trial"]) == 2
+    assert "the sign of linuxcnc is known; no trial is needed" in capsys.readouterr().err
+
+
+def test_a_table_ends_where_its_own_axis_was_measured(tmp_path, capsys):
+    path = tmp_path / "machine.yaml"
+    apart = "  - {EXX: {600: 0, 900: 2}, expanded_uncertainty: 0.5}\n"
+    path.write_text(STATED + apart, encoding="utf-8")
+    assert main(["machine", "compensate", str(path), "--controller", "linuxcnc"]) == 0
+    path.write_text(STATED + apart.replace("EXX", "EXY"), encoding="utf-8")
+    assert main(["machine", "compensate", str(path), "--controller", "linuxcnc"]) == 2
+    said = "the ranges over which the errors of Y were measured do not overlap, so no table over Y has an end"
+    assert said in capsys.readouterr().err
+
+
 def test_a_key_of_compensate_belongs_to_no_other_action(folder, capsys):
     assert main(["machine", "predict", str(folder / "machine.yaml"), "--moves", "plus"]) == 2
     assert "--moves belongs to compensate, not to predict" in capsys.readouterr().err

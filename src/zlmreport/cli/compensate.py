@@ -121,7 +121,7 @@ def _make_tables(job: Job, registry: Registry, options: Namespace) -> tuple[Made
         _COMMAND,
         controller,
         own,
-        step=job.axis.position_unit.to_si(options.step) if options.step else None,
+        step=job.axis.position_unit.to_si(options.step) if options.step is not None else None,
         budget=budget if isinstance(budget, Budget) else None,
     )
     return made, measurements
@@ -172,7 +172,7 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
-    found = confirm(made.basis, curve, made.decoded, after.source.place)
+    found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)
     shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve)
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:

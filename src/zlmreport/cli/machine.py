@@ -19,12 +19,11 @@ from zlmreport.machines.diagnosis_report import build_values, change_values, col
 from zlmreport.machines.document import make_machine_document
 from zlmreport.machines.editing import edit_effects, list_effects_with, list_effects_without
 from zlmreport.machines.planning import plan_next_run, plan_values
-from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
-from zlmreport.machines.report import collect_errors
+from zlmreport.machines.report import collect_errors, collect_prediction
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
-from zlmreport.machines.subjects.plan import plan_section
+from zlmreport.machines.subjects.plan import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.pipeline import name_files
@@ -101,7 +100,7 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
 
 def _plan(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
     found = plan_next_run(diagnose(machine.make_study(), machine.catalogue), machine.catalogue)
-    return _lay_out(machine, [plan_section(found, _SAY)]), plan_values(found)
+    return _lay_out(machine, [lay_out_plan(found, _SAY)]), plan_values(found)
 
 
 def _write_certificate(
@@ -164,7 +163,7 @@ def _change_effects(
     ]
     edit_effects(machine, tuple(each.identifier for each in effects))
     sections = [
-        findings.change_section(before, after, _SAY),
+        findings.lay_out_change(before, after, _SAY),
         *(
             Section("sizes", title, (tests.lay_out_sizes(each, _SAY, after.noise_of_readings),))
             for title, each in zip(("Tests before", "Tests after"), compared, strict=True)

@@ -44,17 +44,19 @@ LARGEST = 256 * 1024 * 1024
 #: Opens a PDF: the results file that it carries, or None if it carries none.
 Opened = Callable[[Path], bytes | None]
 
-#: What of the places of other axes the model of three linear ones knows.
-_PLACES = frozenset({"X", "Y", "Z", "tool"})
 #: Axes that run beside X, Y and Z.
 _BESIDE = {"U": "X", "V": "Y", "W": "Z"}
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
-def find_line_of(at: ErrorLineKeys | None) -> ErrorLine:
+class _Line(ErrorLineKeys):
+    """Where the others stood, as jobs and certificates say it: the model knows nothing of rotary axes."""
+
+    model_config = ConfigDict(extra="ignore")
+
+
+def _find_line(at: ErrorLineKeys) -> ErrorLine:
     """Return where an error was measured."""
-    if at is None:
-        return ErrorLine({})
     places = {"X": at.X, "Y": at.Y, "Z": at.Z}
     others = {axis: MILLIMETRE.to_si(place) for axis, place in places.items() if place is not None}
     tool = at.tool or (0.0, 0.0, 0.0)
@@ -79,8 +81,7 @@ def find_error_of(job: Job) -> str:
 
 def find_line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
-    at = job.keys.measurement.at
-    return find_line_of(ErrorLineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
+    return _find_line(_Line.model_validate(job.keys.measurement.at))
 
 
 def _say_meant(name: str) -> str:
@@ -203,7 +204,7 @@ class _Uncertainty(_Lenient):
 class _Measurements(_Lenient):
     axis: str
     error: str | None = None
-    at: dict[str, Any] | None = None
+    at: _Line | None = None
 
 
 class _Certificate(_Lenient):
@@ -241,10 +242,11 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
     name = found.measurements.error or f"E{found.measurements.axis}{found.measurements.axis}"
     if name not in ERRORS:
         raise InputError.at(
-            place, f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes"
+            place,
+            f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes; {_say_meant(name)}",
         )
     unit = find_unit_of(name)
-    line = find_line_of(ErrorLineKeys.model_validate(found.measurements.at or {}))
+    line = _find_line(found.measurements.at or _Line())
     own = next((each for of in found.evaluations for each in of.parameters if each.symbol == name), None)
     if name in SQUARENESS:
         if own is None or own.expanded_uncertainty is None:
@@ -307,9 +309,9 @@ def read_curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Prob
 def _read_stated(
     name: str, value: Any, stated: StatedKeys, problems: list[Problem], node: Any
 ) -> AxisErrorCurve | None:
-    unit, line = find_unit_of(name), find_line_of(stated.at)
+    unit, line = find_unit_of(name), _find_line(stated.at)
     u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
-    source = stated.source or "stated"
+    source = stated.source or ""
     if name in SQUARENESS:
         number = _read_number(value)
         if number is None:

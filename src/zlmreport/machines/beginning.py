@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import re
 import textwrap
+import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +22,7 @@ from zlmreport.machines.file_names import (
     find_diagonal_by_name,
     find_error_by_name,
 )
-from zlmreport.machines.kinematics import ERRORS
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.measurand import ANGLE, POSITIONING
 from zlmreport.plugin.registry import Registry
@@ -33,8 +34,8 @@ _SHARED, _MACHINE, _DOCUMENT = "shared.yaml", "machine.yaml", "document.yaml"
 _OF_POSITIONS, _OF_LINES, _OF_CIRCLES = "iso230-2:2014", "iso230-1:2012", "iso230-4:2005"
 _OF_DIAGONALS = "iso230-6:2002"
 _OF_POSITION = ("EXX", "EYY", "EZZ")
-#: Of a job's name: what stands in the names of files everywhere.
-_PLAIN = re.compile(r"[^\w.-]+")
+#: What is no part of a job's name, which is its certificate's number, too; and how long that may be.
+_NOT_PLAIN, _LONGEST = re.compile(r"[^A-Za-z0-9._-]+"), 80
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +118,8 @@ def _list_files(files: Iterable[Path]) -> list[Path]:
 
 def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[BegunJob]) -> BegunJob:
     taken = {"machine", "shared", "document", "diagonals", *(each.stem for each in others)}
-    plain = _PLAIN.sub("-", file.stem).strip("-.") or "readings"
+    taken |= {f"squareness-{symbol}" for symbol in SQUARENESS}
+    plain = _write_plain(file.stem)
     stem = next(
         name for name in (plain, *(f"{plain}-{number}" for number in range(2, 1000))) if name not in taken
     )
@@ -143,6 +145,12 @@ def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[Beg
     lines += [*source, f'evaluate: ["{_choose_standard_of(named.symbol)}"]', _INSTRUMENT]
     own = _write_source(looked, file, directory)
     return BegunJob(file, stem, _join(lines), named.symbol, doubt, source=own, travel=_write_travel(looked))
+
+
+def _write_plain(name: str) -> str:
+    """Return a name as a job has it: letters without their marks, nothing else that a number may not have."""
+    letters = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+    return _NOT_PLAIN.sub("-", letters).strip("-._")[:_LONGEST] or "readings"
 
 
 def _choose_standard_of(symbol: str) -> str:
@@ -198,9 +206,9 @@ def _begin_squareness(jobs: Sequence[BegunJob]) -> list[tuple[str, str]]:
     """Return a job for each pair of straightness lines that one square may have been measured by."""
     by_error = {each.error: each for each in jobs if each.error and not each.doubt}
     found = []
-    for symbol in ("C0Y", "B0Z", "A0Z"):
+    for symbol in SQUARENESS:
         lines = find_error_named(symbol).lines
-        if symbol in by_error or not all(each in by_error for each in lines):
+        if not all(each in by_error for each in lines):
             continue
         tests = [
             f"    {each[2].lower()}: {{error: {each}, source: {by_error[each].source}}}" for each in lines

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -39,10 +40,8 @@ def study_circles(
     for effect in sorted(listed, key=lambda each: bool(each.searched)):
         study = add_effect(study, effect)
     order = [each.identifier for each in listed]
-    return CircleStudy(
-        study.design, study.deviation, study.predicted, study.factor, study.shared,
-        tuple(sorted(study.effects, key=lambda each: order.index(each.effect.identifier))),
-    )  # fmt: skip
+    stated = sorted(study.effects, key=lambda each: order.index(each.effect.identifier))
+    return replace(study, effects=tuple(stated))
 
 
 def add_effect(study: CircleStudy, effect: CircleEffect, form: CircleForm | None = None) -> CircleStudy:

@@ -11,13 +11,14 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document
-from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, plan_tables
+from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, is_held, plan_tables
 from zlmreport.machines.reading import MachineFile
 from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: Height of a trial value, m: an indicator shows it, and no axis is hurt by it.
 PEAK = 10e-6
+_FEWEST_ROWS = 3
 _MOVES = {"plus": 1, "minus": -1}
 
 
@@ -75,6 +76,11 @@ class CrossMade:
     decoded: tuple[CrossTable, ...]
     forecast: CrossForecast
 
+    @property
+    def held(self) -> tuple[str, ...]:
+        """The errors that the control takes away: of those planned it may hold squareness alone."""
+        return tuple(name for name in self.plan.taken if any(is_held(name, each) for each in self.decoded))
+
 
 def make_cross(machine: MachineFile, registry: Registry, wanted: CrossWanted) -> CrossMade:
     """Return the tables of a machine for a control.
@@ -100,9 +106,18 @@ def make_cross(machine: MachineFile, registry: Registry, wanted: CrossWanted) ->
 def make_trial(
     machine: MachineFile, registry: Registry, wanted: CrossWanted
 ) -> tuple[Any, CrossTable, Mapping[str, str]]:
-    """Return a control, a table with nothing but a positive value in the middle, and its files."""
+    """Return a control, a table with nothing but a positive value in the middle, and its files.
+
+    Raises `InputError` as `make_cross` does, if the control's sign is known, or if the rows have no middle.
+    """
     control = choose_cross_control(registry, wanted)
+    if control.cross_sign == "known":
+        raise InputError.at(wanted.place, f"the sign of {control.identifier} is known; no trial is needed")
     table = plan_tables(machine.machine, wanted.place, wanted.step).tables[0]
+    if len(table.positions) < _FEWEST_ROWS:
+        raise InputError.at(
+            wanted.place, "two rows have no middle for a trial value; state a shorter step, or none"
+        )
     share = np.linspace(0.0, 1.0, len(table.positions))
     middle = share[len(share) // 2]
     trial = replace(table, values=-PEAK * np.minimum(share / middle, (1 - share) / (1 - middle)), slope=0.0)

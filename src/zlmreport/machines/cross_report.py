@@ -20,7 +20,7 @@ def collect_cross(made: CrossMade) -> dict[str, Any]:
         "schema": SCHEMA,
         "controller": made.control.identifier,
         "positive_value_moves": made.moves,
-        "taken": list(made.plan.taken),
+        "taken": list(made.held),
         "within_uncertainty": list(made.plan.within_uncertainty),
         "tables": [
             {

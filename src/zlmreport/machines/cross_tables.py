@@ -20,15 +20,25 @@ from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, find_square_slo
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import centre, compute_root_mean_square
-from zlmreport.machines.volume import Space, find_measured_space, map_volume, predict_diagonals
+from zlmreport.machines.volume import (
+    Space,
+    find_measured_range,
+    find_measured_space,
+    is_parted,
+    map_volume,
+    predict_diagonals,
+)
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.making import count_steps
 from zlmreport.model.effects.circle_design import AXES
 from zlmreport.plugin.registry import Registry
 
 #: Fewest rows of a table.
 _ROWS = 11
 _STEP_DIGITS = 9
+#: What a double makes of a straight line by rounding, m.
+_NOTHING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +55,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
 
     `step`: Between rows, m; without it that of the measured positions.
 
-    Raises `InputError` at `place` if no error is known that a table could hold.
+    Raises `InputError` at `place` if no error is known that a table could hold, or the step is none for it.
     """
     tables: list[CrossTable] = []
     taken: list[str] = []
@@ -57,7 +67,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
         if worth:
             taken += [each.name for each in worth]
             stretch = _find_stretch(machine, moving, worth, place)
-            tables.append(_make_table((moving, off), worth, _make_rows(stretch, step)))
+            tables.append(_make_table((moving, off), worth, _make_rows(stretch, step, place)))
     if not tables:
         raise InputError.at(
             place,
@@ -82,13 +92,24 @@ def _is_acting_across(error: str, moving: str, off: str) -> bool:
     return error == f"E{off}{moving}"
 
 
-def _make_rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray:
+def is_held(error: str, table: CrossTable) -> bool:
+    """Return whether a table holds an error; one that is a straight line holds squareness alone."""
+    if not _is_acting_across(error, table.input, table.output):
+        return False
+    line = table.slope * (table.positions - table.positions[0])
+    return bool(table.slope) if error in SQUARENESS else not np.allclose(table.values, line, 0.0, _NOTHING)
+
+
+def _make_rows(stretch: tuple[float, float, float], step: float | None, place: Place) -> FloatArray:
     """Return rows over a stretch, equally far apart: as stated, or at measured places and between them."""
     low, high, spacing = stretch
-    count = max(round((high - low) / (step or spacing)), 1)
     if step is None:
+        count = max(round((high - low) / spacing), 1)
         count *= max(1, -(-(_ROWS - 1) // count))
-    return np.asarray(np.round(np.linspace(low, high, count + 1), _STEP_DIGITS), dtype=np.float64)
+        step = (high - low) / count
+    else:
+        count = count_steps(high - low, step, place)
+    return np.asarray(np.round(low + step * np.arange(count + 1), _STEP_DIGITS), dtype=np.float64)
 
 
 def _make_table(axes: tuple[str, str], curves: Sequence[AxisErrorCurve], positions: FloatArray) -> CrossTable:
@@ -110,12 +131,14 @@ def _find_stretch(
     for each in curves:
         if not each.is_single:
             return float(each.nodes[0]), float(each.nodes[-1]), float(np.diff(each.nodes).min())
-    space, index = find_measured_space(machine), AXES.index(moving)
-    if space is None or not space.high[index] > space.low[index]:
-        raise InputError.at(
-            place, f"no error of {moving} was measured over a range, so no table over {moving} has an end"
+    low, high = find_measured_range(machine, moving)
+    if not high > low:
+        why = (
+            f"the ranges over which the errors of {moving} were measured do not overlap"
+            if is_parted(machine, moving)
+            else f"no error of {moving} was measured over a range"
         )
-    low, high = float(space.low[index]), float(space.high[index])
+        raise InputError.at(place, f"{why}, so no table over {moving} has an end")
     return low, high, (high - low) / (_ROWS - 1)
 
 

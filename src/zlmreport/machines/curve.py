@@ -39,7 +39,7 @@ class AxisErrorCurve:
     line
         Where it was measured.
     source
-        What it was taken from, as pages name it.
+        What it was taken from, as pages name it; empty of a value that is stated and no more.
     """
 
     name: str

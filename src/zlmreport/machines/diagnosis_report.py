@@ -11,7 +11,7 @@ from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, compute_rms_of
 from zlmreport.machines.report import collect_compared_sizes, collect_stretch
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
-from zlmreport.machines.subjects.findings import list_absent, list_findings, say_remedy, say_verdict
+from zlmreport.machines.subjects.findings import list_absent, list_findings, say_how_told, say_verdict
 from zlmreport.machines.subjects.tests import describe_stretch
 from zlmreport.model.diagnosis.diagnosis import Verdict
 
@@ -168,8 +168,7 @@ def collect_candidate(
     candidate: CircleCandidate, diagnosis: MachineDiagnosis, language: Language
 ) -> dict[str, Any]:
     """Return an effect that might be missing."""
-    by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
-    equals = [by_name[each] for each in candidate.indistinguishable_from]
+    equals = candidate.indistinguishable_from
     return {
         "effect": candidate.effect.identifier,
         "title": candidate.effect.title.in_language(language),
@@ -180,9 +179,7 @@ def collect_candidate(
         "plausible": candidate.is_plausible,
         "explains": candidate.effect.explains.in_language(language),
         "parameters": [collect_parameter(each) for each in candidate.estimates],
-        "indistinguishable_from": list(candidate.indistinguishable_from),
-        "discriminate_by": (
-            say_remedy(candidate.effect, equals[0], diagnosis.study).in_language(language) if equals else ""
-        ),
+        "indistinguishable_from": list(equals),
+        "discriminate_by": say_how_told(candidate, diagnosis).in_language(language) if equals else "",
         "unit": "um",
     }

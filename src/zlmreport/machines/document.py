@@ -31,8 +31,8 @@ from zlmreport.machines.comparison import ComparedTest, compare_circles, compare
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import collect_diagnosis
-from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile
+from zlmreport.machines.report import collect_prediction
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space, say_known
 from zlmreport.machines.subjects.cross_tables import lay_out_promised, say_promised
@@ -223,10 +223,10 @@ def _lay_out_sections(material: _Material, registry: Registry, say: Sayer) -> It
         steps = findings.lay_out_steps(diagnosis, say)
         if steps:
             yield steps
-    yield from _test_sections(material.by_axes, material.complete, say)
+    yield from _lay_out_tests(material.by_axes, material.complete, say)
 
 
-def _test_sections(
+def _lay_out_tests(
     by_axes: Sequence[ComparedTest], complete: Sequence[ComparedTest], say: Sayer
 ) -> Iterator[Section]:
     """Yield a section for each test, a circle beside the model's effects, too."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from zlmreport.machines.kinematics import ERRORS
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS
+from zlmreport.measurement.error_symbol import find_error_named
 
 _POSITIONING, _STRAIGHTNESS, _PITCH, _YAW, _ROLL = "positioning", "straightness", "pitch", "yaw", "roll"
 #: Words of file names by how they begin, English and German.
@@ -55,11 +56,14 @@ class NamedCircle:
 def find_error_by_name(name: str) -> NamedError:
     """Return which of the 21 errors a file holds, as its name says.
 
-    >>> find_error_by_name("X straightness vertical").symbol, find_error_by_name("C0Y").symbol
-    ('EZX', 'C0Y')
+    >>> find_error_by_name("X straightness vertical").symbol, find_error_by_name("C0Y").doubt
+    ('EZX', 'which line of C0Y it is: EYX or EXY')
     """
     parts = _split(name)
     stated = next((each for each in parts if each in ERRORS), None)
+    if stated in SQUARENESS:
+        one, other = find_error_named(stated).lines  # a file holds one of the lines that it follows from
+        return NamedError(one, f"which line of {stated} it is: {one} or {other}")
     if stated:
         return NamedError(stated, "")
     axes = [found[1] for each in parts if (found := _AXIS.fullmatch(each))]

@@ -12,6 +12,10 @@ from zlmreport.machines.design import ThinnedDesign
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_effect import CircleEffect, CircleTerm, Searched
 
+#: What one unit of a cause makes of the deviation where the readings hold nothing of it, but for doubles: a
+#: spike that has died away, where no axis turns in the measured arc.
+_NOTHING = 1e-12
+
 
 @dataclass(frozen=True, slots=True)
 class CircleForm:
@@ -41,7 +45,7 @@ def make_whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searc
     """Return an effect with all of its terms that a design can show."""
     terms = effect.terms(design.fine, searched)
     thin = (replace(each, column=design.thin(each.column)) for each in terms)
-    return CircleForm(searched, tuple(each for each in thin if np.any(each.column)))
+    return CircleForm(searched, tuple(each for each in thin if np.any(np.abs(each.column) > _NOTHING)))
 
 
 def make_form_at(

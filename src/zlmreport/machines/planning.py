@@ -99,11 +99,11 @@ def _list_options(study: CircleStudy) -> Iterator[tuple[CircularTest, Words, flo
         sense = -senses.pop()
         yield _run(last, senses=(sense,)), _OTHER_SENSE, _AGAIN + _estimate_minutes(last, 1)
     feeds = {round(each.nominal.feed, 9) for each in circles}
-    for factor, what in ((4.0, _FASTER), (0.25, _SLOWER)):
+    for factor in (4.0, 0.25):
         feed = last.nominal.feed * factor
         if feed <= _FASTEST and round(feed, 9) not in feeds and len(feeds) < 3:
             new = _run(last, feed=feed)
-            yield new, what.given(feed=round(feed * 60e3, 1)), _AGAIN + _estimate_minutes(new, 2)
+            yield new, _OTHER_FEED.given(feed=round(feed * 60e3, 1)), _AGAIN + _estimate_minutes(new, 2)
     used = {round(each.nominal.radius, 6) for each in circles}
     for bar in BARS:
         if bar not in used and 0.3 < bar / last.nominal.radius < 3.5:
@@ -238,8 +238,7 @@ def plan_values(found: NextRun, language: Language = Language.ENGLISH) -> dict[s
 
 
 _OTHER_SENSE = Words("the same circle in the other sense")
-_FASTER = Words("the same circle at {feed} mm/min, in both senses")
-_SLOWER = _FASTER
+_OTHER_FEED = Words("the same circle at {feed} mm/min, in both senses")
 _OTHER_BAR = Words("a bar of {radius} mm, in both senses")
 _OTHER_PLANE = Words("plane {plane}, in both senses")
 _REPEAT = Words("the same circle again, in both senses")

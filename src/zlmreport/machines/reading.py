@@ -208,11 +208,8 @@ def _read_curves(
             continue
         for each in curves:
             if each.name in found:
-                problems.append(
-                    Problem(
-                        place, f"{each.name} was named already, by {found[each.name].source}; name it once"
-                    )
-                )
+                first = found[each.name].source or "a stated value"
+                problems.append(Problem(place, f"{each.name} was named already, by {first}; name it once"))
             found.setdefault(each.name, each)
     return found, sources
 

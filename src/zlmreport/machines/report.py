@@ -1,8 +1,8 @@
-"""A machine and its tests as plain values for JSON: millimetres, degrees, micrometres, arc seconds."""
+"""What the axes of a machine predict, and its tests, as plain values: mm, degrees, µm, arc seconds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -12,11 +12,31 @@ from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import Machine, find_unit_of
 from zlmreport.machines.residual import Stretch
-from zlmreport.machines.volume import Diagonal, VolumeMap
+from zlmreport.machines.volume import (
+    Diagonal,
+    VolumeMap,
+    find_measured_space,
+    map_volume,
+    predict_diagonals,
+)
 from zlmreport.model.effects.circle_design import AXES
 
+SCHEMA = "zlmreport/prediction/1"
 _MICRO, _MILLI = 1e6, 1e3
 _SENSES = {1: "ccw", -1: "cw"}
+
+
+def collect_prediction(machine: Machine, compared: Iterable[ComparedTest]) -> dict[str, Any]:
+    """Return what the axes predict of each test, of the work space and of its diagonals."""
+    space = find_measured_space(machine)
+    return {
+        "schema": SCHEMA,
+        "chain": machine.chain.letters,
+        "errors": collect_errors(machine),
+        "tests": [collect_compared(each) for each in compared],
+        "volume": collect_volume(map_volume(machine, space)) if space else None,
+        "diagonals": [collect_diagonal(each) for each in predict_diagonals(machine, space)] if space else [],
+    }
 
 
 def collect_errors(machine: Machine) -> list[dict[str, Any]]:
@@ -47,7 +67,7 @@ def collect_errors(machine: Machine) -> list[dict[str, Any]]:
                 "range": None if curve.is_single else (curve.nodes[[0, -1]] * _MILLI).tolist(),
                 "at": {axis: place * _MILLI for axis, place in curve.line.others.items()},
                 "tool": [place * _MILLI for place in curve.line.tool],
-                "source": curve.source,
+                "source": curve.source or "stated",
             }
         )
     return found

@@ -74,20 +74,28 @@ class Diagonal:
 
 
 def find_measured_space(machine: Machine) -> Space | None:
-    """Return the box over which the errors of the axes were measured; None if no axis was.
-
-    An axis without a curve of its own stays at one place: 0, or where its line was.
-    """
-    low, high = np.zeros(3), np.zeros(3)
-    for index, axis in enumerate(AXES):
-        own = [each for each in machine.curves if each.axis == axis and not each.is_single]
-        if own:
-            low[index] = max(each.nodes[0] for each in own)
-            high[index] = min(each.nodes[-1] for each in own)
-        else:
-            places = [each.line.others[axis] for each in machine.curves if axis in each.line.others]
-            low[index] = high[index] = places[0] if places else 0.0
+    """Return the box over which the errors of the axes were measured; None if no axis was."""
+    low, high = np.array([find_measured_range(machine, axis) for axis in AXES]).T
     return Space(low, high) if np.any(high > low) and np.all(high >= low) else None
+
+
+def find_measured_range(machine: Machine, axis: str) -> tuple[float, float]:
+    """Return from where to where all errors of an axis were measured, m.
+
+    The end lies below the beginning where their ranges do not overlap. Where none was measured it is one
+    place: 0, or where the axis stood.
+    """
+    own = [each for each in machine.curves if each.axis == axis and not each.is_single]
+    if own:
+        return max(float(each.nodes[0]) for each in own), min(float(each.nodes[-1]) for each in own)
+    place = next((each.line.others[axis] for each in machine.curves if axis in each.line.others), 0.0)
+    return place, place
+
+
+def is_parted(machine: Machine, axis: str) -> bool:
+    """Return whether no place of an axis lies within the ranges of all its errors."""
+    low, high = find_measured_range(machine, axis)
+    return high < low
 
 
 def map_volume(machine: Machine, space: Space) -> VolumeMap:

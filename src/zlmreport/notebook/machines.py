@@ -16,8 +16,8 @@ from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, 
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, compute_rms_of, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
-from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
+from zlmreport.machines.report import collect_prediction
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.plugin.registry import Registry, find_plugins

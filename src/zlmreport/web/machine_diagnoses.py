@@ -21,10 +21,10 @@ from zlmreport.machines.planning import NextRun, plan_next_run
 from zlmreport.machines.subjects.findings import (
     lay_out_absence,
     lay_out_verdict,
-    say_remedy,
+    say_how_told,
     say_what_is_next,
 )
-from zlmreport.machines.subjects.plan import plan_section
+from zlmreport.machines.subjects.plan import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.plugin.registry import find_plugins
@@ -83,13 +83,12 @@ def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language
         ],
         "remarks": [],
         "stairs": list(_list_stairs(diagnosis.steps, names)),
-        "sections": list_all_sections([lay_out_absence(diagnosis, say), plan_section(planned, say)], names),
+        "sections": list_all_sections([lay_out_absence(diagnosis, say), lay_out_plan(planned, say)], names),
     }
 
 
 def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, names: Naming) -> dict[str, Any]:
     effect, say = candidate.effect, Sayer(names.language)
-    by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
     equals = candidate.indistinguishable_from
     return {
         "effect": effect.identifier,
@@ -106,7 +105,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
         "explains": say(effect.explains),
         "equals": list(equals),
         "equalNames": [names.name_in(each) for each in equals],
-        "tell": f"{say(say_remedy(effect, by_name[equals[0]], diagnosis.study))}." if equals else "",
+        "tell": f"{say(say_how_told(candidate, diagnosis))}." if equals else "",
         "remedy": "",
     }
 

@@ -12,6 +12,7 @@ import pytest
 from environments import ROOT
 from zlmreport.cli import main
 from zlmreport.errors import Place
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
@@ -65,9 +66,7 @@ def test_a_second_test_between_the_targets_is_held_against_all_that_is_known() -
 
     def curve(positions: FloatArray, left: float) -> ErrorCurve:
         forward, reverse = left * wave(positions)
-        return ErrorCurve(
-            positions, forward, reverse, np.full((2, len(positions)), 1e-8), 2, is_bidirectional=True
-        )
+        return ErrorCurve(positions, forward, reverse, np.full((2, len(positions)), 1e-8), 2, tuple(Approach))
 
     targets = np.linspace(0, 0.3, 5)
     none, between = np.zeros((2, 5)), targets[:-1] + 0.04
@@ -75,5 +74,5 @@ def test_a_second_test_between_the_targets_is_held_against_all_that_is_known() -
     basis = TableBasis(before, wave, none, (), None, lambda _: wave)
     rows = np.linspace(0, 0.3, 61)
     table = make_table_of(wave(rows), rows, axis, "TEST", place)
-    assert confirm(basis, curve(between, 0.0), table, place).verdict is ConfirmationVerdict.HELD
-    assert confirm(basis, curve(between, 1.0), table, place).verdict is ConfirmationVerdict.OTHER
+    assert confirm(basis, curve(between, 0.0), axis, table, place).verdict is ConfirmationVerdict.HELD
+    assert confirm(basis, curve(between, 1.0), axis, table, place).verdict is ConfirmationVerdict.OTHER

@@ -209,6 +209,14 @@ def test_a_table_that_csv_wrote_was_active_in_both_directions(folder: Path) -> N
             "raise magnification (3623)",
         ),
         (", compensation_table: none", ["--controller", "csv", "--confirm"], "--confirm takes two jobs"),
+        (", compensation_table: none", ["--controller", "csv", "--step", "0"], "the step is not more than 0"),
+        (
+            ", compensation_table: none",
+            ["--controller", "csv", "--step", "-5"],
+            "the step is not more than 0",
+        ),
+        (", compensation_table: none", ["--controller", "csv", "--step", "1e-5"], "more than 10000 rows"),
+        (", compensation_table: none", ["--controller", "csv", "--step", "1e5"], "the step is longer than"),
     ],
 )
 def test_a_mistake_ends_with_2_and_writes_nothing(
@@ -248,3 +256,59 @@ def test_rows_of_a_rotary_axis_are_told_in_its_degrees(folder: Path, capsys: Cap
     for step, rows in (("0.5", 81), ("5", 9)):
         main(["compensate", "c.yaml", "--controller", "linuxcnc", "--step", step, "-o", f"out{rows}"])
         assert f"{rows} rows, {step}° apart, as stated" in capsys.readouterr().out
+
+
+def readings_of(folder: Path, name: str, left: float, directions: str) -> str:
+    """Write a test of an axis with 4 µm of play, and so much of its bow, and return its job."""
+    places = np.arange(0, 301, 30)
+    rows = [
+        f"{place},{way},{run},{left * 10 * np.sin(place / 60) - (2 if way == '+' else -2) + run / 100:.3f}"
+        for run in (1, 2, 3)
+        for way in directions
+        for place in (places if way == "+" else places[::-1]).tolist()
+    ]
+    (folder / f"{name}.csv").write_text(
+        "target,direction,run,deviation\n" + "\n".join(rows), encoding="utf-8"
+    )
+    text = JOB.format(
+        table=", compensation_table: none",
+        file=f"{name}.csv",
+        more="compensation: {controller: siemens-840d}",
+    )
+    (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+    return f"{name}.yaml"
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [("+-", "+"), ("+-", "-"), ("+", "+-"), ("-", "-"), ("+-", "+-")]
+)
+def test_a_second_test_is_held_against_the_first_in_the_directions_of_both(
+    folder: Path, capsys: Capture, first: str, second: str
+) -> None:
+    before, after = readings_of(folder, "before", 1.0, first), readings_of(folder, "after", 0.0, second)
+    found, values = run(capsys, "--unconfirmed", "--confirm", before, after)
+    assert (found, values["verdict"]) == (0, "held")
+    assert main(["compensate", "--unconfirmed", "--confirm", before, after]) == 0
+    row = next(line for line in capsys.readouterr().out.splitlines() if "Systematic" in line)
+    is_alike = len(first) == len(second)
+    assert row.endswith(("within", "outside")) == is_alike
+    assert ("…" in row) == is_alike
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "message"),
+    [
+        ("name: X", "name: Y", "it is a test of axis Y (linear), and the table is of axis X (linear)"),
+        ("name: X", "name: X, kind: rotary", "it is a test of axis X (rotary), and the table is of"),
+        ("3,+", "3,-", "was approached from the other side only"),
+    ],
+)
+def test_a_test_that_says_nothing_of_the_table_is_refused(
+    folder: Path, capsys: Capture, first: str, second: str, message: str
+) -> None:
+    before = readings_of(folder, "before", 1.0, "+")
+    after = readings_of(folder, "after", 0.0, "+" if first.startswith("name") else "-")
+    job = (folder / after).read_text(encoding="utf-8").replace(first, second)
+    (folder / after).write_text(job, encoding="utf-8")
+    assert main(["compensate", "--unconfirmed", "--confirm", before, after]) == 2
+    assert message in capsys.readouterr().err

@@ -8,6 +8,7 @@ import pytest
 from zlmreport.errors import Place
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
 from zlmreport.language import same
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import DeviationPart, ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
@@ -25,7 +26,7 @@ def mean_range(*parts: DeviationPart, budget: Budget | None = None, single: floa
     """Return M of a second test in one direction, where a table leaves nothing that is known."""
     none = np.zeros((2, len(parts[0].directions)))
     targets = TARGETS[: none.shape[1]]
-    curve = ErrorCurve(targets, none[0], none[1], np.full_like(none, single), RUNS, is_bidirectional=False)
+    curve = ErrorCurve(targets, none[0], none[1], np.full_like(none, single), RUNS, (Approach.POSITIVE,))
     scatter = ReadingScatter(single, 0.0, 1_000_000)
     basis = TableBasis(
         curve, lambda at: np.zeros((2, len(at))), none, parts, scatter, lambda _: np.zeros_like

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from zlmreport.errors import Place
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.basis import ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import ErrorCurve
@@ -24,7 +25,7 @@ def bow(at: FloatArray) -> FloatArray:
 def known_by(single: float, **of_waves: object) -> TableBasis:
     """Return a basis whose smooth part is the bow, from five readings a mean that scatter by so much, m."""
     forward, reverse = bow(UNEVEN)
-    curve = ErrorCurve(UNEVEN, forward, reverse, np.full((2, 8), single), 5, is_bidirectional=True)
+    curve = ErrorCurve(UNEVEN, forward, reverse, np.full((2, 8), single), 5, tuple(Approach))
     scatter = ReadingScatter(single, 0.0, 60) if single else None
     return TableBasis(curve, bow, bow(UNEVEN), (), scatter, lambda _: bow, **of_waves)
 

@@ -125,6 +125,19 @@ def test_experiment_stays_within_the_travel() -> None:
         assert 0 <= min(plan.stops) <= max(plan.stops) <= 0.6
 
 
+@pytest.mark.parametrize(
+    "plan",
+    [
+        "{overrun: 400, targets: {positions: [0, 60, 130, 210, 300, 420, 600]}}",  # no room to turn round
+        "{overrun: 250, targets: {positions: [0, 30, 60, 100, 130, 170, 200]}}",  # all beside one end
+    ],
+)
+def test_an_overrun_that_leaves_no_room_does_not_stop_the_experiment(plan: str) -> None:
+    found = _experiment("backlash", ("plan: {}", f"plan: {plan}")).plan
+    assert found is not None
+    assert 0 <= min(found.stops) <= max(found.stops) <= 0.6
+
+
 def test_outermost_targets_move_in_by_the_overrun() -> None:
     plan = Plan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
     np.testing.assert_allclose(keep_within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])

@@ -36,6 +36,29 @@ def test_targets_are_even_where_the_file_wants_it(tmp_path: Path) -> None:
     np.testing.assert_allclose(targets, [0.0, 0.2, 0.4, 0.6], atol=1e-15)
 
 
+def test_even_targets_that_a_double_misses_are_not_cut_off(tmp_path: Path) -> None:
+    text = with_line(4, "targets: {count: 26, fractions_of: 0}").replace(
+        "travel: [0, 600]", "travel: [0, 580]"
+    )
+    targets = described(text, tmp_path).plan.targets
+    np.testing.assert_allclose(targets * 1e3, 23.2 * np.arange(26), atol=1e-9)  # and not 208.7999
+
+
+@pytest.mark.parametrize(
+    ("targets", "travel", "key"),
+    [
+        ("{positions: [0, 0.00001, 5]}", "[0, 600]", "positions"),
+        ("{count: 26, fractions_of: 0}", "[0, 0.001]", "count"),
+    ],
+)
+def test_targets_that_the_table_cannot_tell_apart_are_refused(
+    tmp_path: Path, targets: str, travel: str, key: str
+) -> None:
+    text = with_line(4, f"targets: {targets}").replace("travel: [0, 600]", f"travel: {travel}")
+    (said,) = mistakes(text, tmp_path)
+    assert f"targets.{key}: two targets are nearer to each other than 0.0001 mm" in said
+
+
 def test_targets_may_be_listed(tmp_path: Path) -> None:
     targets = described(with_line(4, "targets: {positions: [5, 100.5, 300]}"), tmp_path).plan.targets
     np.testing.assert_array_equal(targets, [0.005, 0.1005, 0.3])

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.compensation.confirmation import Confirmation
-    from zlmreport.model.compensation.forecast import Figures
+    from zlmreport.model.compensation.forecast import ExpectedFigure, Figures
     from zlmreport.model.compensation.making import Made
 
 _TITLE = Words("Compensation table")
@@ -158,7 +158,7 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
             say(_FIGURES[symbol]),
             _write_with_u(before[symbol], uncertainties[0].get(symbol), writer),
             _write_with_u(after[symbol], uncertainties[1].get(symbol), writer),
-            _write_expected(made, symbol, writer),
+            _write_expected(made.forecast.second_test.get(symbol), writer),
         )
         for symbol in before
     )
@@ -186,9 +186,12 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
     factor = unit.from_si(1.0)
     before, after = made.forecast.before.in_unit(factor), shown.in_unit(factor)
     is_held = found.verdict is ConfirmationVerdict.HELD
+    # What is forecast is a test in the same directions: another one shows other figures.
+    is_of_plan = (made.forecast.before.reversal is None) == (shown.reversal is None)
+    foretold = made.forecast.second_test if is_of_plan else {}
 
     def where(symbol: str) -> str:
-        expected = made.forecast.second_test.get(symbol)
+        expected = foretold.get(symbol)
         if expected is None:
             return ""
         return say(_WITHIN if expected.low <= after[symbol] / factor <= expected.high else _OUTSIDE)
@@ -204,7 +207,7 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
             Symbol(symbol),
             say(_FIGURES[symbol]),
             _number(before[symbol], writer) if symbol in before else NOTHING,
-            _write_expected(made, symbol, writer),
+            _write_expected(foretold.get(symbol), writer),
             _number(value, writer),
             where(symbol),
         )
@@ -229,11 +232,11 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
     )
 
 
-def _write_expected(made: Made, symbol: str, writer: Writer) -> str:
+def _write_expected(expected: ExpectedFigure | None, writer: Writer) -> str:
     """Return from where to where a parameter of a second test is expected."""
-    expected, factor = made.forecast.second_test.get(symbol), writer.deviation_unit.from_si(1.0)
     if expected is None:
         return NOTHING
+    factor = writer.deviation_unit.from_si(1.0)
     return " … ".join(_number(each * factor, writer) for each in (expected.low, expected.high))
 
 

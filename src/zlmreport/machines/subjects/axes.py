@@ -9,11 +9,16 @@ import numpy as np
 from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
 from zlmreport.language import Words, same
-from zlmreport.language.formatting import write_general_number
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import Machine, find_unit_of
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
-from zlmreport.machines.volume import VolumeMap, find_measured_space, map_volume, predict_diagonals
+from zlmreport.machines.volume import (
+    VolumeMap,
+    find_measured_space,
+    is_parted,
+    map_volume,
+    predict_diagonals,
+)
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
 
@@ -40,7 +45,7 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
             f"{axis} {say.write_millimetres(place)}" for axis, place in curve.line.others.items()
         )
         value = say.write_pair(size, curve.largest_uncertainty, unit)
-        known.append((Symbol(name), value, unit.symbol, stretch, places, curve.source))
+        known.append((Symbol(name), value, unit.symbol, stretch, places, curve.source or say(_STATED)))
     columns = (
         Column(say(_ERROR)), make_right_column(say(_SIZE)), Column(say(_UNIT)), Column(say(_RANGE), "mm"),
         Column(say(_LINE), "mm"), Column(say(_FROM)),
@@ -48,6 +53,9 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     table = make_plain_table(say(_ERRORS), columns, (*known, *bounded) if is_full else known)
     title = say(_KNOWN.given(known=len(known), all=len(ERRORS)))
     blocks: list[Block] = [replace(table, dense=is_full)] if known or is_full else []
+    exact = [each.name for each in machine.curves if not each.largest_uncertainty]
+    if exact:
+        blocks.append(Paragraph(say(_EXACT.given(errors=", ".join(exact)))))
     if is_full:
         return Section("errors", say(_ERRORS), (Paragraph(say(_NOTE)), *blocks))
     if named:
@@ -67,7 +75,9 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
     """Return the largest error of the work space, slices of it, and the body diagonals."""
     space = find_measured_space(machine)
     if space is None:
-        return Section("work-space", say(_SPACE), (Paragraph(say(_NO_SPACE)),))
+        parted = ", ".join(axis for axis in AXES if is_parted(machine, axis))
+        said = _PARTED.given(axes=parted) if parted else _NO_SPACE
+        return Section("work-space", say(_SPACE), (Paragraph(say(said)),))
     found = map_volume(machine, space)
     place = found.largest
     at = ", ".join(
@@ -98,17 +108,17 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
         say(_SPACE),
         (
             Paragraph(say(_LARGEST.given(box=box, size=size, at=at, more=more))),
-            Graph(_draw_slices(found)),
+            Graph(_draw_slices(found, say)),
             Paragraph(say(_DIAGONALS_NOTE)),
             table,
         ),
     )
 
 
-def _draw_slices(found: VolumeMap) -> Figure:
+def _draw_slices(found: VolumeMap, say: Sayer) -> Figure:
     """Return the length of Δ in slices: maps over two axes, or curves where but one was measured."""
     moving = [index for index, grid in enumerate(found.grids) if len(grid) > 1]
-    return _draw_maps(found, moving) if len(moving) > 1 else _draw_curve(found, moving[0])
+    return _draw_maps(found, moving, say) if len(moving) > 1 else _draw_curve(found, moving[0])
 
 
 def _draw_curve(found: VolumeMap, axis: int) -> Figure:
@@ -120,7 +130,7 @@ def _draw_curve(found: VolumeMap, axis: int) -> Figure:
     )
 
 
-def _draw_maps(found: VolumeMap, moving: list[int]) -> Figure:
+def _draw_maps(found: VolumeMap, moving: list[int], say: Sayer) -> Figure:
     """Return maps over the first two axes that move: at both ends and in the middle of the third."""
     first, second, *third = moving
     size = MICROMETRE.from_si(found.length)
@@ -129,7 +139,7 @@ def _draw_maps(found: VolumeMap, moving: list[int]) -> Figure:
     panels = []
     for slice_ in sorted({0, size.shape[third[0]] // 2, size.shape[third[0]] - 1}) if third else (0,):
         still = ({0, 1, 2} - {first, second}).pop()
-        place = write_general_number(float(MILLIMETRE.from_si(found.grids[still][slice_])))
+        place = say.write_millimetres(float(found.grids[still][slice_]))
         values = np.take(size, slice_, axis=still)
         panels.append(
             Panel(heading=same(f"{AXES[still]} = {place} mm"), tiles=Tiles(across, upwards, values, darkest))
@@ -150,6 +160,11 @@ _NOTE = Words(
     "Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
     "measured is bounded and never taken as zero."
 )
+_EXACT = Words(
+    "No uncertainty is known of {errors}: neither repeats nor an instrument tell it. What is predicted takes "
+    "them as exact."
+)
+_STATED = Words("stated")
 _NOT_MEASURED = Words("Not measured, taken as bounded: {errors}")
 _ASSUMED = Words(
     "{count} of these bounds are assumptions of this program; the machine file (bounds) states your own."
@@ -161,6 +176,9 @@ _BOUND = Words("not measured, stated bound")
 _BOUND_ASSUMED = Words("not measured, assumed bound")
 _SPACE = Words("Work space")
 _NO_SPACE = Words("No work space: the errors of no axis were measured over a range.")
+_PARTED = Words(
+    "No work space: no place of {axes} lies within the ranges of all errors that were measured of it."
+)
 _LARGEST = Words(
     "In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm; errors that "
     "nobody measured may add ± {more} µm."

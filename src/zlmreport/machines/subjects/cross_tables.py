@@ -46,7 +46,7 @@ def _lay_out_tables(made: CrossMade, say: Sayer) -> Section:
     )  # fmt: skip
     blocks: list[Block] = [
         make_plain_table(say(TABLES), columns, rows),
-        Paragraph(say(_HELD.given(errors=", ".join(plan.taken)))),
+        Paragraph(say(_HELD.given(errors=", ".join(made.held)))),
     ]
     if plan.within_uncertainty:
         blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))

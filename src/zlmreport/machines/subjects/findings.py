@@ -11,7 +11,7 @@ from zlmreport.document.blocks import Block, Cell, Column, Mark, Notice, Paragra
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
-from zlmreport.machines.diagnosis import MachineDiagnosis
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
 from zlmreport.machines.forms import make_plain_form
 from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
@@ -41,7 +41,7 @@ def say_verdict(diagnosis: MachineDiagnosis) -> Words:
                 if each.effect.identifier in first.indistinguishable_from
             ),
         ]
-        how = say_remedy(equals[0].effect, equals[-1].effect, diagnosis.study)
+        how = say_how_told(first, diagnosis)
         return _TIED.given(effects=_join_titles([each.effect.title for each in equals], _OR), how=how)
     by_name = {each.effect.identifier: each.effect for each in diagnosis.complete.effects}
     named = _MISSING.given(effects=_join_titles([by_name[each].title for each in diagnosis.found], _AND))
@@ -62,9 +62,11 @@ def _join_titles(titles: Sequence[Words], words: Words) -> Words:
     return found
 
 
-def say_remedy(one: CircleEffect, other: CircleEffect, study: CircleStudy) -> Words:
-    """Return what tells two effects apart that a plan cannot: a run in which their laws part."""
-    design = study.design
+def say_how_told(candidate: CircleCandidate, diagnosis: MachineDiagnosis) -> Words:
+    """Return what tells a candidate from the first of its equals: a run in which their laws part."""
+    by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
+    one, other = candidate.effect, by_name[candidate.indistinguishable_from[0]]
+    design = diagnosis.study.design
     if not design.has_both_senses and one.law.parity is not other.law.parity:
         return _SENSE
     if len(np.unique(np.round(design.feed, 9))) == 1 and one.law.feed != other.law.feed:
@@ -86,14 +88,15 @@ class Absent:
 def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[Absent]:
     """Return what effects that are asked for and not in a model would be beside it.
 
-    A value beyond its U is not told: of it nobody can say that it is not there.
+    A value beyond its U is not told: of it nobody can say that it is not there. Nor is one whose U is beyond
+    all that physics allows: an arc in which no axis turns says nothing of play.
     """
     found = []
     for effect in catalogue:
         form = make_plain_form(effect, study.design)
         if effect.is_asked_for and effect.identifier not in study.names and form.terms:
             estimates = add_form(study, effect, form).list_estimates_of(effect.identifier)
-            terms = tuple(each for each in estimates if each.term is not None and _is_within_u(each))
+            terms = tuple(each for each in estimates if _is_within_u(each))
             if not terms:
                 continue
             found.append(Absent(effect.identifier, terms, tuple(effect.absence(list_said_estimates(terms)))))
@@ -101,7 +104,10 @@ def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[A
 
 
 def _is_within_u(found: EstimatedTerm) -> bool:
-    return found.expanded_uncertainty is not None and abs(found.value) <= found.expanded_uncertainty
+    term, u = found.term, found.expanded_uncertainty
+    if term is None or u is None:
+        return False
+    return abs(found.value) <= u <= max(abs(term.low), abs(term.high))
 
 
 def list_findings(study: CircleStudy) -> list[Words]:
@@ -170,9 +176,7 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
     first = diagnosis.candidates[0]
     blocks.append(lay_out_parameters(first.estimates, say))
     if first.indistinguishable_from:
-        by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
-        how = say_remedy(first.effect, by_name[first.indistinguishable_from[0]], diagnosis.study)
-        blocks.append(Paragraph(say(_TELL_APART.given(how=how))))
+        blocks.append(Paragraph(say(_TELL_APART.given(how=say_how_told(first, diagnosis)))))
     return Section("candidates", say(_CANDIDATES), tuple(blocks))
 
 
@@ -217,7 +221,7 @@ def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     return Section("steps", say(_STEPS), (table,)) if rows else None
 
 
-def change_section(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
+def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
     """Return the error before and after a change of the model."""
     sizes = [
         write_significant(MICROMETRE.from_si(each), 2)

@@ -9,7 +9,7 @@ from zlmreport.machines.planning import NextRun
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 
 
-def plan_section(found: NextRun, say: Sayer) -> Section:
+def lay_out_plan(found: NextRun, say: Sayer) -> Section:
     """Return what is to be decided, the runs that do, and what these circles can see."""
     between = [each.title for each in found.between]
     heading = _NOTHING

@@ -38,14 +38,16 @@ class Sayer:
 
     def write_millimetres(self, value: float) -> str:
         """Return a position in m as mm, without the unit."""
-        return self.write_general(round(MILLIMETRE.from_si(value), 3))
+        return self.write_general(round(MILLIMETRE.from_si(value), 3) + 0.0)
 
     def write_span(self, low: float, high: float) -> str:
         """Return from where to where, m, as mm without the unit."""
         return f"{self.write_millimetres(low)}–{self.write_millimetres(high)}"
 
     def write_pair(self, value: float, u: float, unit: Unit) -> str:
-        """Return a value and its uncertainty, SI, in a unit that is not written."""
+        """Return a value and its uncertainty, SI, in a unit that is not written; without one the value."""
+        if not u:
+            return self.write_number(unit.from_si(value))
         return " ± ".join(round_pair(unit.from_si(value), unit.from_si(u), self.language.decimal_sign))
 
     def write_quantity(self, value: float, unit: Unit) -> str:

@@ -74,7 +74,7 @@ def _lay_out_test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
             yield Paragraph(say(words.given(shares=listed)))
     outside = float(np.mean(found.prediction.outside))
     if outside:
-        yield Notice(say(_OUTSIDE_TITLE), (say(_OUTSIDE.given(share=round(100 * outside))),))
+        yield Notice(say(_OUTSIDE_TITLE), (say(_OUTSIDE.given(share=max(round(100 * outside), 1))),))
     notice = make_failure_notice([found], say)
     if notice:
         yield notice
@@ -152,7 +152,7 @@ def describe_stretch(stretch: Stretch, *, is_circle: bool) -> Words:
 
 
 def _write_millimetres(value: float) -> str:
-    return f"{MILLIMETRE.from_si(value):.0f}".replace("-", "−")
+    return str(round(MILLIMETRE.from_si(value))).replace("-", "−")
 
 
 def draw_circle(found: ComparedTest) -> Figure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -9,6 +10,7 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
 
@@ -41,37 +43,49 @@ class Confirmation:
     shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
 
 
-def confirm(basis: TableBasis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
+def confirm(
+    basis: TableBasis, after: ErrorCurve, axis: Axis, table: CompensationTable, place: Place
+) -> Confirmation:
     """Hold a second test against the table that the first one gave.
 
     `basis`: What is known of the axis from the first test; between its targets, too.
+    `axis`: That of the second test.
 
-    Raises `InputError` if the two tests have no common length.
+    Raises `InputError` if the two tests are of different axes, or have no common length or direction.
     """
+    if (axis.name, axis.kind) != (table.axis.name, table.axis.kind):
+        raise InputError.at(
+            place,
+            f"it is a test of axis {axis.name} ({axis.kind}), and the table is of axis {table.axis.name} "
+            f"({table.axis.kind}); name the test of that axis",
+        )
     before = basis.curve
+    common = [each.index for each in before.approaches if each in after.approaches]
+    if not common:
+        raise InputError.at(
+            place, "was approached from the other side only; the test before tells nothing of it"
+        )
     inside = (after.positions >= before.positions[0] - 1e-9) & (
         after.positions <= before.positions[-1] + 1e-9
     )
     positions = after.positions[inside]
     if len(positions) < 2:
         raise InputError.at(place, "has no two targets within the length of the test before")
-    was = basis.known(positions)
-    is_now = np.stack([after.forward, after.reverse])[:, inside]
+    was = basis.known(positions)[common]
+    is_now = np.stack([after.forward, after.reverse])[common][:, inside]
+    taken = table.at(positions)[common]
     removed = was - is_now  # but for a constant: each test has its own zero
     ratio = float(np.ptp(is_now) / np.ptp(was)) if np.ptp(was) else 1.0
-    applied = _fit_part(removed, table.at(positions))
-    left = _compute_rms(_centre(removed - table.at(positions)))
+    applied = _fit_part(removed, taken)
+    left = _compute_rms(_centre(removed - taken))
     allowed = _compute_allowed(before, after) + _MAY_BE_LEFT * _compute_rms(was - was.mean())
     if abs(applied - 1) < _NEAR and left <= allowed:
         return Confirmation(ConfirmationVerdict.HELD, ratio, applied)
     for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
-        if (
-            abs(applied - part) < _NEAR
-            and _compute_rms(_centre(removed - part * table.at(positions))) <= 2 * allowed
-        ):
+        if abs(applied - part) < _NEAR and _compute_rms(_centre(removed - part * taken)) <= 2 * allowed:
             return Confirmation(verdict, ratio, applied)
-    shift, rest = _fit_shift(removed, positions, table)
-    if rest * _FAR_SMALLER < _compute_rms(_centre(removed - table.at(positions))):
+    shift, rest = _fit_shift(removed, positions, table, common)
+    if rest * _FAR_SMALLER < left:
         return Confirmation(ConfirmationVerdict.SHIFTED, ratio, applied, shift)
     return Confirmation(ConfirmationVerdict.OTHER, ratio, applied)
 
@@ -82,11 +96,13 @@ def _fit_part(removed: FloatArray, table: FloatArray) -> float:
     return float(x @ y / (x @ x)) if x @ x else 0.0
 
 
-def _fit_shift(removed: FloatArray, positions: FloatArray, table: CompensationTable) -> tuple[float, float]:
-    """Return the shift of the table that explains most, and what it leaves."""
+def _fit_shift(
+    removed: FloatArray, positions: FloatArray, table: CompensationTable, common: Sequence[int]
+) -> tuple[float, float]:
+    """Return the shift of the table that explains most, and what it leaves in the common directions."""
     step = float(np.median(np.diff(table.positions)))
     left = [
-        (_compute_rms(_centre(removed - table.at(positions - part * step))), part * step)
+        (_compute_rms(_centre(removed - table.at(positions - part * step)[common])), part * step)
         for part in _SHIFTS.tolist()
     ]
     rest, shift = min(left)

@@ -11,6 +11,7 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis, refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -27,7 +28,12 @@ class ErrorCurve:
     reverse: FloatArray
     spread: FloatArray  #: (2, m): Standard deviations by direction, m or rad; NaN where there are none.
     runs: int  #: Number of readings behind each mean.
-    is_bidirectional: bool  #: Whether both directions were measured.
+    approaches: tuple[Approach, ...]  #: The directions that were measured.
+
+    @property
+    def is_bidirectional(self) -> bool:
+        """Whether both directions were measured."""
+        return len(self.approaches) > 1
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +92,7 @@ def make_error_curve(measurements: MeasurementSet, place: Place) -> ErrorCurve:
         read_only_floats(reverse),
         read_only_floats(statistics.standard_deviation),
         len(set(measurements.run.tolist())),
-        all(has),
+        tuple(each for each in Approach if has[each.index]),
     )
 
 

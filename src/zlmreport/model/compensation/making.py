@@ -29,6 +29,8 @@ from zlmreport.model.compensation.forecast import TableForecast, forecast
 _BETWEEN, _MOST_GRIDS = 8, 20
 #: What the lines between rows miss by rounding alone, m or rad.
 _NOTHING = 1e-12
+#: More rows than any control takes; and what a double makes of a whole number of steps.
+_MOST_STEPS, _ROUNDING = 10_000, 1e-9
 
 
 class GridReason(StrEnum):
@@ -54,6 +56,21 @@ class Grid:
     allowed: float
 
 
+def count_steps(length: float, step: float, place: Place) -> int:
+    """Return how many steps between rows a measured length has room for, both m or rad.
+
+    Raises `InputError` if the step is none, longer than that, or so short that no control takes the rows.
+    """
+    if not step > 0:
+        raise InputError.at(place, "the step is not more than 0: rows stand apart; state a larger one")
+    count = length / step + _ROUNDING
+    if count < 1:
+        raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
+    if count > _MOST_STEPS:
+        raise InputError.at(place, f"the step makes more than {_MOST_STEPS} rows; state a larger one")
+    return int(count)
+
+
 def make_grid_of(
     basis: TableBasis,
     place: Place,
@@ -66,7 +83,7 @@ def make_grid_of(
 
     `step`: Distance of the rows, m or rad; None for the rule.
 
-    Raises `InputError` if the step does not divide the measured length into at least one interval.
+    Raises `InputError` if the step is refused by `count_steps`.
     """
     targets = basis.curve.positions
     first, last, count = float(targets[0]), float(targets[-1]), len(targets)
@@ -81,10 +98,7 @@ def make_grid_of(
         return Grid(read_only_floats(rows), reason, missed if missed > _NOTHING else 0.0, allowed)
 
     if step is not None:
-        intervals = (last - first) / step
-        if intervals < 1:
-            raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
-        stated = first + step * np.arange(int(intervals + 1e-9) + 1)
+        stated = first + step * np.arange(count_steps(last - first, step, place) + 1)
         return judged(read_only_floats(stated), GridReason.STATED)
     most = most_rows or 2 * count
     grids = [judged(targets, GridReason.TARGETS)] if not is_equidistant and count <= most else []

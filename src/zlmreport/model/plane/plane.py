@@ -12,6 +12,7 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import LineOfPlane
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.report import report_error
 from zlmreport.model.diagnosis.study import find_instrument_error
@@ -104,12 +105,7 @@ def _find_differences(measured: Sequence[Measured], places: Sequence[LineOfPlane
             f"{leading.axis} is the axis under test; name the other axis of the plane",
         )
     for (job, measurements), place in zip(measured[1:], places[1:], strict=True):
-        if (job.axis.name, job.axis.kind) != (first.axis.name, first.axis.kind):
-            yield Problem(
-                job.place_of("axis.name"),
-                f"this line is of axis {job.axis.name}, the first one of axis {first.axis.name}; "
-                "all lines of a plane are of the same axis",
-            )
+        yield from _find_other_quantity(job, first)
         if place.axis != leading.axis:
             yield Problem(
                 job.place_of(f"{_KEY}.axis"),
@@ -126,6 +122,31 @@ def _find_differences(measured: Sequence[Measured], places: Sequence[LineOfPlane
                 job.place_of("instrument.expanded_uncertainty"),
                 "the instrument's uncertainty is not that of the first job; one instrument measures a plane",
             )
+
+
+def _find_other_quantity(job: Job, first: Job) -> Iterator[Problem]:
+    """Yield in what a job measured something else than the first: machine, axis or error."""
+
+    def refuse(key: str, what: str, own: str, of_first: str) -> Problem:
+        return Problem(
+            job.place_of(key),
+            f"this line is of {what} {own}, the first one of {what} {of_first}; all lines of a plane are of "
+            f"the same {what}",
+        )
+
+    serials = [each.keys.machine.serial for each in (job, first)]
+    if serials[0] and serials[1] and serials[0] != serials[1]:
+        yield refuse("machine.serial", "machine", serials[0], serials[1])
+    axes = [f"{each.axis.name} ({each.axis.kind})" for each in (job, first)]
+    if axes[0] != axes[1]:
+        yield refuse("axis.name", "axis", *axes)
+    elif _find_error(job) != _find_error(first):
+        yield refuse("measurement.error", "error", _find_error(job), _find_error(first))
+
+
+def _find_error(job: Job) -> str:
+    """Return which error of its axis a job measured; that of position where it does not say."""
+    return job.axis.error or find_symbol_of_positioning(job.axis.name) or job.axis.name
 
 
 def _write_arrows(measurements: MeasurementSet) -> str:

@@ -23,6 +23,7 @@ from zlmreport.model.planning.targets import (
 
 #: With more targets than these or more runs, one more is no remedy worth the time.
 _MANY_TARGETS, _MANY_RUNS = 21, 5
+_FEWEST_TARGETS = 2
 #: Twice as many of both, where two effects are to be told apart.
 _FACTOR = 2
 #: How often longer the axis rests, and by which factor farther it turns round, to part time from way.
@@ -126,8 +127,10 @@ def keep_within_travel(axis: Axis, plan: Plan) -> Plan:
     """Return a plan whose outermost targets leave room to turn round within the travel."""
     if axis.travel is None or makes_whole_turns(axis):
         return plan
-    first, last = axis.travel
-    moved = np.unique(np.clip(plan.targets, first + plan.overrun, last - plan.overrun))
+    first, last = axis.travel[0] + plan.overrun, axis.travel[1] - plan.overrun
+    moved = np.unique(np.clip(plan.targets, first, last))
+    if len(moved) < _FEWEST_TARGETS and first < last:  # all lay beside one end
+        moved = np.linspace(first, last, len(plan.targets))
     return replace(plan, targets=read_only_floats(moved))
 
 

@@ -18,6 +18,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
@@ -38,6 +39,7 @@ from zlmreport.model.planning.changes import (
 from zlmreport.model.planning.methods import RUN_BY_RUN
 from zlmreport.model.planning.plan import ExpectedTest, Plan, find_beyond_travel
 from zlmreport.model.planning.rivals import Question
+from zlmreport.model.planning.targets import find_usual_overrun, makes_whole_turns
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
 _ENOUGH, _NOT_WORTH_IT = 0.95, 0.5
@@ -111,7 +113,7 @@ def plan_next_experiment(  # noqa: PLR0913 - what is asked, what is known, what 
 ) -> Experiment:
     """Return the cheapest plan that decides a question; the best one if none is sure to."""
     looked = partial(_judge_at_a_glance, question, expected, _Draws(_SETS, (seed, 0)))
-    plan = keep_within_travel(question.axis, _make_moderate(plan))
+    plan = keep_within_travel(question.axis, _make_moderate(question.axis, plan))
     period, goes_on = _find_longest_period(question), question.may_go_on
     changes = tuple(list_further_changes(question.axis, plan, seed, period, goes_on=goes_on))
     options: list[_Option] = []
@@ -152,8 +154,13 @@ def _find_surest(option: _Option) -> tuple[float, float]:
     return -option.decides, -option.margin
 
 
-def _make_moderate(plan: Plan) -> Plan:
-    """Return a plan of no more targets and runs than an experiment needs, spread as they were."""
+def _make_moderate(axis: Axis, plan: Plan) -> Plan:
+    """Return a plan of no more targets and runs than an experiment needs, spread as they were.
+
+    An overrun for which the travel has no room is the usual one.
+    """
+    if axis.travel and not makes_whole_turns(axis) and 2 * plan.overrun >= axis.travel[1] - axis.travel[0]:
+        plan = replace(plan, overrun=find_usual_overrun(axis))
     places = np.linspace(0, len(plan.targets) - 1, min(len(plan.targets), _MOST_TARGETS)).astype(np.int64)
     return replace(plan, targets=read_only_floats(plan.targets[places]), runs=min(plan.runs, _MOST_RUNS))
 

@@ -73,6 +73,19 @@ def read_description_of(file: SimulationFile, find: Callable[[str], Effect]) -> 
 
 
 def _read_targets(file: SimulationFile) -> FloatArray:
+    key = "count" if file.keys.targets.positions is None else "positions"
+    targets = _choose_targets(file)
+    unit = file.axis.position_unit
+    if np.any(np.diff(np.round(unit.from_si(targets), POSITION_DIGITS)) <= 0):
+        raise InputError.at(
+            file.place_of("targets", key),
+            f"targets.{key}: two targets are nearer to each other than {10**-POSITION_DIGITS:.12g} "
+            f"{unit.symbol}, the last digit of the table of readings; take them farther apart",
+        )
+    return targets
+
+
+def _choose_targets(file: SimulationFile) -> FloatArray:
     keys = file.keys
     unit = file.axis.position_unit
     if keys.targets.positions is not None:
@@ -88,8 +101,8 @@ def _read_targets(file: SimulationFile) -> FloatArray:
         )
     except ValueError as error:
         raise InputError.at(file.place_of("targets", "count"), f"targets.count: {error}") from error
-    # as they can be typed into a part program, and never beyond an end
-    typed = np.floor(drawn * 10**POSITION_DIGITS) / 10**POSITION_DIGITS
+    # as they can be typed into a part program, and never beyond an end; 208.8 may come as 208.79999999999998
+    typed = np.floor(np.round(drawn * 10**POSITION_DIGITS, 6)) / 10**POSITION_DIGITS
     return read_only_floats(unit.to_si(np.maximum(typed, keys.axis.travel[0])))
 
 

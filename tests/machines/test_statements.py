@@ -1,0 +1,97 @@
+"""What is said of the errors of a machine and its work space is so, in the words of the page's language."""
+
+import json
+
+import pytest
+
+from zlmreport.cli import main
+
+MACHINE = """\
+schema: zlmreport/machine/1
+chain: XYFZ
+errors:
+  - {EXX: {0: 0, 500: 2}, expanded_uncertainty: 0.6, at: {Y: -0.0000001}}
+  - {EYY: {0: 0, 400: 2}, expanded_uncertainty: 0.6, source: granite square}
+  - {EZZ: {0.25: 0, 500.75: 2}, expanded_uncertainty: 0.6}
+"""
+JOB = """\
+schema: zlmreport/job/1
+certificate: {number: ONE-RUN, kind: report}
+axis: {name: X}
+measurement: {at: {Y: 100, B: 30, tool: [0, 0, 120]}, source: {plugin: laser-csv, file: x.csv}}
+evaluate: ["iso230-2:2014"]
+"""
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capsys):
+    """Run a command of `machine` on a file, and return what it prints, on one line."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "x.csv").write_text(
+        "target,direction,run,deviation\n0,+,1,0\n200,+,1,3\n400,+,1,1\n", "utf-8"
+    )
+    (tmp_path / "x.yaml").write_text(JOB, encoding="utf-8")
+
+    def run(text, *command):
+        (tmp_path / "machine.yaml").write_text(text, encoding="utf-8")
+        code = main(["machine", command[0], "machine.yaml", *command[1:]])
+        found = capsys.readouterr()
+        return code, " ".join((found.out + found.err).split())
+
+    return run
+
+
+def test_a_page_in_german_has_german_numbers_and_words(run, tmp_path):
+    german = MACHINE + "certificate: {language: de}\n"
+    assert run(german, "certificate", "--format", "html,json", "-o", "out")[0] == 0
+    page = (tmp_path / "out" / "machine.html").read_text("utf-8")
+    assert [place in page for place in ("Z = 0,25 mm", "Z = 0.25 mm")] == [True, False]
+    assert [word in page for word in ("granite square", "angegeben", ">stated<")] == [True, True, False]
+    values = json.loads((tmp_path / "out" / "machine.json").read_text("utf-8"))
+    sources = {each["error"]: each.get("source") for each in values["prediction"]["errors"]}
+    assert (sources["EXX"], sources["EYY"]) == ("stated", "granite square")
+
+
+def test_no_place_has_a_minus_before_a_zero(run):
+    assert "Y 0 " in run(MACHINE, "check")[1]
+
+
+def test_ranges_that_do_not_overlap_are_no_lack_of_measurements(run):
+    apart = MACHINE + "  - {EYX: {600: 0, 700: 1, 800: 9}, expanded_uncertainty: 0.6}\n"
+    said = "No work space: no place of X lies within the ranges of all errors that were measured of it."
+    assert said in run(apart, "predict")[1]
+    none = "schema: zlmreport/machine/1\nchain: XYFZ\n"
+    assert "the errors of no axis were measured over a range" in run(none, "predict")[1]
+
+
+def test_a_single_run_has_no_uncertainty_of_nothing(run):
+    code, said = run("schema: zlmreport/machine/1\nchain: XYFZ\nerrors: [x.yaml]\n", "predict")
+    assert code == 0
+    assert "0.000" not in said
+    assert "No uncertainty is known of EXX: neither repeats nor an instrument tell it." in said
+    assert "No uncertainty is known" not in run(MACHINE, "predict")[1]
+
+
+def test_a_certificate_may_say_where_a_rotary_axis_stood(run):
+    assert main(["x.yaml", "--format", "json", "-o", ".", "--quiet"]) == 0
+    file = "schema: zlmreport/machine/1\nchain: XYFZ\nerrors: [{name}]\n"
+    code, values = run(file.format(name="ONE-RUN.json").replace("{name}", ""), "predict", "--json")
+    assert code == 0
+    (known,) = (each for each in json.loads(values)["errors"] if each["known"])
+    assert (known["at"], known["tool"]) == ({"Y": 100.0}, [0.0, 0.0, 120.0])
+
+
+def test_an_error_that_is_stated_twice_is_named_by_what_it_is(run):
+    twice = MACHINE + "  - {EXX: {0: 0, 300: 1}, expanded_uncertainty: 0.6}\n"
+    code, said = run(twice, "predict")
+    assert (code, said) == (2, "machine.yaml:7:5: EXX was named already, by a stated value; name it once")
+
+
+def test_an_arc_in_which_no_axis_turns_says_nothing_of_play(folder, capsys):
+    head, *rows = (folder / "circle-xy.csv").read_text("utf-8").splitlines()[1:]
+    (folder / "circle-xy.csv").write_text("\n".join([head, *rows[:40]]), encoding="utf-8")
+    assert main(["machine", "diagnose", str(folder / "machine.yaml"), "--json"]) == 0
+    values = json.loads(capsys.readouterr().out)
+    assert values["verdict"] == "adequate"
+    assert 0 < values["p_value"] <= 1
+    assert {"circle-backlash", "lateral-play"}.isdisjoint(each["effect"] for each in values["beside"])
