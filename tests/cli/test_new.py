@@ -116,7 +116,10 @@ def test_what_is_there_is_not_touched(begun: Any, capsys: pytest.CaptureFixture[
         (["effect", "../x"], "zlmreport new: '../x' is no name for a plugin"),
         (["standard", "class"], "zlmreport new: 'class' is a word of Python, which no module is called"),
         (["standard", "true"], "zlmreport new: 'true' is a word of Python, which no module is called"),
-        (["standard", "numpy"], "zlmreport new: there is a module 'numpy' already, and Python would take one"),
+        (
+            ["standard", "numpy"],
+            "zlmreport new: there is a module 'numpy' already, and Python would take one",
+        ),
         (["renderer", "json"], "zlmreport new: there is a module 'json' already"),
         (["source", "x", "--from", "job.yaml"], "zlmreport new: --from takes a formula, which is an effect"),
     ],

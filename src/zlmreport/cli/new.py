@@ -127,7 +127,8 @@ def _check_name(named: str) -> str:
     there = find_spec(module)  # a folder alone has no origin; of the plugin itself, each file is told below
     if there and there.origin and Path(there.origin).parent != Path(named).resolve():
         raise InputError.at(
-            _PLACE, f"there is a module {module!r} already, and Python would take one for the other; {_ADVICE}"
+            _PLACE,
+            f"there is a module {module!r} already, and Python would take one for the other; {_ADVICE}",
         )
     return named
 

@@ -19,6 +19,7 @@ from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.emulation.channels import LocalSocket, serve
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin.kinds import INSTRUMENT
 from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     check,
@@ -29,7 +30,6 @@ from zlmreport.testing.expectations import (
     run_all,
 )
 
-_CORE_KEYS = frozenset({"plugin"})
 #: By how much emulated time is faster than that of the checks.
 _HASTE = 5.0
 #: How far the axis of the checks goes, m, and how long it rests, emulated s.
@@ -66,13 +66,13 @@ class InstrumentTraits:
 @check
 def is_named(instrument: Instrument, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
-    expect_named(instrument, Instrument)
+    expect_named(instrument, INSTRUMENT)
 
 
 @check
 def options_are_described(instrument: Instrument, *_: Any) -> None:
     """Check that its keys are described, that a port is one of them, and that nothing else is required."""
-    expect_options(instrument, _CORE_KEYS)
+    expect_options(instrument, INSTRUMENT)
     fields = instrument.options.model_fields
     expect("port" in fields, f"{instrument.identifier}: there is no key 'port'")
     required = sorted(name for name, field in fields.items() if field.is_required() and name != "port")
@@ -385,5 +385,5 @@ def check_instrument(instrument: Instrument, *, traits: InstrumentTraits | None 
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(instrument, Instrument)
+    expect_members(instrument, INSTRUMENT)
     run_all(INSTRUMENT_CHECKS, instrument, traits)
