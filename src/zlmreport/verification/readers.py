@@ -29,8 +29,6 @@ from zlmreport.verification.findings import CheckedStatement, name_first_of
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
 #: Of a program of the system, in seconds and in bytes of what it prints.
 _PATIENCE, _MOST_PRINTED = 60, 64 << 20
-#: Dots to the inch: both pictures are of one engine, and are compared pixel for pixel.
-_RESOLUTION = 72
 #: What the finding is called.
 SUBJECT = "what other readers see"
 _MOST_TOLD = 4
@@ -103,9 +101,8 @@ def find_differences(content: bytes, files: Sequence[str], pages: int) -> Iterat
             yield f"{reader.name} sees {len(seen.pages)} pages, and {pages} are compared"
         if seen.files is not None and seen.files != tuple(files):
             yield f"{reader.name} takes out other attachments than are compared"
-        mended = read_as_seen_by(
-            reader, unled
-        )  # nothing is seen where a reader cannot mend it: no other face
+        # Where a reader cannot mend it, nothing is seen: that is no other face.
+        mended = read_as_seen_by(reader, unled)
         if mended is not None and mended.pages != seen.pages:
             yield f"{reader.name} sees other pages where it puts the file together anew"
         if mended is not None and set(mended.files or ()) - set(files):  # some are lost on the way
@@ -168,7 +165,7 @@ def _read_by_pdfium(content: bytes) -> Seen:
     with pypdfium2.PdfDocument(content) as document:
         pages = []
         for page in document:
-            pixels = page.render(scale=_RESOLUTION / 72).to_numpy()
+            pixels = page.render().to_numpy()  # a dot a point, as it comes: both are of one engine
             text = page.get_textpage().get_text_bounded()
             pages.append(_compute_digest(page.get_size(), text, sha256(pixels.tobytes()).hexdigest()))
         attached = (document.get_attachment(number) for number in range(document.count_attachments()))
