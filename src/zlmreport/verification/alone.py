@@ -18,6 +18,7 @@ from zlmreport import pipeline
 from zlmreport.errors import InputError, Place
 from zlmreport.job.loading import load
 from zlmreport.language import Words
+from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import MACHINE_RESULTS, SCHEMA, find_stated_by, lay_out
 from zlmreport.verification.carrier import find_results_in, open_pdf, read_file
@@ -100,7 +101,11 @@ def verify_alone(
         return replace(found, identity=of_pdf.identity, files=(whole,), remarks=(remark,))
     own = CheckedStatement(path.name, VerificationVerdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
     if own is None:
-        again = _make_again(beside, made_by, registry)
+        renderer = registry.renderer(made_by)
+        try:
+            again = _make_again(beside, renderer, registry)
+        except InputError:  # the PDF holds: what cannot be made of it is no file of this certificate
+            again = None
         own = CheckedStatement.of(
             path.name, "" if again == content else "is not what the PDF beside it gives"
         )
@@ -134,20 +139,19 @@ def _find_first(found: Verification) -> Words | str:
     return next((each.detail for each in findings if each.verdict is wanted), "")
 
 
-def _make_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
+def _make_again(pdf: Path, renderer: Renderer, registry: Registry) -> bytes:
     """Make a file again from what a PDF carries, which holds."""
     carrier = open_pdf(read_file(pdf), Place(str(pdf)))
     stated = find_stated_by(carrier)
     if stated is None:
         raise InputError.at(carrier.place, "carries no results file")
-    renderer = registry.renderer(made_by)
     with lay_out(stated.results.provenance.sources, carrier.carried) as layout:
         if stated.tree["schema"] == MACHINE_RESULTS:
             from zlmreport.machines.document import make_machine_document  # noqa: PLC0415 - only for such a document
             from zlmreport.machines.reading import read_machine  # noqa: PLC0415
 
             document = make_machine_document(read_machine(layout.job, registry, find_results_in), registry)
-            is_results = made_by == pipeline.RESULTS
+            is_results = renderer.identifier == pipeline.RESULTS
             return document.results if is_results else renderer.render(document.certificate)
-        job = load(layout.job, registry, formats=(made_by,))
+        job = load(layout.job, registry, formats=(renderer.identifier,))
         return renderer.render(pipeline.compose(job, registry))
