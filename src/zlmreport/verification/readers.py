@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import CheckedStatement, name_first_of
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
 #: Of a program of the system, in seconds and in bytes of what it prints.
@@ -67,9 +67,15 @@ def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> CheckedS
     `again`: The document printed again.
     `is_drawn_alike`: Whether it is drawn by the same strokes, so that a reader must see the same pages in it.
     """
-    told = list(find_differences(carrier.content, digest_attachments_of(carrier), len(carrier.reader.pages)))
-    if is_drawn_alike and not told:
-        told += list(_from_again(carrier.content, again))
+    try:
+        told = list(
+            find_differences(carrier.content, digest_attachments_of(carrier), len(carrier.reader.pages))
+        )
+        if is_drawn_alike and not told:
+            told += list(_from_again(carrier.content, again))
+    except subprocess.TimeoutExpired as late:  # a file without end, or a busy computer: nobody can tell
+        detail = f"{late.cmd[0]} did not end within {late.timeout:g} s; verify it once more"
+        return CheckedStatement(SUBJECT, VerificationVerdict.OPEN, detail)
     return CheckedStatement.of(SUBJECT, name_first_of(told, _MOST_TOLD))
 
 
@@ -123,12 +129,17 @@ def remove_leads(content: bytes) -> bytes:
 
 
 def read_as_seen_by(reader: Reader, content: bytes) -> Seen | None:
-    """Return what a reader sees; None if it cannot open the file, or sees no page."""
+    """Return what a reader sees; None if it cannot open the file, or sees no page.
+
+    Raises `subprocess.TimeoutExpired` if it does not end.
+    """
     logger = logging.getLogger("pypdf")
     level = logger.level
     logger.setLevel(logging.CRITICAL + 1)
     try:
         seen = reader.see(content)
+    except subprocess.TimeoutExpired:
+        raise
     except Exception:  # noqa: BLE001 - a foreign file may break its reader in any way
         return None
     finally:
