@@ -14,10 +14,10 @@ from zlmreport.plugin import MILLIMETRE, REFERENCE_TEMPERATURE, InputError, Plac
 from zlmreport.plugin.program import PartProgram
 from zlmreport.testing.expectations import check, expect, run_all
 from zlmreport.testing.part_programs import (
-    expect_defaults,
     expect_plain_text,
-    expect_program_named,
     expect_same_deeds,
+    is_named,
+    options_are_described,
 )
 from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.paths.path import PathKind, PathSettings, Probing, ProbingPath
@@ -43,18 +43,6 @@ class Stated:
 
 #: From the text of a program to its moves; it raises for a text that is none of its language.
 Recogniser: TypeAlias = Callable[[str], Sequence[Stated]]
-
-
-@check
-def is_named(program: PartProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
-    """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_program_named(program, PartProgram, ".dmi")
-
-
-@check
-def options_are_described(program: PartProgram, _recogniser: Recogniser, _keys: Mapping[str, Any]) -> None:
-    """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_defaults(program)
 
 
 @check

@@ -14,9 +14,9 @@ pytest.importorskip("starlette", reason="the workbench's extra is not installed"
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
 from processes import ZLMREPORT, started
+from web.jobs import lay_out
 
 ROOT = Path(__file__).parents[2]
-EXAMPLE = ROOT / "configs" / "hidden-effect"
 _NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 _ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 #: The longest that is waited for what a page shows, ms: a busy machine takes its time.
@@ -52,11 +52,7 @@ def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def job(tmp_path: Path) -> Path:
     """Return the job of an axis whose model lacks the error of its screw."""
-    shutil.copy(EXAMPLE / "x-axis.csv", tmp_path)
-    path = tmp_path / "job.yaml"
-    text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
-    path.write_text(text.replace("../../out", "out"), encoding="utf-8")
-    return path
+    return lay_out(tmp_path)
 
 
 @pytest.fixture

@@ -238,7 +238,11 @@ def test_the_answer_files_the_reading_that_was_asked_about(bench: Bench) -> None
 
 @pytest.mark.parametrize(
     ("answer", "message"),
-    [("2", "is at another target"), ("9", "'9' is no visit: state a number from 1 to 8, or none")],
+    [
+        ("2", "is at another target"),
+        ("9", "'9' is no visit: state a number from 1 to 8, or none"),
+        ("9" * 5000, f"'{'9' * 60}' is no visit"),
+    ],
 )
 def test_an_answer_that_cannot_be_is_refused(answer: str, message: str, bench: Bench) -> None:
     bench.job("0 20 t-5 0", ("runs: 1", "runs: 2"))
@@ -447,6 +451,7 @@ def test_a_visit_is_taken_again_after_the_end(bench: Bench) -> None:
         ("4", "--retake: 4: the capture has not come so far; next is visit 3"),
         ("9", "--retake: '9' is nothing to take again: state a visit, 1 to 4, or a run, 'run 1' to 'run 1'"),
         ("walk 1", "--retake: 'walk 1' is nothing to take again"),
+        ("9" * 5000, f"--retake: '{'9' * 60}' is nothing to take again"),
     ],
 )
 def test_what_cannot_be_taken_again_is_refused(retake: str, message: str, bench: Bench) -> None:

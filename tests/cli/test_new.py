@@ -52,6 +52,19 @@ def test_skeleton_passes_its_kit(kind: str, begun: Any, tmp_path: Path) -> None:
         tests.test_conforms(*([tmp_path] if takes_folder else []))
 
 
+def test_effect_may_be_called_as_a_word_of_yaml(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["new", "effect", "null"]) == 0
+    registry = find_plugins({}, [tmp_path / "null" / "null.yaml"])
+    assert "null" in [each.identifier for each in registry.effects]
+
+
+def test_skeleton_of_an_instrument_brings_what_reads_a_port(begun: Any) -> None:
+    folder = begun("instrument")
+    for name in ("pyproject.toml", "README.md"):
+        assert '"zlmreport[capture]"' in (folder / name).read_text(encoding="utf-8")
+
+
 def test_skeleton_of_an_instrument_is_read(begun: Any) -> None:
     instrument = imported_from("my_plugin", begun("instrument")).MyPlugin()
     for check in (instruments.is_named, instruments.follows_the_axis, instruments.no_cut_answer_is_usable):
@@ -101,6 +114,13 @@ def test_what_is_there_is_not_touched(begun: Any, capsys: pytest.CaptureFixture[
         (["standart", "x"], "zlmreport new: there is no kind 'standart'; did you mean 'standard'?"),
         (["effect", "My effect"], "zlmreport new: 'My effect' is no name for a plugin; write lower-case"),
         (["effect", "../x"], "zlmreport new: '../x' is no name for a plugin"),
+        (["standard", "class"], "zlmreport new: 'class' is a word of Python, which no module is called"),
+        (["standard", "true"], "zlmreport new: 'true' is a word of Python, which no module is called"),
+        (
+            ["standard", "numpy"],
+            "zlmreport new: there is a module 'numpy' already, and Python would take one",
+        ),
+        (["renderer", "json"], "zlmreport new: there is a module 'json' already"),
         (["source", "x", "--from", "job.yaml"], "zlmreport new: --from takes a formula, which is an effect"),
     ],
 )

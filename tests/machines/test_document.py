@@ -7,6 +7,7 @@ import pytest
 
 from zlmreport.cli import main
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.verification.findings import VerificationVerdict
 from zlmreport.verification.verify import verify
 
 
@@ -50,6 +51,30 @@ def test_a_changed_reading_is_found(folder):
     changed = folder / "changed.pdf"
     writer.write(changed)
     assert verify(changed, find_plugins()).holds is False
+
+
+@pytest.mark.long
+def test_its_other_files_are_held_against_it(folder):
+    made(folder)
+    assert (
+        main(["machine", "certificate", str(folder / "machine.yaml"), "--format", "html", "-o", str(folder)])
+        == 0
+    )
+    results, page = folder / "M-7.json", folder / "M-7.html"
+    found = verify(results, find_plugins())
+    assert (found.holds, [each.subject for each in found.files]) == (True, ["M-7.json", "M-7.pdf"])
+    page.write_bytes(page.read_bytes().replace(b"EXX", b"EYY"))
+    found = verify(page, find_plugins())
+    assert [each.subject for each in found.files if each.verdict is VerificationVerdict.DIFFERS] == [
+        "M-7.html"
+    ]
+
+
+@pytest.mark.long
+def test_what_anybody_wrote_is_no_name_of_an_effect(folder):
+    written = {each.key for each in verify(made(folder), find_plugins()).own_words}
+    assert "machine.serial" in written
+    assert not {key for key in written if key.startswith(("chain", "model.effects"))}
 
 
 @pytest.mark.long

@@ -60,7 +60,7 @@ class Demanding(Options):
 SINS = [
     (probing_programs.is_named, {"identifier": "Words!"}, "lower-case ASCII"),
     (probing_programs.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
-    (probing_programs.is_named, {"suffix": "words"}, "must be like '.dmi'"),
+    (probing_programs.is_named, {"suffix": "words"}, "must be like '.ngc'"),
     (probing_programs.options_are_described, {"options": Undescribed}, "job key 'speed' needs a description"),
     (probing_programs.options_are_described, {"options": Greedy}, "job keys program belong to the core"),
     (probing_programs.options_are_described, {"options": Demanding}, "job keys speed need a default"),

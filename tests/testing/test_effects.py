@@ -52,14 +52,6 @@ _ANSWERS = count(1)
 
 
 TOO_MANY = Formula.of(
-    FormulaKeys(
-        name="own",
-        formula="a*k",
-        parameters={"a": {"unit": "um"}, "k": {"range": [1, 2]}},  # type: ignore[dict-item]  # as a file has it
-    ),
-    AxisKind.LINEAR,
-)
-TOO_MANY = Formula.of(
     FormulaKeys.model_validate(
         {"name": "own", "formula": "a*k", "parameters": {"a": {"unit": "um"}, "k": {"range": [1, 2]}}}
     ),
@@ -199,6 +191,13 @@ def test_every_check_has_a_sin_that_it_finds() -> None:
 def test_what_is_no_effect_is_told_what_it_lacks() -> None:
     with pytest.raises(AssertionError, match="has no title, equation, linear, searched"):
         check_effect(SimpleNamespace(identifier="half"))  # type: ignore[arg-type]  # the sin
+
+
+def test_what_installation_would_refuse_the_kit_refuses() -> None:
+    has_what_the_kit_uses = {name: getattr(ExemplaryEffect(), name) for name in dir(ExemplaryEffect())}
+    del has_what_the_kit_uses["forbids"]
+    with pytest.raises(AssertionError, match=r"has no forbids \(see zlmreport.plugin.effect.Effect\)"):
+        check_effect(SimpleNamespace(**has_what_the_kit_uses))  # type: ignore[arg-type]  # the sin
 
 
 def test_all_sins_are_told_at_once() -> None:

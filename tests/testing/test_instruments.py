@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import islice
@@ -145,6 +146,14 @@ def test_the_author_says_what_the_manual_says() -> None:
     for check in (instruments.no_garbled_answer_is_usable, instruments.tells_of_a_lost_beam):
         with pytest.raises(AssertionError, match="say what its manual says"):
             check(_Gauge())
+
+
+def test_an_instrument_that_begins_late_sees_all_that_goes_wrong() -> None:
+    def begin_late(gauge: Any, options: PortOptions) -> Any:
+        time.sleep(1.5)
+        return _Gauge.open(gauge, options)
+
+    instruments.tells_of_a_lost_beam(_sin(open=begin_late), TRAITS)
 
 
 def test_an_instrument_that_knows_no_beam_need_not_tell_of_it() -> None:

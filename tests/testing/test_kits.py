@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import sys
 import threading
+from importlib import import_module
 from typing import Any
 
 import pytest
 
 from testing.exemplary import ExemplaryStandard
+from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.testing import check_standard, expectations
 
 
@@ -31,6 +33,14 @@ def test_exit_in_one_check_ends_no_other() -> None:
 def test_raw_error_becomes_a_sentence_with_its_line() -> None:
     with pytest.raises(AssertionError, match=r"exemplary:1: raised KeyError: 'A' \(test_kits.py, line \d+\)"):
         check_standard(_sinful(figures=property(lambda _: {}["A"])))
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=str)
+def test_what_is_missing_is_told_by_the_door_that_an_author_imports(kind: Kind[Any]) -> None:
+    with pytest.raises(AssertionError) as failure:
+        expectations.expect_members(object(), kind)
+    door, _, name = str(failure.value).partition("(see ")[2].removesuffix(")").rpartition(".")
+    assert getattr(import_module(door), name) is kind.protocol
 
 
 def test_check_that_does_not_come_back_fails(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,21 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 
 import pikepdf
 from pikepdf import Array, Name, Pdf, String
 
-from verification.altering import Forgery, page_of, rewritten
-from verification.forgeries import FORGERIES
-
-
-def _change(name: str, seen: str) -> Callable[[Callable[[Pdf], None]], Callable[[Pdf], None]]:
-    def add(change: Callable[[Pdf], None]) -> Callable[[Pdf], None]:
-        FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
-        return change
-
-    return add
+from verification.altering import page_of
+from verification.forgeries import forge
 
 
 def _listed(pdf: Pdf) -> Array:
@@ -31,7 +22,7 @@ def _attached(pdf: Pdf, name: str = "x-axis.csv") -> pikepdf.Dictionary:
     return found
 
 
-@_change("names exchanged in the list", "the readings under the name of the job")
+@forge("names exchanged in the list", "the readings under the name of the job")
 def _(pdf: Pdf) -> None:
     listed = _listed(pdf)
     names = [str(each) for each in list(listed)[::2]]
@@ -39,41 +30,41 @@ def _(pdf: Pdf) -> None:
         listed[2 * place] = String(name)
 
 
-@_change("path as a name in the list", "a file that is saved outside of the folder, as an accreditation")
+@forge("path as a name in the list", "a file that is saved outside of the folder, as an accreditation")
 def _(pdf: Pdf) -> None:
     _listed(pdf)[0] = String("../../accreditation-certificate.pdf")
 
 
-@_change("listed twice", "one file more")
+@forge("listed twice", "one file more")
 def _(pdf: Pdf) -> None:
     listed = _listed(pdf)
     listed.extend([String("z-more.csv"), listed[1]])
 
 
-@_change("listed twice under one name", "one file more")
+@forge("listed twice under one name", "one file more")
 def _(pdf: Pdf) -> None:
     listed = _listed(pdf)
     listed.extend([listed[0], listed[1]])
 
 
-@_change("in no list of names", "a file less, in viewers that take out what is listed")
+@forge("in no list of names", "a file less, in viewers that take out what is listed")
 def _(pdf: Pdf) -> None:
     listed = _listed(pdf)
     del listed[:2]
 
 
-@_change("associated with nothing", "a file less, in viewers that take out what is associated")
+@forge("associated with nothing", "a file less, in viewers that take out what is associated")
 def _(pdf: Pdf) -> None:
     associated = pdf.Root.AF
     del associated[0]
 
 
-@_change("associated twice", "one file more")
+@forge("associated twice", "one file more")
 def _(pdf: Pdf) -> None:
     pdf.Root.AF.append(pdf.Root.AF[0])
 
 
-@_change("other dates of files", "readings of another year")
+@forge("other dates of files", "readings of another year")
 def _(pdf: Pdf) -> None:
     parameters = _attached(pdf).EF.F.Params
     for key in ("/ModDate", "/CreationDate"):
@@ -81,27 +72,27 @@ def _(pdf: Pdf) -> None:
             parameters[key] = String("D:20310101000000Z")
 
 
-@_change("other size of a file", "a file of another size, in lists")
+@forge("other size of a file", "a file of another size, in lists")
 def _(pdf: Pdf) -> None:
     _attached(pdf).EF.F.Params.Size = 7
 
 
-@_change("more said of a file", "a thumbnail or a note, in viewers that show it")
+@forge("more said of a file", "a thumbnail or a note, in viewers that show it")
 def _(pdf: Pdf) -> None:
     _attached(pdf).Volatile = True
 
 
-@_change("name of the program", "a statement, among the properties of the file")
+@forge("name of the program", "a statement, among the properties of the file")
 def _(pdf: Pdf) -> None:
     pdf.docinfo["/Producer"] = String("Accredited by the DAkkS; A = 0.5 um, conforms")
 
 
-@_change("program and statement", "a statement, among the properties of the file")
+@forge("program and statement", "a statement, among the properties of the file")
 def _(pdf: Pdf) -> None:
     pdf.docinfo["/Producer"] = String("pypdf 7.1, conforms")
 
 
-@_change("order of reading on a page", "other words first, to who has the page read aloud")
+@forge("order of reading on a page", "other words first, to who has the page read aloud")
 def _(pdf: Pdf) -> None:
     page = page_of(pdf, 1)
     content = page.Contents.read_bytes()
@@ -116,7 +107,7 @@ def _(pdf: Pdf) -> None:
     page.Contents = pdf.make_stream(re.sub(rb"/MCID (\d+)", other, content))
 
 
-@_change("elements of places", "other words, to who asks what stands at a place")
+@forge("elements of places", "other words, to who asks what stands at a place")
 def _(pdf: Pdf) -> None:
     numbers = pdf.Root.StructTreeRoot.ParentTree.Nums
     for each in list(numbers)[1::2]:
@@ -125,13 +116,13 @@ def _(pdf: Pdf) -> None:
             return
 
 
-@_change("places of another page", "the words of another page, to who has the page read aloud")
+@forge("places of another page", "the words of another page, to who has the page read aloud")
 def _(pdf: Pdf) -> None:
     first, second = page_of(pdf, 1), page_of(pdf, 2)
     first.StructParents, second.StructParents = int(second.StructParents), int(first.StructParents)
 
 
-@_change("results in the metadata of a page", "A = 0.5 um, to programs that read metadata")
+@forge("results in the metadata of a page", "A = 0.5 um, to programs that read metadata")
 def _(pdf: Pdf) -> None:
     packet = b'<x:xmpmeta xmlns:x="adobe:ns:meta/"><A>0.5 um</A></x:xmpmeta>'
     page_of(pdf, 1).Metadata = pdf.make_stream(packet, Type=Name.Metadata, Subtype=Name.XML)

@@ -45,7 +45,9 @@ BOX = b"q 1 1 1 rg 100 600 200 100 re f 0 0 0 RG 2 w 150 620 m 150 680 l S Q"
 _Maker = Callable[[bytes], bytes]
 
 
-def _forgery(name: str, seen: str) -> Callable[[_Maker], _Maker]:
+def forge_bytes(name: str, seen: str) -> Callable[[_Maker], _Maker]:
+    """Add a forgery that is made of the bytes of a certificate."""
+
     def add(make: _Maker) -> _Maker:
         FORGERIES.append(Forgery(name, seen, make))
         return make
@@ -53,7 +55,9 @@ def _forgery(name: str, seen: str) -> Callable[[_Maker], _Maker]:
     return add
 
 
-def _change(name: str, seen: str) -> Callable[[Change], Change]:
+def forge(name: str, seen: str) -> Callable[[Change], Change]:
+    """Add a forgery that is made of the objects of a certificate."""
+
     def add(change: Change) -> Change:
         FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
         return change
@@ -69,7 +73,7 @@ def _swapped(font: Dictionary) -> dict[int, int]:
     return {own["1"]: own["9"], own["9"]: own["1"]}
 
 
-@_change("glyph map", "each 1 as a 9 and each 9 as a 1")
+@forge("glyph map", "each 1 as a 9 and each 9 as a 1")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         swapped = _swapped(font)
@@ -77,7 +81,7 @@ def _(pdf: Pdf) -> None:
         descendant(font).CIDToGIDMap = pdf.make_stream(table)
 
 
-@_change("encoding by a CMap", "each 1 as a 9 and each 9 as a 1")
+@forge("encoding by a CMap", "each 1 as a 9 and each 9 as a 1")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         swapped = _swapped(font)
@@ -92,32 +96,32 @@ def _(pdf: Pdf) -> None:
         font.Encoding = Stream(pdf, table.encode(), Type=Name.CMap, CMapName=Name.Swap, CIDSystemInfo=system)
 
 
-@_change("vertical encoding", "numbers whose digits stand below one another")
+@forge("vertical encoding", "numbers whose digits stand below one another")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         font.Encoding = Name("/Identity-V")
 
 
-@_change("widths", "digits that are drawn over one another")
+@forge("widths", "digits that are drawn over one another")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         descendant(font).W = Array([0, Array([0] * 1000)])
 
 
-@_change("default width", "digits that stand apart")
+@forge("default width", "digits that stand apart")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         descendant(font).DW = 3000
         descendant(font).W = Array([])
 
 
-@_change("vertical widths", "digits that are shifted")
+@forge("vertical widths", "digits that are shifted")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         descendant(font).DW2 = Array([0, 500])
 
 
-@_change("text of glyphs", "as before; who copies or hears a 1 gets a 9")
+@forge("text of glyphs", "as before; who copies or hears a 1 gets a 9")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         old = font.ToUnicode.read_bytes()
@@ -126,7 +130,7 @@ def _(pdf: Pdf) -> None:
         font.ToUnicode = pdf.make_stream(new)
 
 
-@_change("other characters of glyphs", "as before; who copies a 1 gets 19")
+@forge("other characters of glyphs", "as before; who copies a 1 gets 19")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         own = codes(font)
@@ -134,7 +138,7 @@ def _(pdf: Pdf) -> None:
         font.ToUnicode = pdf.make_stream(font.ToUnicode.read_bytes().replace(b"endcmap", more))
 
 
-@_change("outlines", "each 1 as a 9 and each 9 as a 1")
+@forge("outlines", "each 1 as a 9 and each 9 as a 1")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
 
@@ -145,7 +149,7 @@ def _(pdf: Pdf) -> None:
         with_program(font, swap)
 
 
-@_change("outlines of one font", "each 1 of the headings as a 9")
+@forge("outlines of one font", "each 1 of the headings as a 9")
 def _(pdf: Pdf) -> None:
     font = list(every_font(pdf))[-1]
 
@@ -155,7 +159,7 @@ def _(pdf: Pdf) -> None:
     with_program(font, swap)
 
 
-@_change("outline of the decimal point", "numbers without a decimal point: 726 for 7.26")
+@forge("outline of the decimal point", "numbers without a decimal point: 726 for 7.26")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         if "." not in codes(font):
@@ -167,13 +171,13 @@ def _(pdf: Pdf) -> None:
         with_program(font, empty)
 
 
-@_change("units of the outlines", "letters and digits of half the size")
+@forge("units of the outlines", "letters and digits of half the size")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         with_program(font, lambda program: setattr(program["head"], "unitsPerEm", 2000))
 
 
-@_change("side bearings", "digits that are moved out of their places")
+@forge("side bearings", "digits that are moved out of their places")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         if "." not in codes(font):
@@ -187,7 +191,7 @@ def _(pdf: Pdf) -> None:
         with_program(font, move)
 
 
-@_change("program of a glyph", "what the instructions make of a 1, where outlines are fitted to pixels")
+@forge("program of a glyph", "what the instructions make of a 1, where outlines are fitted to pixels")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
 
@@ -200,7 +204,7 @@ def _(pdf: Pdf) -> None:
         with_program(font, instruct)
 
 
-@_change("program of a font", "what the instructions make of every glyph")
+@forge("program of a font", "what the instructions make of every glyph")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
 
@@ -212,7 +216,7 @@ def _(pdf: Pdf) -> None:
         with_program(font, instruct)
 
 
-@_change("pictures of glyphs", "other digits, where a viewer prefers bitmaps or SVG to outlines")
+@forge("pictures of glyphs", "other digits, where a viewer prefers bitmaps or SVG to outlines")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
 
@@ -223,27 +227,27 @@ def _(pdf: Pdf) -> None:
         with_program(font, add)
 
 
-@_change("second program", "other glyphs, where a viewer prefers FontFile3")
+@forge("second program", "other glyphs, where a viewer prefers FontFile3")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         holder = descendant(font).FontDescriptor
         holder.FontFile3 = Stream(pdf, holder.FontFile2.read_bytes(), Subtype=Name.OpenType)
 
 
-@_change("no program", "a font of the reader's machine in which the codes mean other characters")
+@forge("no program", "a font of the reader's machine in which the codes mean other characters")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         del descendant(font).FontDescriptor.FontFile2
 
 
-@_change("no program, other name", "the characters of another collection")
+@forge("no program, other name", "the characters of another collection")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         del descendant(font).FontDescriptor.FontFile2
         descendant(font).CIDSystemInfo.Ordering = String("Japan1")
 
 
-@_change("font of drawings", "a 9 that is drawn by the font for each 1")
+@forge("font of drawings", "a 9 that is drawn by the font for each 1")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         for name, font in list(page.obj.Resources.Font.items()):
@@ -264,7 +268,7 @@ def _(pdf: Pdf) -> None:
             )
 
 
-@_change("fonts exchanged", "letters and digits of the codes of another font")
+@forge("fonts exchanged", "letters and digits of the codes of another font")
 def _(pdf: Pdf) -> None:
     seen = set()
     for page in pdf.pages:
@@ -278,7 +282,7 @@ def _(pdf: Pdf) -> None:
             table[name] = value
 
 
-@_change("a standard font", "Helvetica, in which the codes mean other characters")
+@forge("a standard font", "Helvetica, in which the codes mean other characters")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         for name in list(page.obj.Resources.Font.keys()):
@@ -287,7 +291,7 @@ def _(pdf: Pdf) -> None:
             )
 
 
-@_change("bold by a flag", "strokes that are drawn thicker")
+@forge("bold by a flag", "strokes that are drawn thicker")
 def _(pdf: Pdf) -> None:
     for font in every_font(pdf):
         descendant(font).FontDescriptor.Flags = 1 << 18 | 4
@@ -333,14 +337,14 @@ _on_tree("inherited crop box", "the upper half of each page alone", CropBox=_COR
 _on_tree("inherited rotation", "pages upside down", Rotate=180)
 
 
-@_change("inherited media box", "the upper half of each page alone")
+@forge("inherited media box", "the upper half of each page alone")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         del page.obj.MediaBox
     pdf.Root.Pages.MediaBox = Array(_CORNER)
 
 
-@_change("inherited resources", "each 1 as a 9 and each 9 as a 1")
+@forge("inherited resources", "each 1 as a 9 and each 9 as a 1")
 def _(pdf: Pdf) -> None:
     resources = page_of(pdf).Resources
     for page in pdf.pages:
@@ -350,7 +354,7 @@ def _(pdf: Pdf) -> None:
         descendant(font).CIDToGIDMap = pdf.make_stream(bytes(2000))
 
 
-@_change("box of a node of the page tree", "the upper half of one page alone")
+@forge("box of a node of the page tree", "the upper half of one page alone")
 def _(pdf: Pdf) -> None:
     first = pdf.Root.Pages.Kids[0]
     node = Dictionary(
@@ -364,38 +368,38 @@ def _(pdf: Pdf) -> None:
 # Over what is printed
 
 
-@_change("white box", "a drawn 1 in a white box instead of numbers, on one page")
+@forge("white box", "a drawn 1 in a white box instead of numbers, on one page")
 def _(pdf: Pdf) -> None:
     draw(pdf, page_of(pdf, 2), BOX)
 
 
-@_change("white box and strokes on every page", "a drawn 1 in a white box instead of numbers")
+@forge("white box and strokes on every page", "a drawn 1 in a white box instead of numbers")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         draw(pdf, page.obj, b"0 0 m 0 0 l S")
     draw(pdf, page_of(pdf, 2), BOX)
 
 
-@_change("white box on every page", "a drawn 1 in a white box on every page")
+@forge("white box on every page", "a drawn 1 in a white box on every page")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         draw(pdf, page.obj, BOX)
 
 
-@_change("second content", "a drawn 1 in a white box on every page")
+@forge("second content", "a drawn 1 in a white box on every page")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Contents = Array([page.obj.Contents, pdf.make_stream(b"\nQ Q " + BOX)])
 
 
-@_change("content below", "a coloured page, and numbers that cannot be read on it")
+@forge("content below", "a coloured page, and numbers that cannot be read on it")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         old = page.obj.Contents.read_bytes()
         page.obj.Contents = pdf.make_stream(b"q 0.09 0.13 0.17 rg 0 0 600 850 re f Q\n" + old)
 
 
-@_change("words over words", "another number, written over the first")
+@forge("words over words", "another number, written over the first")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         for name, font in page.obj.Resources.Font.items():
@@ -405,7 +409,7 @@ def _(pdf: Pdf) -> None:
                 break
 
 
-@_change("form", "a drawn 1 in a white box")
+@forge("form", "a drawn 1 in a white box")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         objects = page.obj.Resources.get("/XObject", Dictionary())
@@ -414,7 +418,7 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"/Over Do")
 
 
-@_change("picture", "a white picture instead of numbers")
+@forge("picture", "a white picture instead of numbers")
 def _(pdf: Pdf) -> None:
     picture = Stream(
         pdf,
@@ -433,14 +437,14 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"q 200 0 0 100 100 600 cm /Over Do Q")
 
 
-@_change("inline picture", "a white picture instead of numbers")
+@forge("inline picture", "a white picture instead of numbers")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         inline = b"BI /W 1 /H 1 /BPC 8 /CS /G ID \xff\nEI"
         draw(pdf, page.obj, b"q 200 0 0 100 100 600 cm " + inline + b" Q")
 
 
-@_change("shading", "a white area instead of numbers")
+@forge("shading", "a white area instead of numbers")
 def _(pdf: Pdf) -> None:
     white = Dictionary(FunctionType=2, Domain=Array([0, 1]), C0=Array([1]), C1=Array([1]), N=1)
     for page in pdf.pages:
@@ -456,7 +460,7 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"q 100 600 200 100 re W n /Over sh Q")
 
 
-@_change("pattern", "an area of tiles instead of numbers")
+@forge("pattern", "an area of tiles instead of numbers")
 def _(pdf: Pdf) -> None:
     tile = Stream(
         pdf,
@@ -474,7 +478,7 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"/Pattern cs /Over scn 100 600 200 100 re f")
 
 
-@_change("curve moved", "a graph 3 points lower, on every page that has one")
+@forge("curve moved", "a graph 3 points lower, on every page that has one")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Contents = pdf.make_stream(
@@ -482,40 +486,40 @@ def _(pdf: Pdf) -> None:
         )
 
 
-@_change("line by line off", "a page whose last drawing is missing")
+@forge("line by line off", "a page whose last drawing is missing")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         content = page.obj.Contents.read_bytes()
         page.obj.Contents = pdf.make_stream(content[: content.rindex(b"BT")] + b"Q Q Q Q Q Q Q Q")
 
 
-@_change("clip", "numbers that are cut off")
+@forge("clip", "numbers that are cut off")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Contents = pdf.make_stream(b"0 400 600 450 re W n\n" + page.obj.Contents.read_bytes())
 
 
-@_change("magnified", "pages moved and magnified")
+@forge("magnified", "pages moved and magnified")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Contents = pdf.make_stream(b"1.2 0 0 1.2 0 -100 cm\n" + page.obj.Contents.read_bytes())
 
 
-@_change("invisible text", "pages without words, and a drawn 1")
+@forge("invisible text", "pages without words, and a drawn 1")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         old = page.obj.Contents.read_bytes().replace(b" 0 Tr", b" 3 Tr").replace(b"0 Tr/", b"3 Tr/")
         page.obj.Contents = pdf.make_stream(b"3 Tr\n" + old + b"\n" + BOX)
 
 
-@_change("white text", "pages without words")
+@forge("white text", "pages without words")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         old = re.sub(rb"[\d.]+ [\d.]+ [\d.]+ (rg|scn)", rb"1 1 1 \1", page.obj.Contents.read_bytes())
         page.obj.Contents = pdf.make_stream(old)
 
 
-@_change("lines of no width", "graphs without curves")
+@forge("lines of no width", "graphs without curves")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Contents = pdf.make_stream(
@@ -523,7 +527,7 @@ def _(pdf: Pdf) -> None:
         )
 
 
-@_change("digits exchanged", "each 1 as a 9, in words too, on every page")
+@forge("digits exchanged", "each 1 as a 9, in words too, on every page")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         content = page.obj.Contents.read_bytes()
@@ -533,7 +537,7 @@ def _(pdf: Pdf) -> None:
         page.obj.Contents = pdf.make_stream(content.replace(b"(\000\001", b"(\000\002"))
 
 
-@_change("digits moved", "the words as they were, and one digit at another number")
+@forge("digits moved", "the words as they were, and one digit at another number")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         content = page.obj.Contents.read_bytes()
@@ -565,7 +569,7 @@ _in_states("line width of a state", "curves as broad as bars", LW=40)
 _in_states("dash of a state", "curves in pieces", D=Array([Array([1, 50]), 0]))
 
 
-@_change("soft mask", "pages without words")
+@forge("soft mask", "pages without words")
 def _(pdf: Pdf) -> None:
     mask = form(pdf, b"", Group=Dictionary(S=Name.Transparency, CS=Name.DeviceGray))
     for page in pdf.pages:
@@ -574,7 +578,7 @@ def _(pdf: Pdf) -> None:
             states[key].SMask = Dictionary(S=Name.Luminosity, G=mask)
 
 
-@_change("colour space", "black as white")
+@forge("colour space", "black as white")
 def _(pdf: Pdf) -> None:
     tint = Dictionary(FunctionType=2, Domain=Array([0, 1]), C0=Array([1, 1, 1]), C1=Array([1, 1, 1]), N=1)
     for page in pdf.pages:
@@ -583,7 +587,7 @@ def _(pdf: Pdf) -> None:
             spaces[key] = Array([Name.Separation, Name.None_, Name.DeviceRGB, tint])
 
 
-@_change("colour profile", "other colours")
+@forge("colour profile", "other colours")
 def _(pdf: Pdf) -> None:
     profiles = {  # that all pages share, reversed once and not back again
         space[1].objgen: space[1]
@@ -595,7 +599,7 @@ def _(pdf: Pdf) -> None:
         profile.write(bytes(reversed(profile.read_bytes())))
 
 
-@_change("default colour space", "black as white")
+@forge("default colour space", "black as white")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         page.obj.Resources.ColorSpace.DefaultRGB = Array(
@@ -603,7 +607,7 @@ def _(pdf: Pdf) -> None:
         )
 
 
-@_change("layer", "pages without words: they stand on a layer that is off")
+@forge("layer", "pages without words: they stand on a layer that is off")
 def _(pdf: Pdf) -> None:
     group = pdf.make_indirect(Dictionary(Type=Name.OCG, Name=String("numbers")))
     pdf.Root.OCProperties = Dictionary(OCGs=Array([group]), D=Dictionary(OFF=Array([group]), Order=Array([])))
@@ -613,7 +617,7 @@ def _(pdf: Pdf) -> None:
         page.obj.Contents = pdf.make_stream(b"/OC /off BDC\n" + old + b"\nEMC")
 
 
-@_change("layer of a picture", "a page without its logo")
+@forge("layer of a picture", "a page without its logo")
 def _(pdf: Pdf) -> None:
     group = pdf.make_indirect(Dictionary(Type=Name.OCG, Name=String("logo")))
     pdf.Root.OCProperties = Dictionary(OCGs=Array([group]), D=Dictionary(OFF=Array([group])))
@@ -716,25 +720,25 @@ def _first_link(pdf: Pdf) -> Dictionary:
     )
 
 
-@_change("appearance of a link", "a drawn 1 in a white box")
+@forge("appearance of a link", "a drawn 1 in a white box")
 def _(pdf: Pdf) -> None:
     link = _first_link(pdf)
     link.AP = _appearance(pdf)
 
 
-@_change("frame of a link", "a thick frame over numbers")
+@forge("frame of a link", "a thick frame over numbers")
 def _(pdf: Pdf) -> None:
     link = _first_link(pdf)
     link.C = Array([1, 1, 1])
     link.Border = Array([0, 0, 40])
 
 
-@_change("place of a link", "a link over the numbers")
+@forge("place of a link", "a link over the numbers")
 def _(pdf: Pdf) -> None:
     _first_link(pdf).Rect = Array([0, 0, 600, 850])
 
 
-@_change("target of a link", "a page of another server")
+@forge("target of a link", "a page of another server")
 def _(pdf: Pdf) -> None:
     link = _first_link(pdf)
     del link.Dest
@@ -747,30 +751,30 @@ def _signature_field(pdf: Pdf, **entries: object) -> Dictionary:
     return field
 
 
-@_change("field with a script", "what the script writes, when the page is opened")
+@forge("field with a script", "what the script writes, when the page is opened")
 def _(pdf: Pdf) -> None:
     field = _signature_field(pdf, AA=Dictionary(PO=script()))
     pdf.Root.AcroForm = Dictionary(Fields=Array([field]), SigFlags=3)
 
 
-@_change("field with an appearance", "a drawn 1, in viewers that take no notice of the size of the field")
+@forge("field with an appearance", "a drawn 1, in viewers that take no notice of the size of the field")
 def _(pdf: Pdf) -> None:
     field = _signature_field(pdf, AP=_appearance(pdf))
     pdf.Root.AcroForm = Dictionary(Fields=Array([field]), SigFlags=3)
 
 
-@_change("field of a signature that is none", "a field that asks to be signed")
+@forge("field of a signature that is none", "a field that asks to be signed")
 def _(pdf: Pdf) -> None:
     pdf.Root.AcroForm = Dictionary(Fields=Array([_signature_field(pdf)]), SigFlags=3)
 
 
-@_change("XFA form", "the pages of the form, in viewers that know XFA")
+@forge("XFA form", "the pages of the form, in viewers that know XFA")
 def _(pdf: Pdf) -> None:
     data = pdf.make_stream(b"<xdp:xdp xmlns:xdp='http://ns.adobe.com/xdp/'/>")
     pdf.Root.AcroForm = Dictionary(Fields=Array([]), XFA=data)
 
 
-@_change("empty form", "as before; viewers may draw fields anew")
+@forge("empty form", "as before; viewers may draw fields anew")
 def _(pdf: Pdf) -> None:
     pdf.Root.AcroForm = Dictionary(Fields=Array([]), NeedAppearances=True)
 
@@ -805,34 +809,34 @@ _in_catalog("threads", "articles through the pages", Threads=Array([]))
 _in_catalog("colours of the printer", "no statement of what the colours mean", OutputIntents=Array([]))
 
 
-@_change("script by name", "what the script writes")
+@forge("script by name", "what the script writes")
 def _(pdf: Pdf) -> None:
     pdf.Root.Names.JavaScript = Dictionary(Names=Array([String("a"), script()]))
 
 
-@_change("page by name", "another page, when a script asks for it")
+@forge("page by name", "another page, when a script asks for it")
 def _(pdf: Pdf) -> None:
     pdf.Root.Names.Pages = Dictionary(Names=Array([]))
 
 
-@_change("script of a page", "what the script writes, when the page is opened")
+@forge("script of a page", "what the script writes, when the page is opened")
 def _(pdf: Pdf) -> None:
     page_of(pdf, 2).AA = Dictionary(O=script())
 
 
-@_change("target by name", "another page than the one that the link names")
+@forge("target by name", "another page than the one that the link names")
 def _(pdf: Pdf) -> None:
     names = pdf.Root.Names.Dests.Names
     for index in range(1, len(names), 2):
         names[index] = names[1]
 
 
-@_change("bookmark", "'Accredited' in the list of contents")
+@forge("bookmark", "'Accredited' in the list of contents")
 def _(pdf: Pdf) -> None:
     pdf.Root.Outlines.First.Title = String("Accredited")
 
 
-@_change("action of a bookmark", "a page of another server")
+@forge("action of a bookmark", "a page of another server")
 def _(pdf: Pdf) -> None:
     pdf.Root.Outlines.First.A = Dictionary(S=Name.URI, URI=String("https://example.org"))
 
@@ -843,17 +847,17 @@ def _elements(pdf: Pdf) -> list[Dictionary]:
     ]
 
 
-@_change("text of a graph", "as before; who hears it hears another value")
+@forge("text of a graph", "as before; who hears it hears another value")
 def _(pdf: Pdf) -> None:
     next(each for each in _elements(pdf) if Name.Figure == each.S).Alt = String("A is 1.2 µm")
 
 
-@_change("text of a cell", "as before; who hears or copies it gets another value")
+@forge("text of a cell", "as before; who hears or copies it gets another value")
 def _(pdf: Pdf) -> None:
     next(each for each in _elements(pdf) if each.S == Name.TD).ActualText = String("1.2")
 
 
-@_change("text of a cell in the page", "as before; who copies it gets another value")
+@forge("text of a cell in the page", "as before; who copies it gets another value")
 def _(pdf: Pdf) -> None:
     for page in pdf.pages:
         old = page.obj.Contents.read_bytes()
@@ -862,23 +866,23 @@ def _(pdf: Pdf) -> None:
         )
 
 
-@_change("roles", "as before; who hears it hears tables as artefacts")
+@forge("roles", "as before; who hears it hears tables as artefacts")
 def _(pdf: Pdf) -> None:
     pdf.Root.StructTreeRoot.RoleMap = Dictionary(TD=Name.NonStruct, Table=Name.Artifact)
 
 
-@_change("order of reading", "as before; who hears it hears cells in another order")
+@forge("order of reading", "as before; who hears it hears cells in another order")
 def _(pdf: Pdf) -> None:
     row = next(each for each in _elements(pdf) if each.S == Name.TR and len(each.K) > 1)
     row.K = Array(reversed(list(row.K)))
 
 
-@_change("not marked", "as before; who hears it hears nothing")
+@forge("not marked", "as before; who hears it hears nothing")
 def _(pdf: Pdf) -> None:
     pdf.Root.MarkInfo = Dictionary(Marked=False)
 
 
-@_change("form in the structure", "as before; who hears it hears a number that is none of the pages'")
+@forge("form in the structure", "as before; who hears it hears a number that is none of the pages'")
 def _(pdf: Pdf) -> None:
     document = next(each for each in _elements(pdf) if each.S in {Name.Document, Name.Part})
     document.K.append(
@@ -886,18 +890,18 @@ def _(pdf: Pdf) -> None:
     )
 
 
-@_change("metadata", "another number of the certificate, in lists of files")
+@forge("metadata", "another number of the certificate, in lists of files")
 def _(pdf: Pdf) -> None:
     old = pdf.Root.Metadata.read_bytes()
     pdf.Root.Metadata.write(old.replace(b"VERIFY-1", b"VERIFY-2"))
 
 
-@_change("title", "another number of the certificate, in the title of the window")
+@forge("title", "another number of the certificate, in the title of the window")
 def _(pdf: Pdf) -> None:
     pdf.docinfo["/Title"] = String("VERIFY-2")
 
 
-@_change("private entry of the information", "another laboratory, in lists of files")
+@forge("private entry of the information", "another laboratory, in lists of files")
 def _(pdf: Pdf) -> None:
     pdf.docinfo["/Laboratory"] = String("Another")
 
@@ -905,33 +909,33 @@ def _(pdf: Pdf) -> None:
 # Pages
 
 
-@_change("pages exchanged", "pages in another order")
+@forge("pages exchanged", "pages in another order")
 def _(pdf: Pdf) -> None:
     pdf.pages.reverse()
 
 
-@_change("page twice", "a page twice")
+@forge("page twice", "a page twice")
 def _(pdf: Pdf) -> None:
     pdf.pages.append(pdf.pages[1])
 
 
-@_change("page taken out", "no second page")
+@forge("page taken out", "no second page")
 def _(pdf: Pdf) -> None:
     del pdf.pages[1]
 
 
-@_change("page put in", "a page of one's own")
+@forge("page put in", "a page of one's own")
 def _(pdf: Pdf) -> None:
     pdf.add_blank_page()
     pdf.pages[-1].obj.Contents = pdf.make_stream(BOX)
 
 
-@_change("page for a page", "the second page in place of the third")
+@forge("page for a page", "the second page in place of the third")
 def _(pdf: Pdf) -> None:
     page_of(pdf, 3).Contents = page_of(pdf, 2).Contents
 
 
-@_forgery("count of pages", "fewer pages, in viewers that believe the count")
+@forge_bytes("count of pages", "fewer pages, in viewers that believe the count")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)  # who saves it mends the count
     root = re.search(rb"<<[^<>]*/Type /Pages[^<>]*>>", whole)
@@ -940,7 +944,7 @@ def _(pdf: bytes) -> bytes:
     return whole.replace(root[0], fewer)
 
 
-@_change("template", "a page that a script may show")
+@forge("template", "a page that a script may show")
 def _(pdf: Pdf) -> None:
     page_of(pdf, 2).Tabs = Name.W
     page_of(pdf, 2).TemplateInstantiated = Name.A
@@ -954,55 +958,55 @@ def _specification(pdf: Pdf, ending: str) -> Dictionary:
     return next(each for each in listed if str(each.UF).endswith(ending))
 
 
-@_change("readings for viewers", "other readings, in viewers that take /UF")
+@forge("readings for viewers", "other readings, in viewers that take /UF")
 def _(pdf: Pdf) -> None:
     _specification(pdf, ".csv").EF.UF = pdf.make_stream(b"target,deviation\n0,9\n")
 
 
-@_change("readings for other systems", "other readings, in viewers that take /Unix")
+@forge("readings for other systems", "other readings, in viewers that take /Unix")
 def _(pdf: Pdf) -> None:
     _specification(pdf, ".csv").EF.Unix = pdf.make_stream(b"target,deviation\n0,9\n")
 
 
-@_change("related files", "other readings beside the first")
+@forge("related files", "other readings beside the first")
 def _(pdf: Pdf) -> None:
     each = _specification(pdf, ".csv")
     each.RF = Dictionary(F=Array([String("a.csv"), pdf.make_stream(b"0")]))
 
 
-@_change("two names of a file", "the readings under another name")
+@forge("two names of a file", "the readings under another name")
 def _(pdf: Pdf) -> None:
     _specification(pdf, ".csv").F = String("y-axis.csv")
 
 
-@_change("description of a file", "'Readings of another axis'")
+@forge("description of a file", "'Readings of another axis'")
 def _(pdf: Pdf) -> None:
     _specification(pdf, ".csv").Desc = String("Readings of another axis")
 
 
-@_change("thumbnail of a file", "a picture of other readings")
+@forge("thumbnail of a file", "a picture of other readings")
 def _(pdf: Pdf) -> None:
     _specification(pdf, ".csv").Thumb = pdf.make_stream(b"\0", Dictionary(Width=1, Height=1))
 
 
-@_change("file of a page", "other readings, attached to a page")
+@forge("file of a page", "other readings, attached to a page")
 def _(pdf: Pdf) -> None:
     stream = pdf.make_stream(b"target,deviation\n0,9\n")
     page_of(pdf).AF = Array([Dictionary(Type=Name.Filespec, F="x.csv", UF="x.csv", EF=Dictionary(F=stream))])
 
 
-@_change("file outside", "other readings: those of a file beside the PDF")
+@forge("file outside", "other readings: those of a file beside the PDF")
 def _(pdf: Pdf) -> None:
     stream = _specification(pdf, ".csv").EF.F
     stream["/F"] = Dictionary(Type=Name.Filespec, F=String("other.csv"))
 
 
-@_change("page outside", "another page: that of a file beside the PDF")
+@forge("page outside", "another page: that of a file beside the PDF")
 def _(pdf: Pdf) -> None:
     page_of(pdf, 2).Contents["/F"] = Dictionary(Type=Name.Filespec, F=String("other.bin"))
 
 
-@_change("readings", "the certificate with other readings attached")
+@forge("readings", "the certificate with other readings attached")
 def _(pdf: Pdf) -> None:
     stream = next(
         each.EF.F
@@ -1020,7 +1024,7 @@ def _results(pdf: Pdf) -> Stream:
     )
 
 
-@_change("value of the results file", "another value, in the file that machines read")
+@forge("value of the results file", "another value, in the file that machines read")
 def _(pdf: Pdf) -> None:
     stream = _results(pdf)
     tree = json.loads(stream.read_bytes())
@@ -1030,7 +1034,7 @@ def _(pdf: Pdf) -> None:
         del stream.Params.CheckSum
 
 
-@_change("another release", "a drawn 1 in a white box, on a certificate that says another release made it")
+@forge("another release", "a drawn 1 in a white box, on a certificate that says another release made it")
 def _(pdf: Pdf) -> None:
     stream = _results(pdf)
     tree = json.loads(stream.read_bytes())
@@ -1047,18 +1051,18 @@ def _(pdf: Pdf) -> None:
 # The file
 
 
-@_forgery("dictionary with two contents", "another page, in viewers that take the first of two keys")
+@forge_bytes("dictionary with two contents", "another page, in viewers that take the first of two keys")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     return _with_offsets(re.sub(rb"(/Contents )(\d+ 0 R)", rb"\1 1 0 R \1\2", whole, count=1))
 
 
-@_forgery("key spelled otherwise, before", "another page, in viewers that take the first of two keys")
+@forge_bytes("key spelled otherwise, before", "another page, in viewers that take the first of two keys")
 def _(pdf: bytes) -> bytes:
     return _spelled_otherwise(pdf, b"/AAAontents")
 
 
-@_forgery("key spelled otherwise, behind", "another page, in viewers that take the last of two keys")
+@forge_bytes("key spelled otherwise, behind", "another page, in viewers that take the last of two keys")
 def _(pdf: bytes) -> bytes:
     return _spelled_otherwise(pdf, b"/QQQontents")
 
@@ -1071,7 +1075,7 @@ def _spelled_otherwise(pdf: bytes, sorted_as: bytes) -> bytes:
     return plain(rewritten(pdf, change)).replace(sorted_as, b"/#43ontents")
 
 
-@_forgery("second stream packed behind", "more on a page, in viewers that unpack what follows")
+@forge_bytes("second stream packed behind", "more on a page, in viewers that unpack what follows")
 def _(pdf: bytes) -> bytes:
     def change(opened: Pdf) -> None:
         content = page_of(opened, 2).Contents
@@ -1081,24 +1085,24 @@ def _(pdf: bytes) -> bytes:
     return rewritten(pdf, change)
 
 
-@_forgery("other generation", "an empty page, in viewers that heed the generation")
+@forge_bytes("other generation", "an empty page, in viewers that heed the generation")
 def _(pdf: bytes) -> bytes:
     return re.sub(rb"(/Contents \d+) 0 R", rb"\1 1 R", plain(pdf), count=1)
 
 
-@_forgery("hybrid table", "another page, in viewers that read the second table of objects")
+@forge_bytes("hybrid table", "another page, in viewers that read the second table of objects")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     return whole.replace(b"trailer <<", b"trailer << /XRefStm %d" % whole.index(b" obj"), 1)
 
 
-@_forgery("earlier table", "what an earlier table leads to, in viewers that put files together anew")
+@forge_bytes("earlier table", "what an earlier table leads to, in viewers that put files together anew")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     return whole.replace(b"trailer <<", b"trailer << /Prev %d" % (whole.rindex(b"\nxref") + 1), 1)
 
 
-@_forgery("appended change", "a page upside down")
+@forge_bytes("appended change", "a page upside down")
 def _(pdf: bytes) -> bytes:
     writer = PdfWriter(BytesIO(pdf), incremental=True)
     writer.pages[0][NameObject("/Rotate")] = FloatObject(180)
@@ -1107,23 +1111,23 @@ def _(pdf: bytes) -> bytes:
     return changed.getvalue()
 
 
-@_forgery("another file before", "another file, in viewers that begin at the first byte")
+@forge_bytes("another file before", "another file, in viewers that begin at the first byte")
 def _(pdf: bytes) -> bytes:
     return b"<html><body>A = 1.2</body></html>\n" + pdf
 
 
-@_forgery("another file behind", "another file, in programs that look from the end")
+@forge_bytes("another file behind", "another file, in programs that look from the end")
 def _(pdf: bytes) -> bytes:
     return pdf + b"PK\x03\x04" + bytes(2000)
 
 
-@_forgery("two documents in one file", "the second document, in viewers that read from the end")
+@forge_bytes("two documents in one file", "the second document, in viewers that read from the end")
 def _(pdf: bytes) -> bytes:
     other = rewritten(pdf, lambda opened: draw(opened, page_of(opened, 2), BOX))
     return other + pdf
 
 
-@_forgery("encrypted", "as before, in viewers that need no password")
+@forge_bytes("encrypted", "as before, in viewers that need no password")
 def _(pdf: bytes) -> bytes:
     saved = BytesIO()
     with pikepdf.open(BytesIO(pdf)) as opened:
@@ -1131,7 +1135,7 @@ def _(pdf: bytes) -> bytes:
     return saved.getvalue()
 
 
-@_forgery("wrong table of objects", "another page, in viewers that believe the table")
+@forge_bytes("wrong table of objects", "another page, in viewers that believe the table")
 def _(pdf: bytes) -> bytes:
     whole = plain(rewritten(pdf, lambda opened: draw(opened, page_of(opened, 2), BOX)))
     reader = PdfReader(BytesIO(whole))

@@ -13,21 +13,12 @@ from io import BytesIO
 import pikepdf
 from pikepdf import Name, Pdf
 
-from verification.altering import Forgery, draw, page_of, rewritten
-from verification.forgeries import BOX, FORGERIES, plain
+from verification.altering import draw, page_of, rewritten
+from verification.forgeries import BOX, forge_bytes, plain
 from verification.issued import content_of
 
 READINGS = "x-axis.csv"
 _OBJECT = re.compile(rb"(?<=\n)(\d+) 0 obj\b.*?\nendobj\n", re.DOTALL)
-_Maker = Callable[[bytes], bytes]
-
-
-def _forgery(name: str, seen: str) -> Callable[[_Maker], _Maker]:
-    def add(make: _Maker) -> _Maker:
-        FORGERIES.append(Forgery(name, seen, make))
-        return make
-
-    return add
 
 
 def objects(whole: bytes) -> dict[int, bytes]:
@@ -86,18 +77,18 @@ def other_readings(pdf: bytes) -> tuple[int, bytes]:
     return number, head + b"stream\n" + packed + b"\nendstream\nendobj\n"
 
 
-@_forgery("second copy of every object, and a table of one", "a white box, in viewers that mend the table")
+@forge_bytes("second copy of every object, and a table of one", "a white box, in viewers that mend the table")
 def _(pdf: bytes) -> bytes:
     copies = b"".join(boxed(pdf).values())
     return together(plain(pdf), copies, trailer=lambda end: re.sub(rb"/Size \d+", b"/Size 1", end))
 
 
-@_forgery("second copy of every object", "a white box, in viewers that put the file together anew")
+@forge_bytes("second copy of every object", "a white box, in viewers that put the file together anew")
 def _(pdf: bytes) -> bytes:
     return together(plain(pdf), b"".join(boxed(pdf).values()))
 
 
-@_forgery("second copy before the first", "a white box, in viewers that take the first of two")
+@forge_bytes("second copy before the first", "a white box, in viewers that take the first of two")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     changed = boxed(pdf)
@@ -112,7 +103,7 @@ def _(pdf: bytes) -> bytes:
     return together(whole, before=ahead, rows=moved)
 
 
-@_forgery("table without a last object", "a white box, in viewers that look for what the table lacks")
+@forge_bytes("table without a last object", "a white box, in viewers that look for what the table lacks")
 def _(pdf: bytes) -> bytes:
     return together(
         plain(pdf),
@@ -121,7 +112,7 @@ def _(pdf: bytes) -> bytes:
     )
 
 
-@_forgery("object twice in the table", "other readings, in programs that take the first of two entries")
+@forge_bytes("object twice in the table", "other readings, in programs that take the first of two entries")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     number, changed = other_readings(pdf)
@@ -132,7 +123,7 @@ def _(pdf: bytes) -> bytes:
     return made[:at] + section + made[at:]
 
 
-@_forgery("object twice in the table, other order", "other readings, in programs that take the last entry")
+@forge_bytes("object twice in the table, other order", "other readings, in programs that take the last entry")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     number, changed = other_readings(pdf)
@@ -142,7 +133,9 @@ def _(pdf: bytes) -> bytes:
     return made[:at] + b"%d 1\n%010d 00000 n \n" % (number, place) + made[at:]
 
 
-@_forgery("object twice in a packed table", "other readings, in programs that take the first of two entries")
+@forge_bytes(
+    "object twice in a packed table", "other readings, in programs that take the first of two entries"
+)
 def _(pdf: bytes) -> bytes:
     return with_packed_table(pdf, repeated=True)
 
@@ -189,38 +182,38 @@ def _with_entries(pdf: bytes, change: Callable[[bytes], bytes]) -> bytes:
     return made[:begin] + change(made[begin : made.rindex(b"trailer")]) + made[made.rindex(b"trailer") :]
 
 
-@_forgery("entries of 19 bytes", "other readings, in programs that count twenty bytes an entry")
+@forge_bytes("entries of 19 bytes", "other readings, in programs that count twenty bytes an entry")
 def _(pdf: bytes) -> bytes:
     return _with_entries(pdf, lambda table: table.replace(b" n \n", b" n\n").replace(b" f \n", b" f\n"))
 
 
-@_forgery("entries of 21 bytes", "other readings, in programs that count twenty bytes an entry")
+@forge_bytes("entries of 21 bytes", "other readings, in programs that count twenty bytes an entry")
 def _(pdf: bytes) -> bytes:
     return _with_entries(pdf, lambda table: table.replace(b" n \n", b" n \r\n"))
 
 
-@_forgery("section that begins at 1", "other readings, in programs that mend such a table")
+@forge_bytes("section that begins at 1", "other readings, in programs that mend such a table")
 def _(pdf: bytes) -> bytes:
     return _with_entries(pdf, lambda table: table.replace(b"xref\n0 ", b"xref\n1 ", 1))
 
 
-@_forgery("object behind the end", "other readings, in programs that put the file together anew")
+@forge_bytes("object behind the end", "other readings, in programs that put the file together anew")
 def _(pdf: bytes) -> bytes:
     return pdf + b"\n" + other_readings(pdf)[1]
 
 
-@_forgery("object in a comment", "other readings, in programs that look for objects in every line")
+@forge_bytes("object in a comment", "other readings, in programs that look for objects in every line")
 def _(pdf: bytes) -> bytes:
     changed = other_readings(pdf)[1]
     return together(plain(pdf), b"% a comment\n% " + changed)
 
 
-@_forgery("object between others", "other readings, in programs that put the file together anew")
+@forge_bytes("object between others", "other readings, in programs that put the file together anew")
 def _(pdf: bytes) -> bytes:
     return together(plain(pdf), other_readings(pdf)[1])
 
 
-@_forgery("second beginning", "an empty document, in viewers that look for a catalog")
+@forge_bytes("second beginning", "an empty document, in viewers that look for a catalog")
 def _(pdf: bytes) -> bytes:
     def change(opened: Pdf) -> None:
         pages = opened.make_indirect(pikepdf.Dictionary(Type=Name.Pages, Count=0, Kids=[]))
@@ -231,12 +224,12 @@ def _(pdf: bytes) -> bytes:
     return together(re.sub(rb"/Lost \d+ 0 R", b"", whole, count=1))
 
 
-@_forgery("another header", "another release of the format, in viewers that take the last header")
+@forge_bytes("another header", "another release of the format, in viewers that take the last header")
 def _(pdf: bytes) -> bytes:
     return together(plain(pdf), before=b"%PDF-1.4\n", rows=_moved(plain(pdf), 9))
 
 
-@_forgery("text between objects", "as before; whoever looks at the bytes finds a statement")
+@forge_bytes("text between objects", "as before; whoever looks at the bytes finds a statement")
 def _(pdf: bytes) -> bytes:
     said = b"A = 0.5 um, passed\n"
     return together(plain(pdf), said)
@@ -247,7 +240,7 @@ def _moved(whole: bytes, by: int) -> dict[int, bytes]:
     return {int(each[1]): b"%010d 00000 n \n" % (each.start() + by) for each in _OBJECT.finditer(body)}
 
 
-@_forgery("longer data", "more on a page, in viewers that look for the end of data")
+@forge_bytes("longer data", "more on a page, in viewers that look for the end of data")
 def _(pdf: bytes) -> bytes:
     whole = plain(pdf)
     number, changed = other_readings(pdf)

@@ -45,6 +45,17 @@ def test_beside_its_pdf_it_holds_by_every_byte(
     assert [each.subject for each in found.files] == [f"VERIFY-1{ending}", "VERIFY-1.pdf"]
 
 
+def test_a_digital_certificate_of_a_job_that_can_have_none_does_not_hold(
+    documents: dict[str, bytes], tmp_path: Path
+) -> None:
+    path = laid_out(tmp_path, documents, ".pdf").with_suffix(".xml")
+    path.write_bytes(b'<?xml version="1.0"?><digital xmlns="https://ptb.de/dcc"/>')
+    found = verify(path, registry())
+    assert [each.subject for each in found.files if each.verdict is VerificationVerdict.DIFFERS] == [
+        path.name
+    ]
+
+
 @pytest.mark.parametrize(("ending", "old", "new"), [(".json", b"2.7", b"0.7"), (".html", b"2.7", b"0.7")])
 def test_one_that_was_altered_does_not_hold(
     ending: str, old: bytes, new: bytes, documents: dict[str, bytes], tmp_path: Path

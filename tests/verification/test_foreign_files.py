@@ -7,10 +7,14 @@ import sys
 import zlib
 from collections.abc import Callable
 from io import BytesIO
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
+from fontTools.ttLib import TTFont
+from fontTools.ttLib.tables._g_l_y_f import Glyph, GlyphComponent
+from pikepdf import Array, Pdf
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import (
     ArrayObject,
@@ -20,6 +24,7 @@ from pypdf.generic import (
     TextStringObject,
 )
 
+from verification.altering import descendant, every_font, rewritten, with_program
 from verification.issued import JOB, altered, content_of, registry, specification, with_results, with_source
 from zlmreport.errors import AccessError, InputError
 from zlmreport.plugin.registry import DISABLE, find_plugins
@@ -55,6 +60,40 @@ def test_a_foreign_pdf_is_no_certificate(verified: Verify) -> None:
 def test_a_foreign_pdf_with_attachments_is_no_certificate(verified: Verify) -> None:
     pdf = blank(lambda writer: writer.add_attachment("data.json", b'{"schema": "other/1"}'))
     assert "is no certificate of zlmreport" in refusal(verified, pdf)
+
+
+def put_together(program: TTFont) -> None:
+    """Let each glyph consist of the one before it, twice: nobody counts the parts of the last."""
+    names = program.getGlyphOrder()
+    for part, name in pairwise(names):
+        made = Glyph()
+        made.numberOfContours = -1
+        made.components = [GlyphComponent(), GlyphComponent()]
+        for each in made.components:
+            each.glyphName, each.flags, each.x, each.y = part, 0x0003, 0, 0
+        program["glyf"][name] = made
+
+
+def list_endless_widths(opened: Pdf) -> None:
+    for font in every_font(opened):
+        descendant(font).W = Array([-(2**31), 65_535, 500])
+
+
+def test_a_font_that_lists_widths_without_end_is_refused(issued: bytes, verified: Verify) -> None:
+    assert "widths are listed as in no certificate" in refusal(
+        verified, rewritten(issued, list_endless_widths)
+    )
+
+
+def test_glyphs_of_parts_without_end_are_no_glyphs_of_the_certificate(
+    issued: bytes, verified: Verify
+) -> None:
+    def change(opened: Pdf) -> None:
+        for font in every_font(opened):
+            with_program(font, put_together)
+
+    found = verified(rewritten(issued, change))
+    assert "its fonts differ" in [each.detail for each in found.pages]
 
 
 def test_an_encrypted_pdf_is_refused(issued: bytes, verified: Verify) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -14,9 +15,11 @@ from verification.test_trust import signed
 from zlmreport.errors import Place
 from zlmreport.verification import readers
 from zlmreport.verification.carrier import open_pdf
+from zlmreport.verification.findings import VerificationVerdict
 from zlmreport.verification.readers import (
     READERS,
     Reader,
+    Seen,
     digest_attachments_of,
     find_differences,
     read_as_seen_by,
@@ -47,6 +50,17 @@ def test_all_see_the_same_of_a_sound_file(
 
 def test_three_of_other_makers_are_always_asked() -> None:
     assert [each.name for each in READERS if not each.command] == ["pypdf", "PDFium", "qpdf"]
+
+
+def test_a_reader_that_does_not_end_leaves_it_open(issued: bytes, monkeypatch: pytest.MonkeyPatch) -> None:
+    def see(_content: bytes) -> Seen:
+        raise subprocess.TimeoutExpired(("pdftotext", "-q"), 60.0)
+
+    monkeypatch.setattr(readers, "READERS", (Reader("Poppler", see),))
+    carrier = open_pdf(issued, Place("certificate.pdf"))
+    found = readers.compare(carrier, issued, is_drawn_alike=True)
+    assert found.verdict is VerificationVerdict.OPEN
+    assert found.detail == "pdftotext did not end within 60 s; verify it once more"
 
 
 @pytest.mark.parametrize("name", ["PDFium", "qpdf"])

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
+from time import process_time
 
 import pytest
 
@@ -12,6 +14,7 @@ from verification.forgeries import plain
 from verification.issued import altered
 from verification.raw_forgeries import with_packed_table
 from verification.test_trust import signed
+from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationVerdict
 from zlmreport.verification.table import check_table, scan
 from zlmreport.verification.tokens import OddError, PdfName, Reference, read_object, read_value
@@ -45,6 +48,37 @@ def test_a_signature_may_add_a_revision_and_nothing_else_may(
     pdf = signed(request.getfixturevalue(printed), tmp_path)
     assert check_table(pdf, is_signed=True).verdict is VerificationVerdict.HOLDS
     assert "no signature" in str(check_table(pdf, is_signed=False).detail)
+
+
+def with_free_numbers(pdf: bytes, *numbers: int) -> bytes:
+    """Return a PDF whose table has sections of one free number each behind its own."""
+    whole = plain(pdf)
+    at = whole.rindex(b"trailer")
+    sections = b"".join(b"%d 1\n0000000000 65535 f \n" % each for each in numbers)
+    end = re.sub(rb"/Size \d+", b"/Size %d" % (numbers[-1] + 1), whole[at:])
+    return whole[:at] + sections + end
+
+
+def test_a_number_that_is_far_off_takes_no_memory_for_those_before_it(issued: bytes) -> None:
+    found = check_table(with_free_numbers(issued, 9_999_999_998), is_signed=False)
+    assert found.detail == "its table leaves numbers out"
+
+
+def test_many_sections_take_no_more_time_than_their_bytes(issued: bytes) -> None:
+    size = int(re.findall(rb"/Size (\d+)", plain(issued))[-1])
+    forged = with_free_numbers(issued, *range(size, size + 50_000))
+    begun = process_time()
+    assert check_table(forged, is_signed=False).verdict is VerificationVerdict.HOLDS
+    assert process_time() - begun < 5  # it took ten times as long when each was held against all before it
+
+
+def test_a_packed_table_of_more_objects_than_any_certificate_is_not_unpacked(
+    issued: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    packed = with_packed_table(issued, repeated=False)
+    monkeypatch.setattr(table, "_MOST_OBJECTS", len(re.findall(rb"\d+ 0 obj\b", packed)) - 1)
+    found = check_table(packed, is_signed=False)
+    assert found.detail == "it holds more objects than any certificate"
 
 
 @pytest.mark.long

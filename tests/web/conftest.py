@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import shutil
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -13,7 +12,7 @@ with warnings.catch_warnings():
     warnings.simplefilter("ignore")  # it asks for a successor of httpx that is not packaged everywhere
     from starlette.testclient import TestClient
 
-from web.jobs import EXAMPLE, registry
+from web.jobs import lay_out, registry
 from zlmreport.web.app import Workbench
 from zlmreport.web.guard import Door
 
@@ -29,11 +28,7 @@ def cache_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def job(tmp_path: Path) -> Path:
     """Return the job of an axis whose model lacks the error of its screw."""
-    shutil.copy(EXAMPLE / "x-axis.csv", tmp_path)
-    path = tmp_path / "job.yaml"
-    text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
-    path.write_text(text.replace("../../out", "out"), encoding="utf-8")
-    return path
+    return lay_out(tmp_path)
 
 
 @pytest.fixture

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import time
 from collections.abc import Iterable, Iterator
@@ -135,7 +136,7 @@ class TextDecoder:
             unit = unit_named(groups["unit"], POSITION_UNITS) if groups.get("unit") else self._unit
         except ValueError:
             return None
-        return unit.to_si(number)
+        return unit.to_si(number) if math.isfinite(number) else None
 
 
 _RATE = 10.0

@@ -91,14 +91,14 @@ def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | No
     """Return the visit that a question is answered with, None for none; raise `InputError` for no answer."""
     if text == _NO_VISIT:
         return None
-    if text.isdecimal() and 1 <= int(text) <= len(progress.visits):
-        visit = progress.visits[int(text) - 1]
-        if progress.question is None or visit.target == progress.question.target:
-            return visit
+    visit = next((each for each in progress.visits if text == str(each.number)), None)
+    if visit is None:
+        raise InputError.at(
+            place, f"{text[:60]!r} is no visit: state a number from 1 to {len(progress.visits)}, or none"
+        )
+    if progress.question is not None and visit.target != progress.question.target:
         raise InputError.at(place, f"visit {text} is at another target than the one at which the axis stood")
-    raise InputError.at(
-        place, f"{text!r} is no visit: state a number from 1 to {len(progress.visits)}, or none"
-    )
+    return visit
 
 
 def order_of(line: str, progress: Progress) -> Order:
@@ -115,7 +115,7 @@ def order_of(line: str, progress: Progress) -> Order:
             return Skipped(progress.next)
         case ("c", _, rest) if rest:
             return Commented(rest.strip())
-    raise InputError.at(place, f"{line!r} is no order: {_KEYS}")
+    raise InputError.at(place, f"{line[:60]!r} is no order: {_KEYS}")
 
 
 class Keyboard:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from argparse import Namespace
 from importlib.resources import files
+from importlib.util import find_spec
+from keyword import iskeyword
 from pathlib import Path
 
 from zlmreport.cli.terminal import show_path
@@ -25,14 +27,17 @@ GUIDES = {
 }
 #: The groups of entry points, where they are not those of the kind: a quantity is a standard and a source.
 _GROUPS = {"program": "zlmreport.part_program", "quantity": "zlmreport"}
+#: What must be installed for it, where zlmreport alone is not enough.
+_NEEDED = {"instrument": "zlmreport[capture]"}
 _PLACE = Place("zlmreport new")
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+_ADVICE = "choose another name, such as 'shop-rule'"
 
 
 def run(options: Namespace) -> int:
     """Write the folder of a plugin; no file that is there already is touched."""
     kind, name = _find_kind(options.kind), _check_name(options.name)
-    folder, module = Path(name), name.replace("-", "_")
+    folder, module = Path(name), _name_module(name)
     documents = make_skeleton_of(kind, name)
     further = ""
     if options.job:
@@ -46,14 +51,15 @@ def run(options: Namespace) -> int:
 def make_skeleton_of(kind: str, name: str) -> dict[str, bytes]:
     """Return the files of a plugin to begin with, by their paths in its folder."""
     words = name.replace("-", " ")
-    module = name.replace("-", "_")
+    module = _name_module(name)
     meant = {
         "kind": kind,
         "group": _GROUPS.get(kind, f"zlmreport.{kind}"),
+        "needed": _NEEDED.get(kind, "zlmreport"),
         "guide": GUIDES[kind],
         "identifier": name,
         "module": module,
-        "Class": words.title().replace(" ", ""),
+        "Class": _name_class(name),
         "words": words.capitalize(),
         "data": f', "{module}.yaml"' if kind == "effect" else "",
         "described": f"| `{module}.yaml` | what the effect is: formula, ranges, words |\n"
@@ -115,7 +121,24 @@ def _check_name(named: str) -> str:
             f"{named[:60]!r} is no name for a plugin; write lower-case letters and digits, joined by '-', "
             "as in 'shop-rule'",
         )
+    module = _name_module(named)
+    if iskeyword(module) or iskeyword(_name_class(named)):
+        raise InputError.at(_PLACE, f"{named!r} is a word of Python, which no module is called; {_ADVICE}")
+    there = find_spec(module)  # a folder alone has no origin; of the plugin itself, each file is told below
+    if there and there.origin and Path(there.origin).parent != Path(named).resolve():
+        raise InputError.at(
+            _PLACE,
+            f"there is a module {module!r} already, and Python would take one for the other; {_ADVICE}",
+        )
     return named
+
+
+def _name_module(name: str) -> str:
+    return name.replace("-", "_")
+
+
+def _name_class(name: str) -> str:
+    return name.replace("-", " ").title().replace(" ", "")
 
 
 def _fill_skeleton(skeleton: str, meant: dict[str, str]) -> bytes:

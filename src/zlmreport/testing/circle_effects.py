@@ -22,6 +22,7 @@ from zlmreport.model.effects.circle_effect import (
     Searched,
     SearchedParameter,
 )
+from zlmreport.plugin.kinds import CIRCLE_EFFECT
 from zlmreport.testing.expectations import check, expect, expect_named, expect_words, run_all
 
 #: m: what no effect of a usual size makes of a radius; micrometres given as metres do.
@@ -85,7 +86,7 @@ def make_circle_design(
 @check
 def is_described(effect: CircleEffect, _: Designs) -> None:
     """Check that it has a name that can be typed, and says in every language what it is and why it is."""
-    expect_named(effect, CircleEffect)
+    expect_named(effect, CIRCLE_EFFECT)
     expect_words(effect.explains, f"{effect.identifier}: explains")
     expect(effect.equation.strip(), f"{effect.identifier}: equation must be what is printed")
     is_law = isinstance(effect.law, Law) and isinstance(effect.law.parity, Parity)

@@ -15,13 +15,13 @@ from zlmreport.errors import InputError
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.planning.circle_path import CirclePath, PlannedTurn
+from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.testing.expectations import check, expect, expect_members, run_all
-from zlmreport.testing.part_programs import NUMBER, PLACE, expect_plain_text
+from zlmreport.testing.part_programs import HOSTILE, NUMBER, PLACE, expect_plain_text
 
 #: Digits that every control takes, mm, and what a circle may miss by them.
 _NEAR = 2e-3
-_HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +109,7 @@ def writes_circles_as_plain_text(
         f"{program.identifier}: writing the same circle again gives another program",
     )
     plain = list(interpreter(text))
-    for name in _HOSTILE:
+    for name in HOSTILE:
         moves = list(interpreter(_write_program(program, replace(path, number=name), keys)))
         expect(moves == plain, f"{program.identifier}: a job called {name[:20]!r} moves otherwise")
 
@@ -189,6 +189,6 @@ def check_circle_program(
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(program, PartProgram)
+    expect_members(program, PART_PROGRAM)
     expect(find_circle_writer(program), f"{program.identifier}: has no write_circle")
     run_all(CIRCLE_PROGRAM_CHECKS, program, interpreter, keys or {})

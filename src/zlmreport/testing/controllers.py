@@ -12,6 +12,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.plugin.kinds import CONTROLLER
 from zlmreport.plugin.protocols import Controller
 from zlmreport.testing.cross_tables import CrossExample, check_cross_files
 from zlmreport.testing.expectations import (
@@ -78,7 +79,7 @@ def sample_table(rows: int = 11, step: float = 0.030125) -> CompensationTable:
 @check
 def is_named(controller: Controller, _keys: Mapping[str, Any], *_: Any) -> None:
     """Check its identifier, its title, its notes and its confidence."""
-    expect_named(controller, Controller)
+    expect_named(controller, CONTROLLER)
     for note in controller.notes:
         expect_words(note, f"{controller.identifier}: a note")
     known = {"verified", "documented", "unconfirmed"}
@@ -88,7 +89,7 @@ def is_named(controller: Controller, _keys: Mapping[str, Any], *_: Any) -> None:
 @check
 def options_are_described(controller: Controller, _keys: Mapping[str, Any], *_: Any) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_options(controller, frozenset({"controller"}))
+    expect_options(controller, CONTROLLER)
     controller.options()
 
 
@@ -256,5 +257,5 @@ def check_controller(
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(controller, Controller)
+    expect_members(controller, CONTROLLER)
     run_all(CONTROLLER_CHECKS, controller, keys or {}, example)

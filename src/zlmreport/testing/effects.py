@@ -25,6 +25,7 @@ from zlmreport.testing.expectations import (
     check,
     expect,
     expect_identifier,
+    expect_members,
     expect_options,
     expect_words,
     is_same_value,
@@ -45,31 +46,12 @@ _FOLLOWED = {
     Shape.TIME: {"time", "a log"},
     Shape.RUN: {"run"},
 }
-_MEMBERS = (
-    *(
-        "identifier",
-        "title",
-        "equation",
-        "linear",
-        "searched",
-        "shape",
-        "physics",
-        "look",
-        "remedy",
-        "confusions",
-        "contains",
-    ),
-    *("options", "settings", "with_settings", "forms", "untestable", "grid", "columns", "expected"),
-)
 
 
 @check
 def is_complete(effect: Effect, *_more: Any) -> None:
-    """Check that the protocol is complete."""
-    missing = [member for member in _MEMBERS if not hasattr(effect, member)]
-    expect(
-        not missing, f"{effect!r} has no {', '.join(missing)} (subclass zlmreport.plugin.protocols.Effect)"
-    )
+    """Check that nothing is missing that an `Effect` has."""
+    expect_members(effect, EFFECT)
 
 
 @check
@@ -126,7 +108,7 @@ def parameters_are_described(effect: Effect, *_more: Any) -> None:
 @check
 def keys_are_described(effect: Effect, *_more: Any) -> None:
     """Check that its own job keys are described, and none is called like a parameter."""
-    expect_options(effect)
+    expect_options(effect, EFFECT)
     expect(
         isinstance(effect.settings, effect.options),
         f"{effect.identifier}: settings must be the options of this form, {effect.options.__name__}(…)",

@@ -15,11 +15,13 @@ from zlmreport.errors import ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 from zlmreport.plugin.boundary import tell_failure
+from zlmreport.plugin.kinds import Kind
 
 #: How long a check may take, s: on a busy computer a renderer of pages needs some of them.
 PATIENCE = 120.0
 
 _IDENTIFIER = re.compile(r"[a-z0-9]+([-.:][a-z0-9]+)*")
+_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 
 
 def expect(condition: object, sentence: str) -> None:
@@ -71,11 +73,10 @@ def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
 
 
 @check
-def expect_members(offered: object, protocol: type) -> None:
-    """Expect that an object has every member of a protocol."""
-    members = (name for name in (*protocol.__annotations__, *vars(protocol)) if not name.startswith("_"))
-    missing = [name for name in members if not hasattr(offered, name)]
-    where = f"{protocol.__module__}.{protocol.__qualname__}"
+def expect_members(offered: object, kind: Kind[Any]) -> None:
+    """Expect that an object has every member that is asked of its kind."""
+    missing = [name for name in kind.members if not hasattr(offered, name)]
+    where = f"zlmreport.plugin.{kind.door}.{kind.interface}"
     expect(not missing, f"{offered!r} has no {', '.join(missing)} (see {where})")
 
 
@@ -100,23 +101,30 @@ def expect_words(words: object, owner: str) -> None:
         expect(text.strip(), f"{owner} says nothing in '{language}'")
 
 
-def expect_named(plugin: Any, protocol: type) -> None:
-    """Expect every member of a protocol, an identifier that can be typed, and a title in every language."""
-    expect_members(plugin, protocol)
+def expect_named(plugin: Any, kind: Kind[Any]) -> None:
+    """Expect every member of its kind, a name that can be typed, a title in every language, and a suffix.
+
+    The suffix is asked of what writes files.
+    """
+    expect_members(plugin, kind)
     expect_identifier(plugin.identifier, repr(plugin))
     expect_words(plugin.title, f"{plugin.identifier}: title")
+    expect(
+        not kind.suffix or _SUFFIX.fullmatch(plugin.suffix),
+        f"{plugin.identifier}: suffix {getattr(plugin, 'suffix', '')!r} must be like {kind.suffix!r}",
+    )
 
 
-def expect_options(plugin: Any, taken: frozenset[str] = frozenset()) -> None:
+def expect_options(plugin: Any, kind: Kind[Any]) -> None:
     """Expect job keys that are all described, and none that every plugin of the kind has."""
     options, owner = plugin.options, plugin.identifier
     expect(
         isinstance(options, type) and issubclass(options, Options),
-        f"{owner}: options must be a subclass of zlmreport.job.types.Options, not {options!r}",
+        f"{owner}: options must be a subclass of zlmreport.plugin.Options, not {options!r}",
     )
     for key, field in options.model_fields.items():
         expect(field.description, f"{owner}: job key '{key}' needs a description (Field(description=…))")
-    clashes = sorted(taken & set(options.model_fields))
+    clashes = sorted(kind.reserved & set(options.model_fields))
     expect(not clashes, f"{owner}: job keys {', '.join(clashes)} belong to the core; choose other names")
 
 

@@ -7,6 +7,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import find_model_at, list_keys_in
 from zlmreport.plugin.extending import Extension
+from zlmreport.plugin.kinds import EXTENSION
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -20,7 +21,7 @@ from zlmreport.testing.expectations import (
 @check
 def is_named(extension: Extension) -> None:
     """Check that its identifier is a key that a job can have and the core has not, and its title."""
-    expect_members(extension, Extension)
+    expect_members(extension, EXTENSION)
     name = extension.identifier
     expect(
         name.isidentifier() and name.islower(),
@@ -34,7 +35,7 @@ def is_named(extension: Extension) -> None:
 @check
 def keys_are_described(extension: Extension) -> None:
     """Check that its keys are described, and that its example uses no others."""
-    expect_options(extension)
+    expect_options(extension, EXTENSION)
     unknown = sorted(extension.example.keys() - list_keys_in(extension.options).keys())
     expect(not unknown, f"{extension.identifier}: the example has the unknown keys {', '.join(unknown)}")
 

@@ -19,6 +19,7 @@ from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.emulation.channels import LocalSocket, serve
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin.kinds import INSTRUMENT
 from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     check,
@@ -29,9 +30,9 @@ from zlmreport.testing.expectations import (
     run_all,
 )
 
-_CORE_KEYS = frozenset({"plugin"})
-#: By how much emulated time is faster than that of the checks.
-_HASTE = 5.0
+#: By how much emulated time is faster than that of the checks, and how much of this passes at most between
+#: two looks at it, s: in more, the computer did something else, and the emulated instrument waits.
+_HASTE, _LONGEST_LOOK = 5.0, 0.05
 #: How far the axis of the checks goes, m, and how long it rests, emulated s.
 _STEP, _DWELL = 0.01, 2.0
 #: Where an axis rests whose readings have many digits, m, and how fast it gets there, m/s.
@@ -40,10 +41,10 @@ _FAR, _AT_ONCE = 0.1234567, 1e3
 _SOUND_FIRST = 12
 #: No instrument that calibrates an axis resolves less, m.
 _COARSEST = 1e-6
-#: When something goes wrong, emulated s from the start: by then every instrument has begun.
-_TROUBLE_AT = 6.0
-#: How long a check watches, s, and how long an instrument may take to notice that it is alone.
-_WATCHED, _PATIENCE = 1.6, 20.0
+#: How long after its first reading something goes wrong, and how long a check watches, emulated s.
+_TROUBLE_AFTER, _WATCHED = 1.0, 8.0
+#: When the cable is pulled, emulated s from the start; how long an instrument may take to notice it, s.
+_UNPLUGGED_AT, _PATIENCE = 6.0, 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,13 +67,13 @@ class InstrumentTraits:
 @check
 def is_named(instrument: Instrument, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
-    expect_named(instrument, Instrument)
+    expect_named(instrument, INSTRUMENT)
 
 
 @check
 def options_are_described(instrument: Instrument, *_: Any) -> None:
     """Check that its keys are described, that a port is one of them, and that nothing else is required."""
-    expect_options(instrument, _CORE_KEYS)
+    expect_options(instrument, INSTRUMENT)
     fields = instrument.options.model_fields
     expect("port" in fields, f"{instrument.identifier}: there is no key 'port'")
     required = sorted(name for name, field in fields.items() if field.is_required() and name != "port")
@@ -83,8 +84,8 @@ def options_are_described(instrument: Instrument, *_: Any) -> None:
 def follows_the_axis(instrument: Instrument, *_: Any) -> None:
     """Check that readings go where the axis goes, and are sound, in order and stamped with their arrival."""
     name = instrument.identifier
-    with _run_emulated(instrument) as port:
-        readings = _watch(instrument, port)
+    with _run_emulated(instrument) as stage:
+        readings = _watch(instrument, stage)
     faulty = [reading for reading in readings if not reading.is_usable]
     expect(readings, f"{name}: there were no readings")
     expect(not faulty, f"{name}: nothing is wrong, and yet: {faulty[:1]}")
@@ -105,8 +106,8 @@ def sign_turns_it_round(instrument: Instrument, *_: Any) -> None:
     if "sign" not in instrument.options.model_fields:
         return
     for sign, direction in (("+", 1), ("-", -1)):
-        with _run_emulated(instrument, MovingAxis(drift=_STEP)) as port:
-            readings = _watch(instrument, port, sign=sign)
+        with _run_emulated(instrument, MovingAxis(drift=_STEP)) as stage:
+            readings = _watch(instrument, stage, sign=sign)
         moved = readings[-1].value - readings[0].value
         expect(
             moved * direction > 0,
@@ -119,8 +120,8 @@ def no_wrong_reading_is_usable(instrument: Instrument, *_: Any) -> None:
     """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
     for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
         where = f"{instrument.identifier}: {', '.join(trouble)}"
-        with _run_emulated(instrument, MovingAxis(), *trouble) as port:
-            for reading in _watch(instrument, port):
+        with _run_emulated(instrument, MovingAxis()) as stage:
+            for reading in _watch(instrument, stage, *trouble):
                 if reading.loses_zero:
                     break
                 if reading.is_usable:
@@ -157,8 +158,8 @@ def tells_of_a_lost_beam(instrument: Instrument, traits: InstrumentTraits | None
     if traits and not traits.tells_lost_beam:
         return
     name = instrument.identifier
-    with _run_emulated(instrument, MovingAxis(), Trouble.LOST_BEAM) as port:
-        readings = _watch(instrument, port)
+    with _run_emulated(instrument, MovingAxis()) as stage:
+        readings = _watch(instrument, stage, Trouble.LOST_BEAM)
     expect(
         any(reading.loses_zero for reading in readings),
         f"{name}: the beam was lost, and no reading says so (a Fault that loses the zero, as "
@@ -177,11 +178,10 @@ def _expect_traits(instrument: Instrument, traits: InstrumentTraits | None) -> N
 def _expect_none_usable(instrument: Instrument, damaging: type[_Damaging], what: str) -> None:
     """Expect that nothing is called usable that is not where the axis is, though sendings are damaged."""
     axis = MovingAxis((0.0, _FAR), feed=_AT_ONCE, dwell=_DWELL)
-    troubles = Troubles()
-    damaged = damaging(instrument.emulator(Scene(axis, troubles)))
+    stage = _Stage()
     try:
-        with _serve(damaged, troubles) as port:
-            readings = _watch(instrument, port)
+        with _serve(damaging(instrument.emulator(Scene(axis, stage.troubles))), stage):
+            readings = _watch(instrument, stage)
     except AccessError:
         return  # it gave up, and said so
     for reading in readings:
@@ -196,8 +196,9 @@ def _expect_none_usable(instrument: Instrument, damaging: type[_Damaging], what:
 @check
 def notices_the_cable(instrument: Instrument, *_: Any) -> None:
     """Check that readings end with an `AccessError` when the instrument is unplugged."""
-    with _run_emulated(instrument, None, Trouble.UNPLUGGED) as port:
-        _expect_end(instrument, port, "it was unplugged")
+    with _run_emulated(instrument) as stage:
+        stage.planned.append(Planned(Trouble.UNPLUGGED, _UNPLUGGED_AT))
+        _expect_end(instrument, stage.port, "it was unplugged")
 
 
 @check
@@ -210,8 +211,9 @@ def refuses_silence(instrument: Instrument, *_: Any) -> None:
 @check
 def refuses_another_device(instrument: Instrument, *_: Any) -> None:
     """Check that what another device sends ends with an `AccessError`."""
-    with _serve(_Babble(), Troubles()) as port:
-        _expect_end(instrument, port, "another device speaks")
+    stage = _Stage()
+    with _serve(_Babble(), stage):
+        _expect_end(instrument, stage.port, "another device speaks")
 
 
 @check
@@ -241,16 +243,39 @@ def _expect_end(instrument: Instrument, port: str, why: str) -> None:
         raise AssertionError(message) from error
 
 
-def _watch(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading]:
-    """Return the readings of some time; the time to begin comes on top."""
-    options = instrument.options.model_validate({"port": port, **keys})
+class _Stage:
+    """Where an emulated instrument stands, in a time of its own.
+
+    What a check sees is no matter of how busy the computer is: that time waits where it was, and what goes
+    wrong is reckoned from the first reading.
+    """
+
+    def __init__(self) -> None:
+        self.port = ""
+        self.planned: list[Planned] = []
+        self.troubles = Troubles(self.planned)
+        self.now = 0.0  #: Emulated s.
+        self._looked = time.monotonic()
+
+    def look_at_clock(self) -> float:
+        before, self._looked = self._looked, time.monotonic()
+        self.now += _HASTE * min(self._looked - before, _LONGEST_LOOK)
+        return self.now
+
+
+def _watch(instrument: Instrument, stage: _Stage, *troubles: Trouble, **keys: Any) -> list[LiveReading]:
+    """Return the readings of some time; the time to begin comes on top, and then these troubles."""
+    options = instrument.options.model_validate({"port": stage.port, **keys})
     with instrument.open(options) as connection:
         readings = connection.readings()
         found = list(islice(readings, 1))
-        until = time.monotonic() + _WATCHED
+        begun = stage.now
+        stage.planned.extend(
+            Planned(each, begun + _TROUBLE_AFTER + after) for after, each in enumerate(troubles)
+        )
         for reading in readings:
             found.append(reading)
-            if time.monotonic() > until:
+            if stage.now > begun + _WATCHED:
                 return found
     return found
 
@@ -321,33 +346,28 @@ class _Babble:
 
 
 @contextmanager
-def _run_emulated(instrument: Instrument, axis: MovingAxis | None = None, *trouble: Trouble) -> Iterator[str]:
-    """Put its emulator on a socket; yield the port."""
-    troubles = Troubles([Planned(each, _TROUBLE_AT + after) for after, each in enumerate(trouble)])
+def _run_emulated(instrument: Instrument, axis: MovingAxis | None = None) -> Iterator[_Stage]:
+    """Put its emulator on a socket; yield where it stands."""
+    stage = _Stage()
     moving = axis or MovingAxis((0.0, _STEP), feed=_STEP, dwell=_DWELL)
-    with _serve(instrument.emulator(Scene(moving, troubles)), troubles) as port:
-        yield port
+    with _serve(instrument.emulator(Scene(moving, stage.troubles)), stage):
+        yield stage
 
 
 @contextmanager
-def _serve(emulator: Any, troubles: Troubles) -> Iterator[str]:
+def _serve(emulator: Any, stage: _Stage) -> Iterator[None]:
     ended = threading.Event()
     channel = LocalSocket()
+    stage.port = channel.address
 
     def run() -> None:
         with channel:
-            serve(
-                emulator,
-                channel,
-                troubles,
-                is_over=ended.is_set,
-                clock=lambda: _HASTE * time.monotonic(),
-            )
+            serve(emulator, channel, stage.troubles, is_over=ended.is_set, clock=stage.look_at_clock)
 
     thread = threading.Thread(target=run)
     thread.start()
     try:
-        yield channel.address
+        yield
     finally:
         ended.set()
         thread.join()
@@ -385,5 +405,5 @@ def check_instrument(instrument: Instrument, *, traits: InstrumentTraits | None 
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(instrument, Instrument)
+    expect_members(instrument, INSTRUMENT)
     run_all(INSTRUMENT_CHECKS, instrument, traits)

@@ -63,13 +63,13 @@ def _make_options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
 @check
 def is_named(notifier: Notifier, _trial: NotifierTrial) -> None:
     """Check its identifier and its title."""
-    expect_named(notifier, Notifier)
+    expect_named(notifier, NOTIFIER)
 
 
 @check
 def options_are_described(notifier: Notifier, _trial: NotifierTrial) -> None:
     """Check that its keys are described, and none is a key of the core."""
-    expect_options(notifier, NOTIFIER.reserved)
+    expect_options(notifier, NOTIFIER)
 
 
 @check
@@ -156,5 +156,5 @@ NOTIFIER_CHECKS = (
 
 def check_notifier(notifier: Notifier, trial: NotifierTrial) -> None:
     """Run every check on a notifier; raise `AssertionError` with a line for every check that fails."""
-    expect_members(notifier, Notifier)
+    expect_members(notifier, NOTIFIER)
     run_all(NOTIFIER_CHECKS, notifier, trial)

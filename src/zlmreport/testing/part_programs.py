@@ -6,7 +6,6 @@ that runs it. So every reading is seen to be approached from its stated side, wh
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias
@@ -17,6 +16,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.planning.programs import Motion, plan_motion_of
+from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.testing.expectations import (
     check,
@@ -27,30 +27,9 @@ from zlmreport.testing.expectations import (
     run_all,
 )
 
-_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
-_CORE_KEYS = frozenset({"program"})
 _LONGEST_LINE = 200
 #: By how much a feed may be rounded, mm/min.
 _FEED = 0.51
-
-
-def expect_program_named(program: Any, protocol: type, suffix: str) -> None:
-    """Expect an identifier that can be typed, a title in every language, and a suffix like the given one."""
-    expect_named(program, protocol)
-    expect(
-        _SUFFIX.fullmatch(program.suffix),
-        f"{program.identifier}: suffix {program.suffix!r} must be like {suffix!r}",
-    )
-
-
-def expect_defaults(program: Any) -> None:
-    """Expect job keys that are described, none of them a key of the core, and all with a default."""
-    expect_options(program, _CORE_KEYS)
-    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
-    expect(
-        not required,
-        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
-    )
 
 
 def expect_plain_text(text: str, where: str) -> None:
@@ -139,19 +118,24 @@ def sample_motion(
 Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float, float]]]
 
 #: Names that would become commands if they were taken as they are.
-_HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
+HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
 
 
 @check
 def is_named(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_program_named(program, PartProgram, ".ngc")
+    expect_named(program, PART_PROGRAM)
 
 
 @check
 def options_are_described(program: PartProgram, _interpreter: Interpreter, _keys: Mapping[str, Any]) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
-    expect_defaults(program)
+    expect_options(program, PART_PROGRAM)
+    required = [key for key, field in program.options.model_fields.items() if field.is_required()]
+    expect(
+        not required,
+        f"{program.identifier}: job keys {', '.join(required)} need a default: --program has no keys",
+    )
 
 
 @check
@@ -222,7 +206,7 @@ def takes_no_name_for_a_command(
     """Check that a user's name of an axis changes nothing of what the program does, or is refused."""
     motion = sample_motion()
     plain = list(interpreter(_write_program(program, motion, keys)))
-    for name in _HOSTILE:
+    for name in HOSTILE:
         named = replace(motion, axis=replace(motion.axis, name=name))
         try:
             text = _write_program(
@@ -315,5 +299,5 @@ def check_part_program(
         With a line for every check that fails.
     """
     keys = keys or {}
-    expect_members(program, PartProgram)
+    expect_members(program, PART_PROGRAM)
     run_all(PART_PROGRAM_CHECKS, program, interpreter, keys)

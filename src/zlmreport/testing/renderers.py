@@ -18,6 +18,7 @@ from xml.etree import ElementTree as ET
 
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
+from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.testing.certificates import (
     LETTERS,
@@ -32,7 +33,6 @@ from zlmreport.testing.expectations import check, expect, expect_members, expect
 #: From the bytes of a file to its text, as somebody reads it who opens it.
 Reader: TypeAlias = Callable[[bytes], str]
 
-_SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 #: 26 hours apart: in these two zones it is never the same date.
 _ZONES = ("UTC-14", "UTC+12")
 
@@ -40,11 +40,7 @@ _ZONES = ("UTC-14", "UTC+12")
 @check
 def is_named(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
-    expect_named(renderer, Renderer)
-    expect(
-        _SUFFIX.fullmatch(renderer.suffix),
-        f"{renderer.identifier}: suffix {renderer.suffix!r} must be like '.pdf'",
-    )
+    expect_named(renderer, RENDERER)
 
 
 @check
@@ -312,5 +308,5 @@ def check_renderer(renderer: Renderer, read: Reader | None = None) -> None:
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(renderer, Renderer)
+    expect_members(renderer, RENDERER)
     run_all(RENDERER_CHECKS, renderer, read)

@@ -16,6 +16,7 @@ from zlmreport.errors import Place, ZlmreportError
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.kinds import SOURCE
 from zlmreport.plugin.protocols import DataSource, SourceContext
 from zlmreport.testing.expectations import (
     check,
@@ -28,7 +29,6 @@ from zlmreport.testing.expectations import (
     run_all,
 )
 
-_CORE_KEYS = frozenset({"plugin"})
 _DIRECTIONS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE}
 #: What a file's own digits leave open, µm or ″.
 _DIGITS = 5e-4
@@ -62,13 +62,13 @@ class FileContents:
 @check
 def is_named(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
-    expect_named(source, DataSource)
+    expect_named(source, SOURCE)
 
 
 @check
 def options_are_described(source: DataSource, _keys: Mapping[str, Any], _axis: OfAxis, *_: Any) -> None:
     """Check that its job keys are described, and none is a key of the core."""
-    expect_options(source, _CORE_KEYS)
+    expect_options(source, SOURCE)
 
 
 @check
@@ -440,5 +440,5 @@ def check_source(
         With a line for every check that fails.
     """
     axis = axis or Axis("X")
-    expect_members(source, DataSource)
+    expect_members(source, SOURCE)
     run_all(SOURCE_CHECKS, source, keys, axis, holds)

@@ -24,6 +24,7 @@ from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.measurement.units import ANGLES, LENGTHS, TIMES, Unit
+from zlmreport.plugin.kinds import STANDARD
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.examples import EXAMPLE_CHECKS, WorkedExample
@@ -40,9 +41,8 @@ from zlmreport.testing.expectations import (
 from zlmreport.testing.measurements import good_tests, poor_tests
 
 _INDICES = frozenset("ij")
-#: Columns that every table by position has, and keys of a job that belong to every standard.
+#: Columns that every table by position has.
 _CORE_COLUMNS = frozenset({"target", "mean_fwd", "mean_bwd", "mean", "s_fwd", "s_bwd", "reversal"})
-_CORE_KEYS = frozenset({"standard", "tolerances"})
 
 _UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES, *TIMES.values())}
 #: Of a panel that shows a condition beside deviations.
@@ -54,7 +54,7 @@ _RELATIVE = 1e-9
 @check
 def has_all_members(standard: Standard, *_more: Any) -> None:
     """Check that the protocol is complete."""
-    expect_members(standard, Standard)
+    expect_members(standard, STANDARD)
 
 
 @check
@@ -75,7 +75,7 @@ def is_named(standard: Standard, *_more: Any) -> None:
 @check
 def options_are_described(standard: Standard, *_more: Any) -> None:
     """Check that its job keys are described, and none is a key of the core."""
-    expect_options(standard, _CORE_KEYS)
+    expect_options(standard, STANDARD)
 
 
 @check
@@ -387,6 +387,6 @@ def check_standard(
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(standard, Standard)
+    expect_members(standard, STANDARD)
     options = standard.options.model_validate(keys or {})
     run_all(STANDARD_CHECKS, standard, options, examples, other_keys or {})

@@ -18,9 +18,10 @@ from zlmreport import pipeline
 from zlmreport.errors import InputError, Place
 from zlmreport.job.loading import load
 from zlmreport.language import Words
+from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import find_stated_by, lay_out
-from zlmreport.verification.carrier import open_pdf, read_file
+from zlmreport.verification.attached import MACHINE_RESULTS, SCHEMA, find_stated_by, lay_out
+from zlmreport.verification.carrier import find_results_in, open_pdf, read_file
 from zlmreport.verification.findings import (
     CheckedStatement,
     Identity,
@@ -54,7 +55,12 @@ def _is_workbook(content: bytes) -> bool:
 
 #: What each kind of file is by its content, with the format that makes it.
 _KINDS: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
-    ("json", lambda head: head.startswith(b"{") and b'"zlmreport/results/1"' in head),
+    (
+        "json",
+        lambda head: (
+            head.startswith(b"{") and any(f'"{each}"'.encode() in head for each in (SCHEMA, MACHINE_RESULTS))
+        ),
+    ),
     ("dcc", lambda head: head.startswith(b"<") and b"https://ptb.de/dcc" in head),
     ("html", lambda head: head[:15].lower() == b"<!doctype html>" and b"<title>" in head),
     ("csv", lambda head: head.startswith(b"standard,symbol,target,quantity,value,unit")),
@@ -95,7 +101,11 @@ def verify_alone(
         return replace(found, identity=of_pdf.identity, files=(whole,), remarks=(remark,))
     own = CheckedStatement(path.name, VerificationVerdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
     if own is None:
-        again = _make_again(beside, made_by, registry)
+        renderer = registry.renderer(made_by)
+        try:
+            again = _make_again(beside, renderer, registry)
+        except InputError:  # the PDF holds: what cannot be made of it is no file of this certificate
+            again = None
         own = CheckedStatement.of(
             path.name, "" if again == content else "is not what the PDF beside it gives"
         )
@@ -129,13 +139,19 @@ def _find_first(found: Verification) -> Words | str:
     return next((each.detail for each in findings if each.verdict is wanted), "")
 
 
-def _make_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
+def _make_again(pdf: Path, renderer: Renderer, registry: Registry) -> bytes:
     """Make a file again from what a PDF carries, which holds."""
     carrier = open_pdf(read_file(pdf), Place(str(pdf)))
     stated = find_stated_by(carrier)
     if stated is None:
         raise InputError.at(carrier.place, "carries no results file")
-    renderer = registry.renderer(made_by)
     with lay_out(stated.results.provenance.sources, carrier.carried) as layout:
-        job = load(layout.job, registry, formats=(made_by,))
+        if stated.tree["schema"] == MACHINE_RESULTS:
+            from zlmreport.machines.document import make_machine_document  # noqa: PLC0415 - only for such a document
+            from zlmreport.machines.reading import read_machine  # noqa: PLC0415
+
+            document = make_machine_document(read_machine(layout.job, registry, find_results_in), registry)
+            is_results = renderer.identifier == pipeline.RESULTS
+            return document.results if is_results else renderer.render(document.certificate)
+        job = load(layout.job, registry, formats=(renderer.identifier,))
         return renderer.render(pipeline.compose(job, registry))

@@ -8,6 +8,7 @@ glyphs it has, and tables that nothing is drawn by. The glyphs are compared one 
 from __future__ import annotations
 
 import re
+from collections import deque
 from collections.abc import Callable, Hashable, Mapping
 from io import BytesIO
 from itertools import count
@@ -22,9 +23,13 @@ _GLYPHS = frozenset({"/DescendantFonts", "/ToUnicode", "/W", "/FontDescriptor", 
 _NOT_DRAWN_BY = frozenset(
     {"DSIG", "GDEF", "GPOS", "GSUB", "GlyphOrder", "OS/2", "cmap", "gasp", "kern", "name", "post"}
 )
-_OUTLINES = frozenset({"CFF ", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "vhea", "vmtx"})
+_OUTLINES = frozenset({"glyf", "head", "hhea", "hmtx", "loca", "maxp", "vhea", "vmtx"})
 #: Programs that move the points of outlines where these are fitted to pixels.
 _INSTRUCTIONS = frozenset({"cvt ", "fpgm", "prep"})
+
+#: Parts of a glyph, one in another: a letter with its accents has four.
+_MOST_PARTS = 50
+_LAST_GLYPH = 0xFFFF
 
 #: The digest of an object of a PDF.
 Digest = Callable[[Any], str]
@@ -105,7 +110,8 @@ def _read_program(described: Any) -> Any:
 
     if "/FontFile2" not in described:
         return None
-    return TTFont(BytesIO(described["/FontFile2"].get_data()), lazy=True)
+    program = TTFont(BytesIO(described["/FontFile2"].get_data()), lazy=True)
+    return program if "glyf" in program else None
 
 
 def _is_packed_alike(program: Any, again: Any) -> bool:
@@ -123,11 +129,14 @@ def _is_packed_alike(program: Any, again: Any) -> bool:
 
 
 def _trace_outline(program: Any, code: int) -> Hashable:
-    """Return what a glyph draws: its contours, and the instructions that would move them."""
+    """Return what a glyph draws: its contours, and the instructions that would move them.
+
+    None for one that is not there, and for one of more parts than any glyph of a typeface.
+    """
     from fontTools.pens.recordingPen import DecomposingRecordingPen  # noqa: PLC0415 - slow to load
 
     names = program.getGlyphOrder()
-    if code >= len(names):
+    if code >= len(names) or _count_parts(program, names[code], {}) > _MOST_PARTS:
         return None
     shapes = program.getGlyphSet()
     pen = DecomposingRecordingPen(shapes)
@@ -135,14 +144,26 @@ def _trace_outline(program: Any, code: int) -> Hashable:
     return repr(pen.value), _read_instructions(program, names[code])
 
 
+def _count_parts(program: Any, name: str, known: dict[str, int]) -> int:
+    """Return of how many parts a glyph is put together: a part may have parts, each of them many times."""
+    if name not in known:
+        known[name] = _MOST_PARTS  # until it is known: one that is a part of itself has no end
+        _, inner = _expand_glyph(program, name)
+        known[name] = 1 + sum(_count_parts(program, each, known) for each in inner)
+    return known[name]
+
+
 def _read_instructions(program: Any, name: str) -> bytes:
-    if "glyf" not in program:
-        return b""
+    own, inner = _expand_glyph(program, name)
+    return own + b"".join(_read_instructions(program, each) for each in inner)
+
+
+def _expand_glyph(program: Any, name: str) -> tuple[bytes, list[str]]:
+    """Return the instructions of a glyph, and the names of the glyphs of which it is put together."""
     glyph = program["glyf"][name]
     glyph.expand(program["glyf"])
     own: bytes = glyph.program.getBytecode() if hasattr(glyph, "program") else b""
-    inner = getattr(glyph, "components", ())
-    return own + b"".join(_read_instructions(program, each.glyphName) for each in inner)
+    return own, [each.glyphName for each in getattr(glyph, "components", ())]
 
 
 def _split_mapping(font: Any) -> tuple[bytes, dict[int, str]]:
@@ -162,14 +183,23 @@ def _split_mapping(font: Any) -> tuple[bytes, dict[int, str]]:
 
 
 def _list_widths(entries: Any) -> dict[int, float]:
-    """Return the widths of glyphs as a PDF lists them: a code, and the widths from there on; or a range."""
+    """Return the widths of glyphs as a PDF lists them: a code, and the widths from there on; or a range.
+
+    Raises `ValueError` where codes are not those of glyphs, each once and rising.
+    """
     found: dict[int, float] = {}
-    rest = list(entries)
+    rest, least = deque(entries), 0
     while rest:
-        first, widths = int(rest.pop(0)), rest.pop(0)
+        first, widths = int(rest.popleft()), rest.popleft()
         widths = widths.get_object() if hasattr(widths, "get_object") else widths
         if isinstance(widths, list):
-            found.update(zip(count(first), map(float, widths), strict=False))
+            listed = dict(zip(count(first), map(float, widths), strict=False))
+        elif least <= first and widths <= _LAST_GLYPH:
+            listed = dict.fromkeys(range(first, int(widths) + 1), float(rest.popleft()))
         else:
-            found.update(dict.fromkeys(range(first, min(int(widths), 65535) + 1), float(rest.pop(0))))
+            listed = {}
+        if first < least or not listed or max(listed) > _LAST_GLYPH:
+            raise ValueError("a font whose widths are listed as in no certificate")
+        found |= listed
+        least = max(listed) + 1
     return found

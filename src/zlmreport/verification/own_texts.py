@@ -23,7 +23,10 @@ from zlmreport.verification.look_alikes import find_oddities, read_as
 
 #: The last steps of keys whose texts name installed things, files and hosts, and say nothing to a reader.
 _NAMES_OF_THINGS = frozenset(
-    {"axis", "controller", "error", "extends", "formats", "host", "plugin", "program", "standard"}
+    {
+        *("axis", "chain", "controller", "effects", "error", "extends", "formats", "host", "plugin"),
+        *("program", "standard"),
+    }
 )
 #: Where lengths are what is asked for: how the measurement was set up, what was adjusted, why a contribution
 #: is negligible.

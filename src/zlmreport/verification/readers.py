@@ -24,13 +24,11 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import CheckedStatement, name_first_of
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
 #: Of a program of the system, in seconds and in bytes of what it prints.
 _PATIENCE, _MOST_PRINTED = 60, 64 << 20
-#: Dots to the inch: both pictures are of one engine, and are compared pixel for pixel.
-_RESOLUTION = 72
 #: What the finding is called.
 SUBJECT = "what other readers see"
 _MOST_TOLD = 4
@@ -69,9 +67,15 @@ def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> CheckedS
     `again`: The document printed again.
     `is_drawn_alike`: Whether it is drawn by the same strokes, so that a reader must see the same pages in it.
     """
-    told = list(find_differences(carrier.content, digest_attachments_of(carrier), len(carrier.reader.pages)))
-    if is_drawn_alike and not told:
-        told += list(_from_again(carrier.content, again))
+    try:
+        told = list(
+            find_differences(carrier.content, digest_attachments_of(carrier), len(carrier.reader.pages))
+        )
+        if is_drawn_alike and not told:
+            told += list(_from_again(carrier.content, again))
+    except subprocess.TimeoutExpired as late:  # a file without end, or a busy computer: nobody can tell
+        detail = f"{late.cmd[0]} did not end within {late.timeout:g} s; verify it once more"
+        return CheckedStatement(SUBJECT, VerificationVerdict.OPEN, detail)
     return CheckedStatement.of(SUBJECT, name_first_of(told, _MOST_TOLD))
 
 
@@ -103,9 +107,8 @@ def find_differences(content: bytes, files: Sequence[str], pages: int) -> Iterat
             yield f"{reader.name} sees {len(seen.pages)} pages, and {pages} are compared"
         if seen.files is not None and seen.files != tuple(files):
             yield f"{reader.name} takes out other attachments than are compared"
-        mended = read_as_seen_by(
-            reader, unled
-        )  # nothing is seen where a reader cannot mend it: no other face
+        # Where a reader cannot mend it, nothing is seen: that is no other face.
+        mended = read_as_seen_by(reader, unled)
         if mended is not None and mended.pages != seen.pages:
             yield f"{reader.name} sees other pages where it puts the file together anew"
         if mended is not None and set(mended.files or ()) - set(files):  # some are lost on the way
@@ -126,12 +129,17 @@ def remove_leads(content: bytes) -> bytes:
 
 
 def read_as_seen_by(reader: Reader, content: bytes) -> Seen | None:
-    """Return what a reader sees; None if it cannot open the file, or sees no page."""
+    """Return what a reader sees; None if it cannot open the file, or sees no page.
+
+    Raises `subprocess.TimeoutExpired` if it does not end.
+    """
     logger = logging.getLogger("pypdf")
     level = logger.level
     logger.setLevel(logging.CRITICAL + 1)
     try:
         seen = reader.see(content)
+    except subprocess.TimeoutExpired:
+        raise
     except Exception:  # noqa: BLE001 - a foreign file may break its reader in any way
         return None
     finally:
@@ -168,7 +176,7 @@ def _read_by_pdfium(content: bytes) -> Seen:
     with pypdfium2.PdfDocument(content) as document:
         pages = []
         for page in document:
-            pixels = page.render(scale=_RESOLUTION / 72).to_numpy()
+            pixels = page.render().to_numpy()  # a dot a point, as it comes: both are of one engine
             text = page.get_textpage().get_text_bounded()
             pages.append(_compute_digest(page.get_size(), text, sha256(pixels.tobytes()).hexdigest()))
         attached = (document.get_attachment(number) for number in range(document.count_attachments()))

@@ -40,7 +40,9 @@ _END = re.compile(rb"startxref(?:\r\n|\n|\r)(\d{1,12})(?:\r\n|\n|\r)%%EOF(?:\r\n
 _LOOKED_FOR = re.compile(
     rb"(?<!\d)\d+[\s\0]+\d+[\s\0]*obj|endobj|endstream|trailer|startxref|%%EOF|%PDF-|%!PS"
 )
+_WHOLE = re.compile(rb"\d{1,10}")
 _SUBJECT = "objects of the file"
+_TOO_MANY = "it holds more objects than any certificate"
 _MOST_TOLD = 4
 _FREE, _PLAIN, _PACKED = 0, 1, 2
 _ENTRY_SIZE = 20
@@ -132,7 +134,7 @@ class _Scan:
         while begins_object(content, at):
             found.append(read_object(content, at))
             if len(found) + len(self._known) > _MOST_OBJECTS:
-                raise OddError("it holds more objects than any certificate")
+                raise OddError(_TOO_MANY)
             at = skip_space(content, found[-1].end)
         begun = _BEGIN.match(content, at)
         table = self._read_plain_table(begun.end(), at) if begun else self._read_table_of_stream(found, at)
@@ -145,7 +147,7 @@ class _Scan:
         while section := _SECTION.match(content, at):
             first, count = int(section[1]), int(section[2])
             at = section.end()
-            if entries and first <= max(entries):
+            if entries and first <= next(reversed(entries)):  # they rise: the last is the largest
                 raise OddError("the sections of its table are in no order")
             if at + count * _ENTRY_SIZE > len(content):
                 raise OddError("its table states more objects than it lists")
@@ -225,7 +227,7 @@ class _Scan:
         numbers = {*self._known, *table.entries}
         if not isinstance(size, int) or size != max(numbers) + 1:
             raise OddError("its table states another number of objects than there are")
-        if before is None and set(range(size)) - table.entries.keys() - {max(numbers)}:
+        if before is None and len(table.entries.keys() | {max(numbers)}) < size:
             raise OddError("its table leaves numbers out")
 
     def _list_packed(self, holder: Indirect) -> Iterator[tuple[int, Value]]:
@@ -237,7 +239,7 @@ class _Scan:
         if not isinstance(count, int) or not isinstance(first, int) or b"Extends" in entries:
             raise odd
         head = data[:first].split()
-        if len(head) != 2 * count or not all(each.isdigit() for each in head):
+        if len(head) != 2 * count or not all(_WHOLE.fullmatch(each) for each in head):
             raise odd
         numbers, places = [int(each) for each in head[::2]], [int(each) + first for each in head[1::2]]
         end = first
@@ -303,12 +305,14 @@ def _unpack_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, Table
         raise OddError("its packed table is built as no certificate's")
     columns = [each for each in widths if isinstance(each, int)]
     numbers = [each for each in sections if isinstance(each, int)]
+    if sum(numbers[1::2]) > _MOST_OBJECTS:
+        raise OddError(_TOO_MANY)
     if sum(numbers[1::2]) * sum(columns) != len(data):
         raise OddError("its packed table states another number of objects than it lists")
     entries: dict[int, TableEntry] = {}
     at = 0
     for first, count in zip(numbers[::2], numbers[1::2], strict=True):
-        if entries and first <= max(entries):
+        if entries and first <= next(reversed(entries)):
             raise OddError("the sections of its table are in no order")
         for number in range(first, first + count):
             row = []

@@ -33,7 +33,7 @@ from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import Plugin, Registry, collect
-from zlmreport.testing import full_designs, sample_motion, simulated_test
+from zlmreport.testing import full_designs, sample_cross_tables, sample_motion, simulated_test
 
 OTHER = Plugin("house", "house_module", "house-plugins", "2.0")
 
@@ -289,14 +289,51 @@ def test_tables_that_are_no_files_are_refused(files: Any) -> None:
         controller.files(None, None)
 
 
+@pytest.mark.parametrize("files", [None, {".comp": ""}, {"/../x": "y"}])
+def test_tables_across_axes_that_are_no_files_are_refused(files: Any) -> None:
+    offered = SimpleNamespace(identifier="house", cross_files=lambda *_: files)
+    with pytest.raises(PluginError, match="controller 'house' of plugin house: cross_files returns"):
+        guard(CONTROLLER, offered, "plugin house").cross_files((), 1)
+
+
+def test_tables_across_axes_may_be_none_that_a_control_takes() -> None:
+    offered = SimpleNamespace(identifier="house", cross_files=lambda *_: {})
+    assert guard(CONTROLLER, offered, "plugin house").cross_files((), 1) == {}
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (lambda _: None, "read_cross returns nothing among others"),
+        (lambda table: replace(table, values=table.values * np.nan), "read_cross gives values that is NaN"),
+    ],
+)
+def test_tables_across_axes_that_are_read_without_a_value_are_refused(
+    change: Callable[[Any], Any], sentence: str
+) -> None:
+    read = [change(each) for each in sample_cross_tables()]
+    offered = SimpleNamespace(identifier="house", read_cross=lambda *_: read)
+    with pytest.raises(PluginError, match=f"controller 'house' of plugin house: {sentence}"):
+        guard(CONTROLLER, offered, "plugin house").read_cross({}, (), 1)
+
+
 @pytest.mark.parametrize(
     ("method", "answer"),
-    [("contributions", [1]), ("described", "x"), ("contradictions", None), ("completed", None), ("plan", 1)],
+    [
+        *(("contributions", [1]), ("described", "x"), ("contradictions", None), ("completed", None)),
+        *(("plan", 1), ("doubts", None), ("doubts", ["no words"])),
+    ],
 )
 def test_answers_of_an_extension_are_looked_at(method: str, answer: Any) -> None:
     offered = SimpleNamespace(identifier="house", **{method: lambda *_: answer})
     with pytest.raises(PluginError, match=f"extension 'house' of plugin house: {method} returns"):
         getattr(guard(EXTENSION, offered, "plugin house"), method)()
+
+
+def test_doubt_of_an_extension_that_exits_while_it_is_listed_is_told() -> None:
+    offered = SimpleNamespace(identifier="house", doubts=_exits_late)
+    with pytest.raises(PluginError, match="extension 'house' of plugin house: doubts raised SystemExit"):
+        guard(EXTENSION, offered, "plugin house").doubts(None)
 
 
 def test_command_of_an_extension_that_exits_is_told() -> None:

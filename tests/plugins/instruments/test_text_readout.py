@@ -63,6 +63,12 @@ def test_what_the_pattern_does_not_fit_is_unreadable(line: bytes) -> None:
     assert decoder.understood == 0
 
 
+@pytest.mark.parametrize("line", [b"nan", b"-inf", b"Infinity"])
+def test_a_word_for_no_number_is_unreadable_whatever_the_pattern(line: bytes) -> None:
+    (reading,) = TextDecoder(TextReadoutOptions(port="COM3", pattern="(?P<value>.*)")).feed(line + b"\n", 1.0)
+    assert reading.faults == Fault.UNREADABLE
+
+
 def test_an_error_of_the_readout_voids_the_reading_and_the_zero() -> None:
     (reading,) = TextDecoder(TextReadoutOptions(port="COM3", no_reading=("ERR6",))).feed(b"ERR6\r", 1.0)
     assert reading.loses_zero

@@ -190,17 +190,18 @@ class Progress:
         Raises `InputError` if there is no such visit or run, the capture has not come so far, or a datum is
         gone without which a part of the test would be read under two.
         """
-        word, _, number = text.strip().rpartition("run")
+        text = text.strip()
+        word, _, number = text.rpartition("run")
         is_run = "run" in text
         numbers = [
             visit.number
             for visit in self.visits
-            if number.strip().isdecimal() and int(number) == (visit.run if is_run else visit.number)
+            if number.strip() == str(visit.run if is_run else visit.number)
         ]
         if word.strip() or not numbers:
             raise InputError.at(
                 place,
-                f"{text!r} is nothing to take again: state a visit, 1 to {len(self.visits)}, or a run, "
+                f"{text[:60]!r} is nothing to take again: state a visit, 1 to {len(self.visits)}, or a run, "
                 f"'run 1' to 'run {max(visit.run for visit in self.visits)}'",
             )
         if numbers[-1] - numbers[0] != len(numbers) - 1:

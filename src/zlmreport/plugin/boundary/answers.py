@@ -22,6 +22,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
+from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.model.compensation.curve import CompensationTable
 from zlmreport.model.effects.circle_effect import CircleTerm
 from zlmreport.model.effects.effect import Effect
@@ -278,7 +279,7 @@ def starts(effect: Guarded, answer: Any, _design: CircleDesign) -> tuple[tuple[f
     return tuple(found)
 
 
-def sentences(_effect: Guarded, answer: Any, *_: Any) -> tuple[Words, ...]:
+def sentences(_plugin: Guarded, answer: Any, *_: Any) -> tuple[Words, ...]:
     """Take every sentence."""
     return _require_all_of(Words, answer)
 
@@ -293,13 +294,18 @@ def program(_program: Guarded, answer: Any, *_: Any) -> str:
 
 def tables(_controller: Guarded, answer: Any, *_: Any) -> Mapping[str, str]:
     """Refuse what are no files, and names that would leave their folder."""
+    if not _require_kind(Mapping, answer):
+        raise Unacceptable("returns no file")
+    return cross_tables(_controller, answer)
+
+
+def cross_tables(_controller: Guarded, answer: Any, *_: Any) -> Mapping[str, str]:
+    """Refuse the same of tables across axes, of which there may be none that the control takes."""
     for name, text in _require_kind(Mapping, answer).items():
         if not isinstance(text, str) or not text:
             raise Unacceptable(f"returns no text for the file {name!r}")
         if not isinstance(name, str) or any(sign in name for sign in "/\\\0"):
             raise Unacceptable(f"returns a file that is called {name!r}; the end of a name is expected")
-    if not answer:
-        raise Unacceptable("returns no file")
     return answer  # type: ignore[no-any-return]
 
 
@@ -310,6 +316,16 @@ def table(_controller: Guarded, answer: Any, *_: Any) -> CompensationTable:
     for what, values in (("positions", of.positions), ("forward", of.forward), ("reverse", of.reverse)):
         _require_finite(values, shape, what)
     return of
+
+
+def read_cross(_controller: Guarded, answer: Any, *_: Any) -> tuple[CrossTable, ...]:
+    """Refuse a table across axes with something else than a value at each position."""
+    found: tuple[CrossTable, ...] = _require_all_of(CrossTable, answer)
+    for each in found:
+        shape = (np.size(each.positions),)
+        for what, values in (("positions", each.positions), ("values", each.values)):
+            _require_finite(values, shape, what)
+    return found
 
 
 def contributions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
@@ -394,9 +410,12 @@ ACCEPTED: Mapping[tuple[str, str], Callable[..., Any]] = MappingProxyType(
         ("part_program", "write_circle"): program,
         ("controller", "files"): tables,
         ("controller", "read"): table,
+        ("controller", "cross_files"): cross_tables,
+        ("controller", "read_cross"): read_cross,
         ("instrument", "open"): opened,
         ("notifier", "receiver"): receiver,
         ("extension", "contributions"): contributions,
+        ("extension", "doubts"): sentences,
         ("extension", "described"): described,
         ("extension", "contradictions"): contradictions,
         ("extension", "completed"): completed,
