@@ -6,11 +6,9 @@ from zlmreport.plugin import InputError, Place, Words, hookimpl
 from zlmreport.plugin.renderer import Certificate, Relationship
 from zlmreport.plugin.source import DataSource
 from zlmreport_plugins.renderers.dcc.administrative import make_administrative_data
-from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, write_document
+from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, VERSION, dcc, write_document
 from zlmreport_plugins.renderers.dcc.results import make_measurement_results
 from zlmreport_plugins.renderers.dcc.source import DccSource
-
-_VERSION = "3.3.0"
 
 
 class DccRenderer:
@@ -41,7 +39,7 @@ class DccRenderer:
             "digitalCalibrationCertificate",
             make_administrative_data(certificate, job),
             make_measurement_results(certificate, job),
-            schemaVersion=_VERSION,
+            schemaVersion=VERSION,
         )
         root.attrib.update(SCHEMA_LOCATION)
         return write_document(root)

@@ -136,7 +136,9 @@ ET.register_namespace("dcc", DCC)
 ET.register_namespace("si", SI)
 ET.register_namespace("xsi", _INSTANCE)
 
-SCHEMA_LOCATION = {f"{{{_INSTANCE}}}schemaLocation": f"{DCC} {DCC}/v3.3.0/dcc.xsd"}
+#: Of the schema of the DCC.
+VERSION = "3.3.0"
+SCHEMA_LOCATION = {f"{{{_INSTANCE}}}schemaLocation": f"{DCC} {DCC}/v{VERSION}/dcc.xsd"}
 
 
 def dcc(name: str, *content: Content, **attributes: str) -> ET.Element:

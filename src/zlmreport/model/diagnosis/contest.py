@@ -21,12 +21,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.blocks import average_likelihoods, solve_blocks, take_from
 from zlmreport.model.diagnosis.columns import Columns
-from zlmreport.model.diagnosis.families import (
-    Family,
-    group_forms_by_effect,
-    list_families_of,
-    list_unknown_values,
-)
+from zlmreport.model.diagnosis.families import Family, group_forms_by_effect, is_known, list_families_of
 from zlmreport.model.diagnosis.likelihood import ROUNDING, Amplitudes, Likelihood, Place, Reduced, place_of
 from zlmreport.model.diagnosis.nameless import list_parts_of, make_irregular_factors
 from zlmreport.model.effects.design import Design
@@ -136,9 +131,9 @@ class Contest(Likelihood):
         core = 1 + sum(part.width for part in parts)
         listed = [(each, each.grid(design)) for each in effects]
         named, invisible = list_families_of(design, columns, listed, least_visible)
-        rivals = ((each, list_unknown_values(each, design, columns, named)) for each in forms)
+        rivals = [each for each in forms if not is_known(each, design, columns, named)]
         unnamed, _ = list_families_of(
-            design, columns, [each for each in rivals if len(each[1])], least_visible, is_named=False
+            design, columns, [(each, each.grid(design)) for each in rivals], least_visible, is_named=False
         )
         columns.keep(core)
         return cls(

@@ -28,8 +28,8 @@ _ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
 _LEAST_OWN = 0.01
 #: Share of a form without a name by which an installed effect has it, at one of its values, and the share of
-#: its values at which none may have it at least.
-_THE_SAME, _LEAST_UNKNOWN = 0.95, 1 / 3
+#: its values at which none may have it if it is known: they lie between the values that are tried.
+_THE_SAME, _UNKNOWN = 0.9, 0.125
 _LEAST_SEEN = 1e-6
 
 #: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
@@ -148,13 +148,10 @@ def _compute_log_weights(design: Design, effect: Effect, thetas: FloatArray) -> 
     return np.asarray(np.log(weights / weights.sum()), dtype=np.float64)
 
 
-def list_unknown_values(
-    form: Effect, design: Design, columns: Columns, families: Sequence[Family]
-) -> FloatArray:
-    """Return the values of a form without a name at which no installed effect has it already, shape (g, s).
+def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[Family]) -> bool:
+    """Return whether installed effects have a form already, at nearly all of its values: it is no rival.
 
-    None where effects have it at most of its values: then it is no rival. Some late beginnings are a step,
-    some a passing warmth; those between are neither.
+    Many a late beginning is a step or a passing warmth; those between are neither.
     """
     thetas = form.grid(design)
     blocks, _, seen = make_orthonormal(columns.space, design, form, thetas, _LEAST_SEEN)
@@ -164,8 +161,7 @@ def list_unknown_values(
             products = columns.select_columns(each.blocks.ravel()).T @ blocks.reshape(len(blocks), -1)
             squares = (products**2).reshape(*each.blocks.shape, len(seen), -1).sum(axis=(1, 3))
             imitated = np.maximum(imitated, squares.max(axis=0) / blocks.shape[2])
-    unknown = seen[imitated <= _THE_SAME]
-    return thetas[unknown if len(unknown) > _LEAST_UNKNOWN * len(seen) else seen[:0]]
+    return bool(np.count_nonzero(imitated < _THE_SAME) <= _UNKNOWN * len(seen))
 
 
 def _count_searched(thetas: FloatArray) -> int:

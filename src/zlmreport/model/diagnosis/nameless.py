@@ -42,6 +42,8 @@ _ALONG, _IN_COURSE, _TERMS_IN_BOTH = 0.3, 0.3, 16
 #: of the travel size and period of one change: it then takes in every wave between two of them.
 _FEWEST_CRESTS, _MOST_CRESTS, _TARGETS_PER_CREST = 2, 10, 2
 _STEADY, _TERMS_OF_SIZE = 0.5, 4
+#: What a curve that changes in both costs beyond one that changes in one: it does nearly all that they do.
+_IN_BOTH = 4.0
 _LEAST_VARIANCE = 1e-7
 _GRID = 120
 _LEAST_VISIBLE = 1e-3
@@ -144,11 +146,21 @@ def list_parts_of(
         contrasts = columns.space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
-            price = PRICE + (2.0 * float(np.log(waves)) if shape is _UNSTEADY_WAVE else 0.0)
+            price = _compute_price(shape, waves)
             costs = (0.0, *(price + _compute_cost_of_size(each) for each in _VARIANCES))
             places = columns.add(contrasts / size)
             found.append(CovariancePart(shape, course, places, None, (0.0, *_VARIANCES), costs, 1))
     return tuple(found)
+
+
+def _compute_price(shape: Words, waves: int) -> float:
+    """Return 2·ln of the odds against a curve.
+
+    `waves`: Of unsteady waves, how many there are to choose from.
+    """
+    if shape is _UNSTEADY_WAVE:
+        return PRICE + 2.0 * float(np.log(waves))
+    return PRICE + _IN_BOTH if shape is _SMOOTH_IN_BOTH else PRICE
 
 
 def _compute_cost_of_size(variance: float) -> float:
