@@ -23,7 +23,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MILLIMETRE, Unit
 from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.diagnosis.nameless import Course
+from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 

@@ -27,8 +27,8 @@ from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.likelihood import Amplitudes
-from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.null_distribution import TRIALS, NullDistribution, Scores, simulate_null
+from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.fitting.contrasts import describe_single_readings
 from zlmreport.model.fitting.noise import NoiseSource

@@ -10,7 +10,7 @@ from model.axis_tests import linear_test
 from model.test_statements import LEFT
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.nameless import Course
+from zlmreport.model.diagnosis.random_curves import Course
 
 DESIGN = linear_test()
 

@@ -11,7 +11,7 @@ from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
-from zlmreport.model.diagnosis.nameless import Course
+from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs

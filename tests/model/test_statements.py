@@ -12,7 +12,7 @@ from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import Verdict
-from zlmreport.model.diagnosis.nameless import Course
+from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.report import list_in_words, write_verdict_statement
 

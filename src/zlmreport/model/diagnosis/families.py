@@ -14,7 +14,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
-from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
+from zlmreport.model.diagnosis.random_curves import PRICE as NAMELESS_PRICE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.contrasts import Contrasts

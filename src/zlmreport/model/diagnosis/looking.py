@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.diagnosis.nameless import Along, Course
+from zlmreport.model.diagnosis.random_curves import Along, Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design

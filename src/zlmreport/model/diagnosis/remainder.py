@@ -17,7 +17,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember
 from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
-from zlmreport.model.diagnosis.nameless import Along, Course
+from zlmreport.model.diagnosis.random_curves import Along, Course
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording

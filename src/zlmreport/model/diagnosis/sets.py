@@ -31,7 +31,7 @@ from zlmreport.model.diagnosis.effect_set import (
 from zlmreport.model.diagnosis.families import make_orthonormal
 from zlmreport.model.diagnosis.forms import IN_TIME, UnnamedForm
 from zlmreport.model.diagnosis.likelihood import Amplitudes
-from zlmreport.model.diagnosis.nameless import Along
+from zlmreport.model.diagnosis.random_curves import Along
 from zlmreport.model.diagnosis.scored_sets import ScoredSets
 from zlmreport.model.effects.effect import Effect
 

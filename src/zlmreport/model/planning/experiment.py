@@ -24,7 +24,7 @@ from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.likelihood import Amplitudes
-from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
+from zlmreport.model.diagnosis.random_curves import PRICE as NAMELESS_PRICE
 from zlmreport.model.diagnosis.report import list_in_words
 from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.effects import wording
