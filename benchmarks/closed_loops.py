@@ -118,7 +118,7 @@ def loops(source: str, count: int, seed: int = 1) -> Loops:
         for symbol, value in shown.items():
             expected = made.forecast.second_test[symbol]
             found.held[symbol] += expected.low <= value <= expected.high
-        verdict = confirm(made.basis, curve, made.decoded, _PLACE).verdict
+        verdict = confirm(made.basis, curve, second.axis, made.decoded, _PLACE).verdict
         found.confirmed += verdict is ConfirmationVerdict.HELD
         found.shares.append(shown["E"] / made.forecast.before.systematic)
     return found

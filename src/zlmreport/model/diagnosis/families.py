@@ -27,9 +27,10 @@ PRICE = 6.0
 _ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
 _LEAST_OWN = 0.01
-#: Share of a form without a name by which an installed effect has it, at one of its values, and the share of
-#: its values at which none may have it if it is known: they lie between the values that are tried.
-_THE_SAME, _UNKNOWN = 0.9, 0.125
+#: Shares of a form without a name by which an installed effect has it, at one of its values, and at how many
+#: of its values: known where most are had all but wholly, and nearly all but for a tenth.
+_WHOLLY, _MOST = 0.95, 0.5
+_NEARLY, _ALL = 0.9, 0.875
 _LEAST_SEEN = 1e-6
 
 #: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
@@ -161,7 +162,8 @@ def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[
             products = columns.select_columns(each.blocks.ravel()).T @ blocks.reshape(len(blocks), -1)
             squares = (products**2).reshape(*each.blocks.shape, len(seen), -1).sum(axis=(1, 3))
             imitated = np.maximum(imitated, squares.max(axis=0) / blocks.shape[2])
-    return bool(np.count_nonzero(imitated < _THE_SAME) <= _UNKNOWN * len(seen))
+    wholly, nearly = (np.count_nonzero(imitated > share) for share in (_WHOLLY, _NEARLY))
+    return bool(wholly > _MOST * len(seen) and nearly >= _ALL * len(seen)) or not len(seen)
 
 
 def _count_searched(thetas: FloatArray) -> int:

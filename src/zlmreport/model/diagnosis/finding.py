@@ -7,8 +7,10 @@ it where the odds between them are less than twenty to one.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Set as AbstractSet
 from dataclasses import dataclass, replace
+from itertools import chain
 
 import numpy as np
 
@@ -336,15 +338,18 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
     Of what has no name only the kind is known. A set that is told from the same set without an effect may be
     as likely as one in which other effects and another curve do the same; then that effect is not told.
     """
-    kept = found
+    kept, several = found, set[str]()
     while kept.named:
         # The least sure goes first, and what is then looked at may tell of the others; but each is held
         # against the whole set: what little is left of it says nothing of what was in it.
         for each in kept.named:
             _list_rivals_of(search, kept, each)
+        rivals = [_list_rivals_of(search, kept, each) for each in kept.named]
+        # What could stand in the place of several is one cause instead of them, and none's equal.
+        several |= {name for name, count in Counter(chain(*rivals)).items() if count > 1}
         evidence = [
-            _compute_evidence_of(search, found, each, _list_rivals_of(search, kept, each))
-            for each in kept.named
+            _compute_evidence_of(search, found, each, own - several)
+            for each, own in zip(kept.named, rivals, strict=True)
         ]
         if min(evidence) >= NAMED_BESIDE:
             break
@@ -440,21 +445,21 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
             -each.evidence,
         ),
     )
-    # What contains it and explains no more is no other cause: its further terms do nothing.
+    # What contains it and explains no more is no other cause: its further terms do nothing. And what asks for
+    # a curve beside it is no equal.
     behind = [
-        each
-        for each in rivals
+        (each, each.evidence > rivals[0].evidence - TOLD_APART and search.count_nameless(whole) <= nameless)
+        for each, whole in zip(rivals, sets, strict=True)
         if each is not leading and leading.identifier not in each.member.effect.contains
     ]
-    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in behind]
     names = {each.identifier for each in found.members}
     return NamedEffect(
         leading,
-        tuple(each for each, equal in zip(behind, is_equal, strict=True) if equal),
+        tuple(each for each, is_equal in behind if is_equal),
         tuple(
             each
-            for each, equal in zip(behind, is_equal, strict=True)
-            if not equal and each.evidence > 0 and each.identifier not in names
+            for each, is_equal in behind
+            if not is_equal and each.evidence > 0 and each.identifier not in names
         ),
     )
 

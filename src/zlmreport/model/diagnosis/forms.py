@@ -180,13 +180,15 @@ class UnnamedForm(FormulaEffect):
         )
 
     def find_extent(self, theta: FloatArray) -> tuple[float, float]:
-        """Return where a form with a place begins and ends, within what was measured, SI."""
+        """Return where it begins and ends, within what was measured, SI."""
         first, last = float(self.along[0]), float(self.along[-1])
         named = self.list_searched_values(theta)
         if self.form in (BUMP, PLATEAU):
             half = named["w"] / 2
             return max(first, named["c"] - half), min(last, named["c"] + half)
-        return min(max(first, named["c"]), last), last
+        if self.form in LOCAL:
+            return min(max(first, named["c"]), last), last
+        return first, last
 
 
 def list_unnamed_forms(design: Design) -> Iterator[UnnamedForm]:

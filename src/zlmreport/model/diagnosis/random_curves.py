@@ -30,8 +30,6 @@ _ALONG, _IN_COURSE, _TERMS_IN_BOTH = 0.3, 0.3, 16
 #: of the travel size and period of one change: it then takes in every wave between two of them.
 _FEWEST_CRESTS, _MOST_CRESTS, _TARGETS_PER_CREST = 2, 10, 2
 _STEADY, _TERMS_OF_SIZE, _DIGITS_OF_PERIOD = 0.5, 4, 2
-#: What a curve that changes in both costs beyond one that changes in one: it does nearly all that they do.
-_IN_BOTH = 4.0
 _LEAST_VARIANCE = 1e-7
 _GRID = 120
 
@@ -101,13 +99,18 @@ def list_random_curves(design: Design) -> Iterator[RandomCurve]:
     yield from _list_unsteady_waves(design, along)
     if design.duration > 0:
         both = _smooth_in_both(along, moment)
-        yield RandomCurve(_SMOOTH_IN_BOTH, Course.PLACE_IN_TIME, both, PRICE + _IN_BOTH)
+        # It does what a curve along the axis and one in time do together, and is as rare as two.
+        yield RandomCurve(_SMOOTH_IN_BOTH, Course.PLACE_IN_TIME, both, 2.0 * PRICE)
 
 
 def _list_unsteady_waves(design: Design, along: FloatArray) -> Iterator[RandomCurve]:
-    """Yield waves of every number of crests that the targets tell; each pays for the choice among them."""
-    most = min(_MOST_CRESTS, (len(design.target_positions) - 1) // _TARGETS_PER_CREST)
-    numbers, unit = range(_FEWEST_CRESTS, most + 1), design.axis.position_unit
+    """Yield waves of every number of crests that the targets tell; each pays for the choice among them.
+
+    Where there are no more targets than terms, none of them is a wave: it is any shape.
+    """
+    targets, unit = len(design.target_positions), design.axis.position_unit
+    most = min(_MOST_CRESTS, (targets - 1) // _TARGETS_PER_CREST) if targets > 2 * _TERMS_OF_SIZE else 0
+    numbers = range(_FEWEST_CRESTS, most + 1)
     for crests in numbers:
         period = unit.to_si(float(f"{unit.from_si(design.length / crests):.{_DIGITS_OF_PERIOD}g}"))
         shape = _UNSTEADY_WAVE.given(period=wording.length(design.axis, period))

@@ -16,7 +16,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember
-from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
+from zlmreport.model.diagnosis.forms import CARRIERS, FADING, IN_TIME, LOCAL, UnnamedForm
 from zlmreport.model.diagnosis.random_curves import Along, Course
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
@@ -244,10 +244,12 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     is_time = main.course.along is not Along.PLACE
     say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
-    if isinstance(form, UnnamedForm) and main.member and form.form in LOCAL:
+    if isinstance(form, UnnamedForm) and main.member and form.form is not FADING:
         low, high = form.find_extent(main.member.theta)
         place = form.list_searched_values(main.member.theta).get("c", low)
-        return _ABOUT.given(place=say(place)), low, high, unit
+        is_local = form.form in LOCAL
+        words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
+        return words, low, high, unit
     if main.course.along is Along.RUN:
         runs = np.unique(design.cycle)
         sizes = [float(np.mean(whole[design.cycle == run] ** 2)) for run in runs]
