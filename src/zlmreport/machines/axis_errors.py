@@ -235,7 +235,7 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
         content = carried
     try:
         found = _Results.model_validate(json.loads(content))
-    except (ValidationError, ValueError) as error:
+    except (ValidationError, ValueError, RecursionError) as error:
         raise InputError.at(
             place, f"{path.name} is no results file of this program (zlmreport/results/1)"
         ) from error
