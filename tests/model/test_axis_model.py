@@ -69,6 +69,8 @@ def test_more_parameters_than_readings_are_refused() -> None:
     few = select_readings(DESIGN, np.arange(2))
     with pytest.raises(ModelError, match="3 parameters to estimate and the test 2 readings; measure more"):
         fit(model_of("offset", "scale-error", "datum-temperature"), few, READINGS[:2])
+    with pytest.raises(ModelError, match="1 parameter to estimate and the test 1 reading; measure more"):
+        fit(model_of("offset"), select_readings(DESIGN, np.arange(1)), READINGS[:1])
 
 
 def test_an_effect_without_influence_is_named() -> None:

@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 
-from zlmreport.errors import InputError, did_you_mean
+from zlmreport.errors import InputError, count_in_words, did_you_mean
 from zlmreport.job.choices import EffectChoice, number_effect
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
@@ -217,8 +217,8 @@ class AxisModel:
             )
             if len(design.position) <= estimated:
                 sentences.append(
-                    f"the model has {estimated} parameters to estimate and the test {len(design.position)} "
-                    "readings; measure more, or take effects out"
+                    f"the model has {count_in_words(estimated, 'parameter')} to estimate and the test "
+                    f"{count_in_words(len(design.position), 'reading')}; measure more, or take effects out"
                 )
         if sentences:
             raise ModelError(sentences)

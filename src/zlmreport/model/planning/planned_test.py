@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, count_in_words
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
@@ -111,8 +111,9 @@ def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
     if readings < parameters + _FEWEST_DEGREES:
         raise InputError.at(
             job.place_of("plan"),
-            f"plan: {readings} readings are too few: the model has {parameters} parameters, and an effect is "
-            f"seen from {_FEWEST_DEGREES} readings more on; take more targets or runs",
+            f"plan: {readings} readings are too few: the model has "
+            f"{count_in_words(parameters, 'parameter')}, and an effect is seen from "
+            f"{_FEWEST_DEGREES} readings more on; take more targets or runs",
         )
 
 
