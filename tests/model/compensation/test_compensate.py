@@ -61,6 +61,19 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert "If it doubles, the sign is wrong" in text
 
 
+@pytest.mark.parametrize(("sign", "drawn", "missing"), [("-", "C↓", "C↑"), ("+", "C↑", "C↓")])
+def test_one_direction_is_drawn_by_its_own_arrow(folder: Path, sign: str, drawn: str, missing: str) -> None:
+    remark, header, *rows = (DATA / "captured_without.csv").read_text("utf-8").splitlines()
+    kept = [row for row in rows if row.split(",")[1] == sign]
+    (folder / "one.csv").write_text("\n".join([remark, header, *kept]) + "\n", "utf-8")
+    text = JOB.format(table=", compensation_table: none", file=folder / "one.csv", more="")
+    (folder / "job.yaml").write_text(text, "utf-8")
+    assert main(["compensate", "job.yaml", "--controller", "linuxcnc", "-o", "out"]) == 0
+    page = PdfReader(folder / "out" / "LOOP-1-compensation.pdf").pages[0].extract_text()
+    assert drawn in page
+    assert missing not in page
+
+
 def test_json_states_the_forecast_and_writes_nothing(folder: Path, capsys: Capture) -> None:
     name = job(folder, "job.yaml", "without", more="compensation: {controller: linuxcnc, type: 1}")
     code, values = run(capsys, name)
