@@ -325,3 +325,13 @@ def test_a_test_that_says_nothing_of_the_table_is_refused(
     (folder / after).write_text(job, encoding="utf-8")
     assert main(["compensate", "--unconfirmed", "--confirm", before, after]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_test_of_another_machine_is_refused(folder: Path, capsys: Capture) -> None:
+    jobs = [readings_of(folder, name, 1.0, "+") for name in ("before", "after")]
+    for number, name in enumerate(jobs, start=1):
+        text = (folder / name).read_text(encoding="utf-8")
+        (folder / name).write_text(f"{text}machine: {{serial: M-{number}}}\n", encoding="utf-8")
+    assert main(["compensate", "--unconfirmed", "--confirm", *jobs]) == 2
+    message = "it is a test of machine 'M-2', and the table is of machine 'M-1'"
+    assert message in capsys.readouterr().err
