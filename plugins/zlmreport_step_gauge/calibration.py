@@ -245,6 +245,14 @@ def _check_faces(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
                 "block a front and a back face",
             )
         )
+    if not problems and not any(each.face.expanded_uncertainty for each in listed):
+        problems.append(
+            Problem(
+                listed[0].place,
+                "U is 0 at every face; write those of the calibration certificate (k = 2): of the face from "
+                "which distances count it may be 0",
+            )
+        )
     if problems:
         raise InputError(sorted(problems))
     return tuple(each.face for each in listed)

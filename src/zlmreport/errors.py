@@ -132,6 +132,15 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
 
 
+def count_in_words(number: int, thing: str) -> str:
+    """Return a number of things.
+
+    >>> count_in_words(1, "value"), count_in_words(100000, "character")
+    ('1 value', '100,000 characters')
+    """
+    return f"{number:,} {thing}{'' if number == 1 else 's'}"
+
+
 def quoted(text: str) -> str:
     """Return what a file or a user says as a message shows it: in quotation marks, on one line, not too long.
 

@@ -40,6 +40,7 @@ def test_an_axis_is_described_in_millimetres() -> None:
         (["umd1", "--course", "0,x"], "'x' is no position"),
         (["umd1", "--dwell", "x"], "'x' is no number; write one, such as 5"),
         (["umd1", "--port", "70000"], "is no TCP port"),
+        (["umd1", "--port", "9" * 5000], "'… (5,000 characters) is no TCP port"),
         (["umd1", "--dwell", "-1"], "--dwell -1 makes no axis"),
         (["umd1", "--link", "a", "--port", "0"], "take one"),
         ([], "INSTRUMENT"),

@@ -165,10 +165,13 @@ def test_a_dry_run_for_programs(fleet: Fleet, run: Run) -> None:
 
 
 @pytest.mark.usefixtures("fleet")
-def test_a_number_of_workers_that_is_none_is_refused(run: Run) -> None:
-    code, _, messages = run("fleet", "fleet.yaml", "--workers", "0")
+@pytest.mark.parametrize(
+    ("number", "shown"), [("0", "'0'"), ("9" * 5000, f"'{'9' * 60}'… (5,000 characters)")]
+)
+def test_a_number_of_workers_that_is_none_is_refused(number: str, shown: str, run: Run) -> None:
+    code, _, messages = run("fleet", "fleet.yaml", "--workers", number)
     assert code == 2
-    assert "--workers: '0' is no number of processes; write 2" in messages
+    assert f"--workers: {shown} is no number of processes; write 2" in messages
 
 
 def test_a_number_of_workers_is_not_asked_of_a_scheduler(fleet: Fleet, run: Run) -> None:

@@ -153,7 +153,18 @@ def test_files_of_instruments_find_their_readers() -> None:
     assert found == {"bidirectional.rtl": "renishaw-rtl", "ecmc_13e6c326.dat": "ecmc"}
 
 
-@pytest.mark.parametrize("content", [b"", b"nothing but words\n", bytes(range(256)), b"1,2,3\n4,5,6\n"])
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"nothing but words\n",
+        bytes(range(256)),
+        b"1,2,3\n4,5,6\n",
+        WIDE.replace("Mean", "9" * 5000).encode(),
+        WIDE.replace("2.5", "9" * 5000).encode(),
+    ],
+    ids=["empty", "words", "bytes", "numbers", "a name of 5000 digits", "a cell of 5000 digits"],
+)
 def test_file_that_nobody_reads_is_told_with_its_name(content: bytes, table: Any) -> None:
     path = table(content)
     with pytest.raises(ZlmreportError, match=r"x-axis\.csv"):

@@ -43,6 +43,12 @@ def test_an_unknown_effect_is_answered_with_the_nearest(shop: Shop) -> None:
     assert "did you mean 'screw-pitch'?" in refused(shop, "add", "job.yaml", "screwpitch")
 
 
+def test_an_effect_of_a_number_that_nothing_counts_is_told(shop: Shop) -> None:
+    assert "no plugin provides effect 'scale-joint-9" in refused(
+        shop, "add", "job.yaml", f"scale-joint-{'9' * 5000}"
+    )
+
+
 def test_an_effect_that_is_there_already_is_refused_where_it_stands(shop: Shop) -> None:
     assert refused(shop, "add", "job.yaml", "backlash") == (
         "job.yaml:25:7: backlash stands in the model already"

@@ -71,12 +71,19 @@ def test_sessions_never_enter_the_evaluation_and_the_certificate_carries_their_f
     [
         ("together.yaml", "this test is in the model already"),
         ("warm.yaml, warm.yaml", "this test is in the model already"),
-        ("y.yaml", "it is a test of axis Y (linear)"),
+        ("y.yaml", "it is a test of axis Y (linear) of EXAMPLE-X-16, on EYY;"),
+        ("straightness.yaml", "it is a test of axis X (linear) of EXAMPLE-X-16, on EYX;"),
+        ("machine.yaml", "it is a test of axis X (linear) of EXAMPLE-X-17, on EXX;"),
     ],
 )
 def test_a_session_that_is_none_is_refused_where_it_stands(shop: Shop, sessions: str, message: str) -> None:
-    other = (shop.folder / "warm.yaml").read_text(encoding="utf-8").replace("name: X", "name: Y")
-    shop.write("y.yaml", other)
+    warm = (shop.folder / "warm.yaml").read_text(encoding="utf-8")
+    shop.write("y.yaml", warm.replace("name: X", "name: Y"))
+    of_straightness = warm.replace("iso230-2:2014", '"iso230-1:2012"').replace(
+        "source:", "error: EYX\n  source:"
+    )
+    shop.write("straightness.yaml", of_straightness)
+    shop.write("machine.yaml", warm.replace("EXAMPLE-X-16", "EXAMPLE-X-17"))
     text = (shop.folder / "together.yaml").read_text(encoding="utf-8").replace("warm.yaml]", f"{sessions}]")
     shop.write("together.yaml", text)
     run = shop.run("check", "together.yaml")

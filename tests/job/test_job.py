@@ -123,3 +123,14 @@ def test_place_of_a_key_or_of_what_should_have_it(key: str, line: int, column: i
 def test_same_format_twice_is_written_once(tmp_path: Path) -> None:
     job = loaded(with_line(15, "output: {formats: [exemplary, exemplary]}"), tmp_path)
     assert job.formats == ("exemplary",)
+
+
+def test_what_is_not_said_of_the_measurement_as_found_is_as_in_the_measurement(tmp_path: Path) -> None:
+    stated = "  at: {Y: 100}\n  feed: 2000\n  warm_up: 1 h\n  remarks: Hot.\n  date: 2026-11-18\n"
+    as_found = "as_found: {measurement: {feed: 500, source: {plugin: exemplary-text, file: six.txt}}}\n"
+    job = loaded(SOUND.replace("  date: 2026-11-18\n", stated) + as_found, tmp_path).as_found
+    assert job is not None
+    measurement = job.keys.measurement
+    assert (measurement.feed, measurement.warm_up, measurement.at) == (500, "1 h", {"Y": 100})
+    assert job.axis.at == (("Y", 0.1),)
+    assert (measurement.date, measurement.remarks) == (None, None)

@@ -13,7 +13,7 @@ from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.errors import Place
 from zlmreport.job.choices import EffectChoice
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_terms
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_terms, refuse_collisions
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
 from zlmreport_plugins.effects.polynomial import Polynomial
@@ -69,6 +69,8 @@ def test_more_parameters_than_readings_are_refused() -> None:
     few = select_readings(DESIGN, np.arange(2))
     with pytest.raises(ModelError, match="3 parameters to estimate and the test 2 readings; measure more"):
         fit(model_of("offset", "scale-error", "datum-temperature"), few, READINGS[:2])
+    with pytest.raises(ModelError, match="1 parameter to estimate and the test 1 reading; measure more"):
+        fit(model_of("offset"), select_readings(DESIGN, np.arange(1)), READINGS[:1])
 
 
 def test_an_effect_without_influence_is_named() -> None:
@@ -110,3 +112,10 @@ def test_effect_is_in_the_form_of_its_settings() -> None:
     chosen = _chosen(AxisKind.LINEAR, ExemplaryOptions(rectified=True))
     assert chosen.effect.settings == ExemplaryOptions(rectified=True)
     assert chosen.fixed == {}
+
+
+@pytest.mark.parametrize("value", [np.inf, np.nan, 1e200])
+def test_columns_that_are_not_finite_are_refused_by_the_name_of_their_effect(value: float) -> None:
+    columns = [np.ones((3, 1)), np.array([[0.0], [1.0], [value]])]
+    with pytest.raises(ModelError, match=r"^scale-error has no finite value at these readings"):
+        refuse_collisions(model_of("offset", "scale-error"), columns)

@@ -66,6 +66,13 @@ def test_it_is_asked_in_german_too() -> None:
     assert said.startswith("800 µm: das 20-fache des bei einer Spindel Üblichen; ein Riemen,")
 
 
+@pytest.mark.parametrize(("value", "times"), [(100e-6, "2,5-fache"), (6000e-6, "150-fache")])
+def test_how_far_it_is_beyond_the_usual_is_written_as_other_numbers(value: float, times: str) -> None:
+    said = _said(ask_of(_parameter("backlash", "lost_motion"), value, AXIS), Language.GERMAN)
+    assert said is not None
+    assert times in said
+
+
 def test_usual_is_the_range_where_nothing_else_is_said() -> None:
     size = Parameter("a", "a", Dimension.DEVIATION, Words(en="a", de="a"), -5e-6, 10e-6)
     assert find_usual_range(size) == (-5e-6, 10e-6)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -72,6 +73,7 @@ def test_a_section_beyond_the_gauge_is_refused_with_the_blocks_there_are() -> No
         (ROWS.replace("2,back", "2,front"), "3:1: face 2 is a back face"),
         (ROWS.replace("3,front,20", "3,front,5"), "lies at 5 mm, not behind face 2"),
         (ROWS.replace("20.0002", "20002"), "is the unit right"),
+        (re.sub(r",[0-9.]+$", ",0", ROWS, flags=re.MULTILINE), "2:1: U is 0 at every face; write those of"),
         (ROWS.replace("10.0001", "ten"), "3:11: column calibrated_mm: 'ten' stands where a number belongs"),
         (ROWS.replace("2,back", "2,rear"), "3:3: column side: front or back is expected"),
         ("\n".join(ROWS.splitlines()[:3]), "the calibration ends after 3 faces"),

@@ -128,6 +128,8 @@ def test_the_emulated_machine_is_probed_and_evaluated_as_the_how_to_tells(folder
         (["umd1", "--scale-error", "3"], "unknown option '--scale-error'"),
         (["ippdme", "--point-fault", "no-tuch@1"], "did you mean 'no-touch'?"),
         (["ippdme", "--point-fault", "no-touch@0"], "does not say at which move"),
+        (["ippdme", "--point-fault", f"no-touch@{'9' * 5000}"], "does not say at which move"),
+        (["ippdme", "--noise", "-1"], "'-1' is negative, and no standard deviation is"),
     ],
 )
 def test_a_mistake_is_told_and_nothing_begins(arguments: list[str], message: str, capsys: Capture) -> None:

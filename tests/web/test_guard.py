@@ -81,6 +81,11 @@ def test_a_body_without_end_is_refused(browser: TestClient) -> None:
     assert answer.status_code == 413
 
 
+def test_a_length_that_is_no_count_is_refused(browser: TestClient) -> None:
+    headers = {"Content-Type": "application/json", "Content-Length": "9" * 5000}
+    assert browser.post("/api/change", content=b"{}", headers=headers).status_code == 413
+
+
 @pytest.mark.parametrize("address", ADDRESSES[:4])
 def test_every_answer_keeps_its_page_in(browser: TestClient, address: str) -> None:
     headers = browser.get(address).headers

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from zlmreport.plugin import (
     did_you_mean,
     fixed_number,
     general_number,
+    quoted,
 )
 from zlmreport.plugin.extension import Command, CommandHost, CommandOption, Happening, LiveRun
 from zlmreport_step_gauge.keys import STANDARD_PORT
@@ -26,6 +28,7 @@ from zlmreport_step_gauge.paths.path import Point, Probing
 
 #: As the command line names the machine.
 IPPDME = "ippdme"
+_WHOLE_NUMBER = re.compile("[0-9]{1,9}")
 _PER_METRE = 1e-6  # of µm/m
 
 
@@ -98,7 +101,14 @@ def _read_number(text: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise ValueError(f"{text!r} is no number; write such as 5")
+        raise ValueError(f"{quoted(text)} is no number; write such as 5")
+    return value
+
+
+def _read_noise(text: str) -> float:
+    value = _read_number(text)
+    if value < 0:
+        raise ValueError(f"{quoted(text)} is negative, and no standard deviation is; write such as 0.05")
     return value
 
 
@@ -107,9 +117,9 @@ def _point_fault(text: str) -> tuple[int, PointFault]:
     kind, _, number = text.partition("@")
     known = [each.value for each in PointFault]
     if kind not in known:
-        raise ValueError(f"{kind!r} is no fault; {did_you_mean(kind, known)}")
-    if not (number.isascii() and number.isdigit() and int(number)):
-        raise ValueError(f"{text!r} does not say at which move; write such as {kind}@7")
+        raise ValueError(f"{quoted(kind)} is no fault; {did_you_mean(kind, known)}")
+    if not (_WHOLE_NUMBER.fullmatch(number) and int(number)):
+        raise ValueError(f"{quoted(text)} does not say at which move; write such as {kind}@7")
     return int(number), PointFault(kind)
 
 
@@ -137,7 +147,7 @@ EMULATE = Command(
             "noise",
             "U",
             "standard deviation of a coordinate, micrometres; 0.05 without it",
-            _read_number,
+            _read_noise,
             0.05,
         ),
         CommandOption(

@@ -23,7 +23,7 @@ UNASKED = "E0000"
 
 _LINE = re.compile(r"(?P<tag>E[0-9]{4}|[0-9]{5}) (?P<kind>[&#!%])(?: (?P<text>.*))?")
 _ERROR = re.compile(
-    r'Error\(\s*(?P<severity>[0-9]+)\s*,\s*(?P<number>[0-9]{1,4})\s*,\s*(?P<method>[^,"]*?)\s*,'
+    r'Error\(\s*(?P<severity>[0-9]{1,4})\s*,\s*(?P<number>[0-9]{1,4})\s*,\s*(?P<method>[^,"]*?)\s*,'
     r'\s*"(?P<text>[^"]*)"\s*\)'
 )
 _ITEM = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z0-9_.]*)\((?P<values>[^()]*)\)\s*(?:,|$)")

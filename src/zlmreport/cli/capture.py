@@ -19,10 +19,9 @@ from zlmreport.cli.jobs import tell_requirements
 from zlmreport.cli.terminal import Colour, make_visible, show_path
 from zlmreport.document.certificate.clauses import demand_mandatory_items
 from zlmreport.document.writer import Writer
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import AccessError, InputError, Place, count_in_words
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.live.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
 from zlmreport.live.capture.follower import Follower

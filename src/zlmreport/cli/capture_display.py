@@ -13,9 +13,8 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
 from zlmreport.cli.terminal import Colour, make_visible, write_duration
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import AccessError, InputError, Place, count_in_words
 from zlmreport.job.job import Job
-from zlmreport.job.parse import count_in_words
 from zlmreport.live.capture.events import (
     Commented,
     Elsewhere,

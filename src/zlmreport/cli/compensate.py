@@ -21,7 +21,7 @@ from zlmreport.document.subjects.compensation import (
     make_compensation_sheet,
 )
 from zlmreport.document.writer import Writer
-from zlmreport.errors import NOT_MET, InputError, Place
+from zlmreport.errors import NOT_MET, InputError, Place, quoted
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.files import Document, write_new
 from zlmreport.job.choices import choose_controller_of
@@ -170,6 +170,12 @@ def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tupl
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
+    of_table, serial = (each.keys.machine.serial for each in (before, after))
+    if of_table and serial and of_table != serial:
+        raise InputError.at(
+            after.place_of("machine.serial"),
+            f"it is a test of machine {quoted(serial)}, and the table is of machine {quoted(of_table)}",
+        )
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from zlmreport.cli.terminal import make_visible, show_path
-from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place
+from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place, count_in_words
 from zlmreport.files import Document, write
 from zlmreport.fleet.basis import write_path_in
 from zlmreport.fleet.exports import write_calendar, write_metrics
@@ -19,7 +19,6 @@ from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.state import FleetState, Rules, describe_state
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, load_fleet
-from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import find_plugins
 
 

@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport.cli.terminal import say, show_path, wrap
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, count_in_words
 from zlmreport.files import Document, write_new
-from zlmreport.job.parse import count_in_words
 from zlmreport.language.formatting import DecimalSign, write_general_number
 from zlmreport.looking import Looked, look_at, write_job_of
 from zlmreport.machines.beginning import begin_machine

@@ -29,11 +29,10 @@ from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import limit
 from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
-from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems
+from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems, count_in_words
 from zlmreport.evaluation.report import report_parameter
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
-from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
 from zlmreport.version import __version__

@@ -22,13 +22,21 @@ from zlmreport.cli.terminal import lay_out_table, print_json, show_path, show_pr
 from zlmreport.document.subjects.diagnosis import write_effect_argument
 from zlmreport.document.subjects.forecast import StandardForecast, make_forecasts
 from zlmreport.document.writer import Writer
-from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
+from zlmreport.errors import (
+    AccessError,
+    InputError,
+    Place,
+    Problem,
+    ZlmreportError,
+    count_in_words,
+    did_you_mean,
+)
 from zlmreport.files import Document, read, say_reason, write
 from zlmreport.job.edit import Edit, WrittenEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import LARGEST, count_in_words
+from zlmreport.job.parse import LARGEST
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.build_report import build_values

@@ -19,8 +19,8 @@ from zlmreport.document.subjects.fit import (
 )
 from zlmreport.document.subjects.forecast import StandardForecast, lay_out_fall
 from zlmreport.document.writer import Writer
+from zlmreport.errors import count_in_words
 from zlmreport.job.job import Job
-from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
@@ -82,8 +82,8 @@ def tell_diagnosis(
     if unseen:
         yield ""
         yield from wrap(
-            f"What this test cannot see or try: {len(unseen)} effects. The list: --json; what would show "
-            f"one: zlmreport plan {path} --decide EFFECT",
+            f"What this test cannot see or try: {count_in_words(len(unseen), 'effect')}. The list: --json; "
+            f"what would show one: zlmreport plan {path} --decide EFFECT",
             "",
         )
     yield ""

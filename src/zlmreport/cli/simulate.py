@@ -8,9 +8,8 @@ from typing import Any
 
 from zlmreport.cli.emulate import make_troubles_of, put_on_line, refuse_two_lines
 from zlmreport.cli.terminal import show_path
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, count_in_words
 from zlmreport.files import Document, write
-from zlmreport.job.parse import count_in_words
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
 from zlmreport.live.emulation.emulator import Scene

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import InputError, Place, Problem, ZlmreportError
+from zlmreport.errors import InputError, Place, Problem, ZlmreportError, count_in_words
 from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256, write_path_in
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.making import MARK
@@ -24,7 +24,6 @@ from zlmreport.fleet.records import (
 )
 from zlmreport.job.fleet import FleetFile, list_job_files, number_of
 from zlmreport.job.loading import load
-from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import SCHEMA, find_stated_by
 from zlmreport.verification.carrier import open_pdf, read_file

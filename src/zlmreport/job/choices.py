@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -185,6 +186,9 @@ def number_effect(identifier: str, number: int) -> str:
     return identifier if number == 1 else f"{identifier}-{number}"
 
 
+_NUMBER = re.compile("[0-9]{1,9}")
+
+
 def part_number(identifier: str) -> tuple[str, int]:
     """Return the effect and the number of a name such as ``scale-joint-2``; 1 where it has none.
 
@@ -192,7 +196,8 @@ def part_number(identifier: str) -> tuple[str, int]:
     (('scale-joint', 2), ('scale-joint', 1), ('scale-joint-1', 1))
     """
     name, _, number = identifier.rpartition("-")
-    return (name, int(number)) if name and number.isdecimal() and int(number) > 1 else (identifier, 1)
+    is_numbered = name and _NUMBER.fullmatch(number) and int(number) > 1
+    return (name, int(number)) if is_numbered else (identifier, 1)
 
 
 def find_next_number(identifier: str, choices: Iterable[EffectChoice]) -> int:

@@ -10,7 +10,6 @@ from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, make_keys_of, merge
 from zlmreport.job.types import resolve_path_named
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 
 MEASUREMENTS = "measurements"
 #: Jobs that one document has at most.
@@ -133,8 +132,7 @@ def name_measurements_of(axes: Iterable[tuple[Axis, Path]]) -> tuple[str, ...]:
     """Return what the measurements of a document are called: by their errors' symbols, or their files."""
     found: list[str] = []
     for axis, path in axes:
-        symbol = axis.error or (find_symbol_of_positioning(axis.name) if axis.measurand.is_position else "")
-        name = symbol or _NOT_IN_NAMES.sub("-", path.stem).strip("-") or "measurement"
+        name = axis.symbol or _NOT_IN_NAMES.sub("-", path.stem).strip("-") or "measurement"
         count, unique = 1, name
         while unique in found:
             count += 1

@@ -16,6 +16,9 @@ from zlmreport.job.tree import Keys, Step, make_keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
+#: Keys of a measurement that no other one shares with it.
+_OF_ITS_READINGS = frozenset({"source", "date", "end", "excluded", "remarks"})
+
 
 @dataclass(frozen=True, slots=True)
 class StandardChoice(Choice):
@@ -93,14 +96,18 @@ class Job:
     def as_found(self) -> Job | None:
         """The same job on the axis before it was adjusted; None where it was not.
 
-        What the job does not say of that measurement is as in the measurement after.
+        What the job does not say of that measurement is as in the measurement after, but for what belongs to
+        the readings of one alone.
         """
         keys, source = self.keys.as_found, self.source_as_found
         if keys is None or source is None:
             return None
+        after, before = self.keys.measurement, keys.measurement
+        shared = after.model_fields_set - before.model_fields_set - _OF_ITS_READINGS
+        measurement = before.model_copy(update={key: getattr(after, key) for key in shared})
         environment = keys.environment or self.keys.environment
-        own = self.keys.model_copy(update={"measurement": keys.measurement, "environment": environment})
-        axis = replace(self.axis, at=convert_places_to_si(keys.measurement.at))
+        own = self.keys.model_copy(update={"measurement": measurement, "environment": environment})
+        axis = replace(self.axis, at=convert_places_to_si(measurement.at))
         return replace(self, keys=own, axis=axis, source=source, source_as_found=None)
 
     @property

@@ -47,6 +47,7 @@ from zlmreport.job.quantity import (
 )
 from zlmreport.job.standards import choose_standards, convert_tolerances_to_si, list_files_named
 from zlmreport.job.tree import Items, Keys, Scalar, find_at, place_of
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import POSITIONING
 
@@ -266,7 +267,7 @@ def _read_priors(job: Job) -> KeysFile[PriorsKeys] | None:
 def _read_sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
     """Return the jobs of further tests of an axis; the sessions that these name are not theirs to add.
 
-    Raises `InputError` if one is the job itself, stands there twice, or is of another axis.
+    Raises `InputError` if one is the job itself, stands there twice, or is of another axis or error.
     """
     keys, found = job.keys, list[Job]()
     named = [path.resolve()]
@@ -276,16 +277,20 @@ def _read_sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]
             raise InputError.at(place, "this test is in the model already; name each further test once")
         named.append(stated.resolve())
         other = _check_job(compose(stated), stated.parent, registry)
-        axis, machine = other.keys.axis, other.keys.machine
-        same = (axis.name, axis.kind) == (keys.axis.name, keys.axis.kind)
-        serials = {each for each in (machine.serial, keys.machine.serial) if each}
-        if not same or len(serials) > 1:
-            of = f"axis {axis.name} ({axis.kind}) of {machine.serial or 'a machine without a serial number'}"
-            raise InputError.at(
-                place, f"it is a test of {of}; sessions of a model are tests of one axis of one machine"
-            )
+        serial = other.keys.machine.serial
+        same = _list_measured(other.axis) == _list_measured(job.axis)
+        if not same or len({serial, keys.machine.serial} - {None, ""}) > 1:
+            name, kind, what = _list_measured(other.axis)
+            of = f"axis {name} ({kind}) of {serial or 'a machine without a serial number'}, on {what}"
+            said = "sessions of a model are tests of one error of one axis of one machine"
+            raise InputError.at(place, f"it is a test of {of}; {said}")
         found.append(other)
     return tuple(found)
+
+
+def _list_measured(axis: Axis) -> tuple[str, AxisKind, str]:
+    """Return what tests must share to be held against one model: axis, kind and error."""
+    return axis.name, axis.kind, axis.symbol or axis.measurand.identifier
 
 
 def _choose_formats(

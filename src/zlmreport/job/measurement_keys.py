@@ -409,7 +409,8 @@ class AsFound(JobPart):
     """The axis before it was adjusted or repaired; `measurement` is then the axis as left."""
 
     measurement: Measurement = Field(
-        description="How the readings before were taken; what is not said here was as in measurement.",
+        description="How the readings before were taken; what is not said here was as in measurement, "
+        "but for days, excluded readings and remarks.",
         examples=[{"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "x-as-found.csv"}}],
     )
     work: Literal["adjustment", "repair"] = Field(

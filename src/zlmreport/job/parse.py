@@ -119,15 +119,6 @@ def describe_character(character: str) -> str:
     return f"invisible character {code} ({name})" if name else f"control character {code}"
 
 
-def count_in_words(number: int, thing: str) -> str:
-    """Return a number of things.
-
-    >>> count_in_words(1, "value"), count_in_words(100000, "character")
-    ('1 value', '100,000 characters')
-    """
-    return f"{number:,} {thing}{'' if number == 1 else 's'}"
-
-
 def _place(before: str, file: str) -> Place:
     """Return the place of the character after a text."""
     lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")

@@ -11,8 +11,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from zlmreport.errors import Place, Problem, did_you_mean, quoted
-from zlmreport.job.parse import count_in_words
+from zlmreport.errors import Place, Problem, count_in_words, did_you_mean, quoted
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, find_key_place, place_of, walk
 from zlmreport.job.types import (
     find_field_at,

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
-from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.errors import InputError, Place, Problem, count_in_words, quoted
 from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.choices import EffectChoice, choose_effects_of
 from zlmreport.job.contradictions import validate
@@ -196,8 +196,8 @@ def _find_contradictions(keys: SimulationKeys, tree: Keys) -> Iterator[Problem]:
         place = find_key_place(tree, ("runs",))
         yield Problem(
             place,
-            f"runs: {keys.runs} runs over {number} targets are more than {MOST_READINGS} readings, "
-            "and no file of readings is so long",
+            f"runs: {count_in_words(keys.runs, 'run')} over {count_in_words(number, 'target')} are more than "
+            f"{MOST_READINGS:,} readings, and no file of readings is so long",
         )
     if targets.positions and sorted(set(targets.positions)) != targets.positions:
         place = find_key_place(tree, ("targets", "positions"))

@@ -32,7 +32,7 @@ from zlmreport.machines.keys import ErrorLineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import find_unit_of
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.error_symbol import ROTARY_AXES, find_symbol_of_positioning
+from zlmreport.measurement.error_symbol import ROTARY_AXES
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.study import find_instrument_error
@@ -70,7 +70,7 @@ def find_error_of(job: Job) -> str:
     """
     if job.axis.circle is not None:
         raise InputError.at(job.place_of("circle"), "it is a circle, which two axes run; name it under tests")
-    name = job.axis.error or find_symbol_of_positioning(job.axis.name) or job.axis.name
+    name = job.axis.symbol or job.axis.name
     if name not in ERRORS:
         raise InputError.at(
             job.place_of("measurement.error"),
@@ -235,7 +235,7 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
         content = carried
     try:
         found = _Results.model_validate(json.loads(content))
-    except (ValidationError, ValueError) as error:
+    except (ValidationError, ValueError, RecursionError) as error:
         raise InputError.at(
             place, f"{path.name} is no results file of this program (zlmreport/results/1)"
         ) from error

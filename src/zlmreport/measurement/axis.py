@@ -13,6 +13,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.circle import NominalCircle
+from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 from zlmreport.measurement.measurand import POSITIONING, ROTARY_POSITIONING, Coordinate, Measurand
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.units import ANGLE_UNITS, LENGTH_UNITS, Unit
@@ -118,6 +119,11 @@ class Axis:
     def letter(self) -> str:
         """The direction that the symbol of the error names, ``Y`` of ``EYX``; its own where there is none."""
         return self.error[1:2] if self.error and self.error[:1] == "E" else self.name
+
+    @property
+    def symbol(self) -> str:
+        """The symbol of what was measured: ``EXX`` of a position without one; empty where it has none."""
+        return self.error or (find_symbol_of_positioning(self.name) if self.measurand.is_position else "")
 
     @property
     def subject(self) -> Words:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.errors import InputError, Problem, quoted
+from zlmreport.errors import InputError, Problem, count_in_words, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.columns import read_heading
@@ -98,7 +98,9 @@ def _read_numbers(
 ) -> Iterator[float]:
     """Yield the numbers of a row; what is wrong with it is noted."""
     if len(row) != width:
-        problems.append(Problem(row[0].place, f"a row has {width} cells, and this one {len(row)}"))
+        problems.append(
+            Problem(row[0].place, f"a row has {count_in_words(width, 'cell')}, and this one {len(row)}")
+        )
         return
     for index in order:
         try:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.errors import InputError, Place, Problem, count_in_words, quoted
 from zlmreport.measurement.text_file import TextFile
 from zlmreport.measurement.units import POSITION_UNITS, TIME_UNITS
 
@@ -156,8 +156,9 @@ def _say_single_column(line: str, options: FileTableLayout) -> str:
     """Return what is wrong with a first row that no delimiter parts as it should."""
     if options.header:
         return (
-            f"'header' names {len(options.header)} columns, and no delimiter parts {quoted(line)} into so "
-            "many cells; name every column, or say what parts them, as in 'delimiter: blanks'"
+            f"'header' names {count_in_words(len(options.header), 'column')}, and no delimiter parts "
+            f"{quoted(line)} into so many cells; name every column, or say what parts them, "
+            "as in 'delimiter: blanks'"
         )
     return (
         f"the header {quoted(line)} has a single column; columns are parted by commas, semicolons or tabs, "
@@ -370,15 +371,16 @@ def _find_ragged(row: TextRow, header: TextRow, text: TextFile) -> list[Problem]
         return [
             Problem(
                 text.place(*row.locate(surplus)),
-                f"the row has {found} cells, and the header names {expected} columns{hint}",
+                f"the row has {count_in_words(found, 'cell')}, and the header names "
+                f"{count_in_words(expected, 'column')}{hint}",
             )
         ]
     if found < expected and any(header.cells[found:]):
         return [
             Problem(
                 text.place(*row.locate(found - 1)),
-                f"the row ends after {found} of {expected} cells; a missing reading is an empty cell, "
-                f"with its {DELIMITERS.get(row.delimiter, 'delimiter')}",
+                f"the row ends after {found} of {count_in_words(expected, 'cell')}; a missing reading is an "
+                f"empty cell, with its {DELIMITERS.get(row.delimiter, 'delimiter')}",
             )
         ]
     return []

@@ -14,10 +14,9 @@ from zlmreport import pipeline
 from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.document.subjects.plan import plan_sections
 from zlmreport.document.subjects.plan_values import plan_values
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import InputError, Place, Problem, count_in_words
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import is_for

@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import BaseModel
 
-from zlmreport.errors import InputError, Place, Problem, did_you_mean
+from zlmreport.errors import InputError, Place, Problem, count_in_words, did_you_mean
 from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.contradictions import validate
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.parse import count_in_words, parse
+from zlmreport.job.parse import parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
 from zlmreport.measurement.approach import Approach

@@ -23,6 +23,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+from zlmreport.errors import count_in_words
 from zlmreport.verification.carrier import Carrier
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 
@@ -104,7 +105,7 @@ def find_differences(content: bytes, files: Sequence[str], pages: int) -> Iterat
             yield f"{reader.name} cannot open it"
             continue
         if len(seen.pages) != pages:
-            yield f"{reader.name} sees {len(seen.pages)} pages, and {pages} are compared"
+            yield f"{reader.name} sees {count_in_words(len(seen.pages), 'page')}, and {pages} are compared"
         if seen.files is not None and seen.files != tuple(files):
             yield f"{reader.name} takes out other attachments than are compared"
         # Where a reader cannot mend it, nothing is seen: that is no other face.

@@ -382,9 +382,10 @@ def _count_taken(stated: Carrier, again: Carrier) -> Counter[str]:
     )
     taken = _count_numbers(texts_again, _NUMBER) - _count_numbers(texts, _NUMBER)
     whole, whole_again = _count_numbers(texts, _WHOLE_NUMBER), _count_numbers(texts_again, _WHOLE_NUMBER)
-    of_pages = 0 if len(texts) == len(texts_again) else max(len(texts), len(texts_again))
+    most = 0 if len(texts) == len(texts_again) else max(len(texts), len(texts_again))
+    of_pages = {str(page) for page in range(most + 1)}
     gone, instead = (
-        Counter({each: count for each, count in numbers.items() if int(each) > of_pages})
+        Counter({each: count for each, count in numbers.items() if each not in of_pages})
         for numbers in (whole_again - whole, whole - whole_again)
     )
     return taken + gone if instead else taken

@@ -8,6 +8,7 @@ nothing from elsewhere, and run no script but those that come along.
 
 from __future__ import annotations
 
+import re
 import secrets
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
@@ -138,7 +139,7 @@ class DoorKeeper:
 
 def _is_short(headers: Headers) -> bool:
     length = headers.get("content-length", "")
-    return length.isdecimal() and int(length) <= _LONGEST_BODY
+    return re.fullmatch("[0-9]{1,9}", length) is not None and int(length) <= _LONGEST_BODY
 
 
 def _add_headers(send: Send) -> Send:

@@ -61,6 +61,19 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert "If it doubles, the sign is wrong" in text
 
 
+@pytest.mark.parametrize(("sign", "drawn", "missing"), [("-", "C↓", "C↑"), ("+", "C↑", "C↓")])
+def test_one_direction_is_drawn_by_its_own_arrow(folder: Path, sign: str, drawn: str, missing: str) -> None:
+    remark, header, *rows = (DATA / "captured_without.csv").read_text("utf-8").splitlines()
+    kept = [row for row in rows if row.split(",")[1] == sign]
+    (folder / "one.csv").write_text("\n".join([remark, header, *kept]) + "\n", "utf-8")
+    text = JOB.format(table=", compensation_table: none", file=folder / "one.csv", more="")
+    (folder / "job.yaml").write_text(text, "utf-8")
+    assert main(["compensate", "job.yaml", "--controller", "linuxcnc", "-o", "out"]) == 0
+    page = PdfReader(folder / "out" / "LOOP-1-compensation.pdf").pages[0].extract_text()
+    assert drawn in page
+    assert missing not in page
+
+
 def test_json_states_the_forecast_and_writes_nothing(folder: Path, capsys: Capture) -> None:
     name = job(folder, "job.yaml", "without", more="compensation: {controller: linuxcnc, type: 1}")
     code, values = run(capsys, name)
@@ -311,4 +324,14 @@ def test_a_test_that_says_nothing_of_the_table_is_refused(
     job = (folder / after).read_text(encoding="utf-8").replace(first, second)
     (folder / after).write_text(job, encoding="utf-8")
     assert main(["compensate", "--unconfirmed", "--confirm", before, after]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_test_of_another_machine_is_refused(folder: Path, capsys: Capture) -> None:
+    jobs = [readings_of(folder, name, 1.0, "+") for name in ("before", "after")]
+    for number, name in enumerate(jobs, start=1):
+        text = (folder / name).read_text(encoding="utf-8")
+        (folder / name).write_text(f"{text}machine: {{serial: M-{number}}}\n", encoding="utf-8")
+    assert main(["compensate", "--unconfirmed", "--confirm", *jobs]) == 2
+    message = "it is a test of machine 'M-2', and the table is of machine 'M-1'"
     assert message in capsys.readouterr().err

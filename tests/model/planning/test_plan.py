@@ -110,7 +110,7 @@ def test_stated_seed_is_used_whatever_the_number() -> None:
         ),
         (
             [("plan: {}", "plan: {targets: {count: 600}}")],
-            "job.yaml:9:1: plan: 600 targets in 5 runs are more than 5000 readings",
+            "job.yaml:9:1: plan: 600 targets in 5 runs are more than 5,000 readings",
         ),
         (
             [("plan: {}", "plan: {targets: {count: 3, positions: [0, 1]}}")],

@@ -178,3 +178,11 @@ def test_targets_that_are_whole_increments_do_not_see_the_increment_of_the_contr
     seen = sight_of(plan_of_test(("plan: {}", WHOLE_PITCHES)), "control-increment")
     assert seen.sight is Sight.HIDDEN
     assert seen.visibility.share == 0
+
+
+def test_a_formula_that_overflows_at_an_end_of_its_range_is_planned_for_where_it_is_finite() -> None:
+    growth = (
+        "model:\n  effects:\n    - offset\n    - name: growth\n      formula: a*exp(P*P/(L*L))\n"
+        "      parameters: {a: {unit: um}, L: {unit: mm, range: [20, 1000]}}\n"
+    )
+    assert plan_of_test(("evaluate:", f"{growth}evaluate:")).remedies

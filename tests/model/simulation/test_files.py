@@ -168,7 +168,7 @@ def test_what_is_wrong_is_said_where_it_stands(
 def test_more_readings_than_a_file_may_have_are_refused(tmp_path: Path) -> None:
     text = with_line(6, "runs: 1000").replace("{count: 13}", "{count: 101, fractions_of: 0}")
     (message,) = mistakes(text, tmp_path)
-    assert message.startswith("6:1: runs: 1000 runs over 101 targets are more than 200000 readings")
+    assert message.startswith("6:1: runs: 1,000 runs over 101 targets are more than 200,000 readings")
 
 
 def test_a_time_that_nothing_takes_is_refused(tmp_path: Path) -> None:

@@ -302,8 +302,8 @@ def _choose_evaluated(
 def _list_as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]:
     """Yield the readings of a turn at the angles that all turns share."""
     own = np.mod(turn.angle, TURN)
-    distance = np.abs(own[:, np.newaxis] - np.append(shared, shared[0] + TURN)[np.newaxis, :])
-    nearest = distance.argmin(axis=1) % len(shared)
+    half_way = (shared + np.append(shared[1:], shared[0] + TURN)) / 2
+    nearest = np.searchsorted(half_way, own) % len(shared)
     for index, target in enumerate(nearest.tolist()):
         yield Reading(
             turn.places[index],

@@ -88,7 +88,8 @@ _BESIDE = frozenset(
         *("wert", "value", "richtung", "direction", "fahrt"),
     )
 )
-_TOKENS = re.compile(r"[^\W\d_]+|[0-9]+|[+−↑↓→←-]")
+#: More digits than a number has that counts are several numbers, which no name of a column has.
+_TOKENS = re.compile(r"[^\W\d_]+|[0-9]{1,9}|[+−↑↓→←-]")
 _MOST_RUNS = 99
 _UNIT_BEHIND = re.compile(r"(.*?[0-9.,])\s*[^0-9.,\s+−-]{1,8}")
 _ANGLE = re.compile(r"([+−-]?[0-9]+)\s*°.*")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from zlmreport.cli.arguments.parser import (
     JSON_HELP,
+    WHOLE_NUMBER,
     CommandParser,
     add_jobs,
     read_number,
@@ -17,7 +18,7 @@ from zlmreport.cli.arguments.parser import (
     read_port,
     read_position,
 )
-from zlmreport.errors import did_you_mean
+from zlmreport.errors import did_you_mean, quoted
 from zlmreport.version import __version__
 
 #: Environment variable with the password of the key that signs.
@@ -468,14 +469,14 @@ def _read_minutes(text: str) -> float:
         minutes = float(text)
         if 0 < minutes < math.inf:
             return minutes
-    raise argparse.ArgumentTypeError(f"{text!r} is no number of minutes; write 90")
+    raise argparse.ArgumentTypeError(f"{quoted(text)} is no number of minutes; write 90")
 
 
 def _read_workers(text: str) -> int:
     """Read a number of processes."""
-    if not (text.isascii() and text.isdigit() and 0 < int(text) <= _MOST_WORKERS):
-        raise argparse.ArgumentTypeError(f"{text!r} is no number of processes; write 2")
-    return int(text)
+    if WHOLE_NUMBER.fullmatch(text) and 0 < int(text) <= _MOST_WORKERS:
+        return int(text)
+    raise argparse.ArgumentTypeError(f"{quoted(text)} is no number of processes; write 2")
 
 
 def _add_fleet(parser: CommandParser) -> None:

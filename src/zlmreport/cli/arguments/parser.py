@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
-from zlmreport.errors import InputError, Place, did_you_mean
+from zlmreport.errors import InputError, Place, did_you_mean, quoted
 
 JSON_HELP = "print a machine-readable summary (zlmreport/summary/1) instead of tables"
 #: As `zlmreport.live.emulation.emulator` knows them; a test holds the two together.
 FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
+#: Of a port, or of a count.
+WHOLE_NUMBER = re.compile("[0-9]{1,9}")
 
 
 class CommandParser(argparse.ArgumentParser):
@@ -80,7 +83,7 @@ def _take_folder(text: str) -> Path:
     """Take a folder that is there."""
     path = Path(text)
     if not path.is_dir():
-        raise argparse.ArgumentTypeError(f"{text!r} is no folder")
+        raise argparse.ArgumentTypeError(f"{quoted(text)} is no folder")
     return path
 
 
@@ -88,13 +91,15 @@ def read_fault(text: str) -> tuple[str, float]:
     """Read a fault and when it happens."""
     kind, _, moment = text.partition("@")
     if kind not in FAULTS:
-        raise argparse.ArgumentTypeError(f"{kind!r} is no fault; {did_you_mean(kind, FAULTS)}")
+        raise argparse.ArgumentTypeError(f"{quoted(kind)} is no fault; {did_you_mean(kind, FAULTS)}")
     try:
         start = float(moment)
     except ValueError:
         start = math.nan
     if not (math.isfinite(start) and start >= 0):
-        raise argparse.ArgumentTypeError(f"{text!r} does not say when; write seconds, such as {kind}@30")
+        raise argparse.ArgumentTypeError(
+            f"{quoted(text)} does not say when; write seconds, such as {kind}@30"
+        )
     return kind, start
 
 
@@ -102,7 +107,7 @@ def read_setting(text: str) -> tuple[str, str]:
     """Read a key and its value."""
     key, sign, value = text.partition("=")
     if not (key and sign and value):
-        raise argparse.ArgumentTypeError(f"{text!r} sets nothing; write KEY=VALUE, such as type=1")
+        raise argparse.ArgumentTypeError(f"{quoted(text)} sets nothing; write KEY=VALUE, such as type=1")
     return key, value
 
 
@@ -113,9 +118,11 @@ def read_course(text: str) -> tuple[float, ...]:
 
 def read_port(text: str) -> int:
     """Read the number of a TCP port."""
-    if not (text.isascii() and text.isdigit() and int(text) < 65_536):
-        raise argparse.ArgumentTypeError(f"{text!r} is no TCP port; write a number up to 65535, such as 9090")
-    return int(text)
+    if WHOLE_NUMBER.fullmatch(text) and int(text) < 65_536:
+        return int(text)
+    raise argparse.ArgumentTypeError(
+        f"{quoted(text)} is no TCP port; write a number up to 65535, such as 9090"
+    )
 
 
 def read_position(text: str) -> float:
@@ -134,7 +141,7 @@ def _read_finite(text: str, wanted: str) -> float:
     except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        raise argparse.ArgumentTypeError(f"{text!r} is no {wanted}")
+        raise argparse.ArgumentTypeError(f"{quoted(text)} is no {wanted}")
     return number
 
 
@@ -146,5 +153,7 @@ def read_point(text: str) -> tuple[float, float]:
     except ValueError:
         point = math.nan, math.nan
     if not all(map(math.isfinite, point)):
-        raise argparse.ArgumentTypeError(f"{text!r} is no point; write two positions in mm, such as 250,130")
+        raise argparse.ArgumentTypeError(
+            f"{quoted(text)} is no point; write two positions in mm, such as 250,130"
+        )
     return point

@@ -75,7 +75,9 @@ CONFIRMED = {
     ConfirmationVerdict.WRONG_SIGN: Words("The table acts with the wrong sign: turn it."),
     ConfirmationVerdict.HALF: Words("Half of the table acts; look for a factor of two."),
     ConfirmationVerdict.SHIFTED: Words("The table acts at other positions; look at its start."),
-    ConfirmationVerdict.OTHER: Words("The second test does not show this table; is it active?"),
+    ConfirmationVerdict.OTHER: Words(
+        "The second test does not show this table as it was made; is it active, and is it this one?"
+    ),
 }
 _RATIO = Words("E after is {share} % of E before.")
 _APPLIED = Words("{share} % of the table shows in the second test.")
@@ -344,14 +346,13 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
     table = np.stack([made.decoded.forward, made.decoded.reverse])
     if made.active is not None:
         table = table - made.active.at(made.decoded.positions)
-    count = 2 if curve.is_bidirectional else 1
+    directions = [each.index for each in curve.approaches]
 
     def curves(
         x: FloatArray, values: FloatArray, names: tuple[str, str], roles: tuple[Role, Role]
     ) -> tuple[Curve, ...]:
         return tuple(
-            Curve(name, role, x, read_only_floats(printed(each)))
-            for name, role, each in list(zip(names, roles, values, strict=True))[:count]
+            Curve(names[each], roles[each], x, read_only_floats(printed(values[each]))) for each in directions
         )
 
     measured = (Role.MEAN_POSITIVE, Role.MEAN_NEGATIVE)

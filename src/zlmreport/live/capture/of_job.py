@@ -10,10 +10,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.errors import AccessError, InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place, Problem, count_in_words
 from zlmreport.job.choices import Choice
 from zlmreport.job.job import Job
-from zlmreport.job.parse import count_in_words
 from zlmreport.job.types import Finite, JobPath, LiveInstrumentKeys, Options, Positive
 from zlmreport.live.capture.journal import History
 from zlmreport.live.capture.records import Header

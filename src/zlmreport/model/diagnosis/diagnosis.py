@@ -8,6 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from zlmreport.errors import count_in_words
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import IntArray
 from zlmreport.model.diagnosis.candidate import Candidate, list_candidates
@@ -177,7 +178,8 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     if fitted.degrees < _FEWEST_DEGREES:
         readings = len(kept.deviation)
         sentence = (
-            f"the test has {readings} readings and the model {readings - fitted.degrees} parameters; "
+            f"the test has {count_in_words(readings, 'reading')} and the model "
+            f"{count_in_words(readings - fitted.degrees, 'parameter')}; "
             f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
         )
         raise ModelError([sentence])

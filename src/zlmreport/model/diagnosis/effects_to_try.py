@@ -54,7 +54,7 @@ def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effe
 def _say_collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
     """Return that the model would not be determined with the effect in it; None if it is."""
     extended = model.with_effect(effect)
-    columns = [term.compute_columns(design, term.make_grid(design)[0])[0] for term in extended.terms]
+    columns = [term.compute_some_columns(design) for term in extended.terms]
     try:
         refuse_collisions(extended, columns)
     except ModelError:

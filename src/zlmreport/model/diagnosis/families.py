@@ -111,9 +111,10 @@ def make_orthonormal(
         Which of the values are seen at all.
     """
     blocks = np.stack([effect.columns(design, theta) for theta in thetas])
-    whole = np.linalg.norm(blocks, axis=(1, 2))
-    contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
-    shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
+    with np.errstate(over="ignore", invalid="ignore"):  # what has no finite value is not seen
+        whole = np.linalg.norm(blocks, axis=(1, 2))
+        contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
+        shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
     seen = np.flatnonzero((shares > least) & (whole > _ROUNDING * blocks.shape[1] ** 0.5))
     lengths = np.linalg.norm(blocks[seen], axis=1, keepdims=True)
     scaled = contrasts[seen] / np.where(lengths > 0, lengths, 1.0)

@@ -14,7 +14,7 @@ from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.likelihood import Reduced
 from zlmreport.model.diagnosis.null_distribution import NullDistribution, simulate_null
-from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, Parameter
 
@@ -54,7 +54,7 @@ def plan_visibility(
     `design`: The plan: a visit list with times and conditions as they are expected.
     `sigma`: Repeatability of a single reading, m or rad.
     """
-    columns = [_make_known_columns(term, design) for term in model.terms]
+    columns = [term.compute_some_columns(design) for term in model.terms]
     base = np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
     entered = list_effects_to_try(model, design, effects)
     contest = Contest.of(design, base, entered.forms)
@@ -114,7 +114,3 @@ def _judge_family(family: Family, lengths: Sequence[_Lengths], needed: float) ->
     smallest = (linear[0], float(np.median(amplitudes))) if len(linear) == 1 else None
     share = min(1.0, float(np.median([each.share for each in lengths])))
     return Visibility(family.effect.identifier, share, float(np.median(sizes)), smallest)
-
-
-def _make_known_columns(term: Term, design: Design) -> FloatArray:
-    return term.compute_columns(design, term.make_grid(design)[0])[0]

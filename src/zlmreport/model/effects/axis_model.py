@@ -8,7 +8,7 @@ from itertools import count
 
 import numpy as np
 
-from zlmreport.errors import InputError, did_you_mean
+from zlmreport.errors import InputError, count_in_words, did_you_mean
 from zlmreport.job.choices import EffectChoice, number_effect
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
@@ -22,6 +22,8 @@ from zlmreport.model.effects.formula import FormulaEffect
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
 _ROUNDING = 1e-10
 _TAKES_PART = 0.05
+#: Its square is a double.
+_LARGEST = 1e150
 
 
 class ModelError(Exception):
@@ -96,6 +98,14 @@ class Term:
         solved = self.is_solved
         given = np.array([self.fixed.get(each.name, 0.0) for each in self.effect.linear])
         return columns[:, solved], columns[:, ~solved] @ given[~solved]
+
+    def compute_some_columns(self, design: Design) -> FloatArray:
+        """Return its columns at the first θ of its search where they are finite; at the last if nowhere."""
+        for theta in self.make_grid(design):
+            columns, _ = self.compute_columns(design, theta)
+            if _are_finite(columns):
+                break
+        return columns
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,8 +227,8 @@ class AxisModel:
             )
             if len(design.position) <= estimated:
                 sentences.append(
-                    f"the model has {estimated} parameters to estimate and the test {len(design.position)} "
-                    "readings; measure more, or take effects out"
+                    f"the model has {count_in_words(estimated, 'parameter')} to estimate and the test "
+                    f"{count_in_words(len(design.position), 'reading')}; measure more, or take effects out"
                 )
         if sentences:
             raise ModelError(sentences)
@@ -277,6 +287,11 @@ def _list_kinds(effect: Effect) -> dict[str, tuple[Dimension, bool]]:
     }
 
 
+def _are_finite(columns: FloatArray) -> bool:
+    """Whether the columns of an effect are finite, and their squares: what is fitted is a sum of squares."""
+    return bool(np.all(np.abs(columns) < _LARGEST))
+
+
 def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
     """Refuse a model whose columns depend on each other.
 
@@ -287,10 +302,14 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
     """
     if not columns:
         return
+    names = model.identifiers
+    endless = [name for name, own in zip(names, columns, strict=True) if not _are_finite(own)]
+    if endless:
+        said = "has no finite value at these readings; change the ranges of its parameters"
+        raise ModelError([f"{name} {said}" for name in endless])
     owner = np.repeat(np.arange(len(columns)), [each.shape[1] for each in columns])
     together = np.concatenate(columns, axis=1)
     lengths = np.linalg.norm(together, axis=0)
-    names = model.identifiers
     silent = [names[index] for index in dict.fromkeys(owner[lengths == 0].tolist())]
     if silent:
         raise ModelError([f"{name} has no influence on any of these readings; remove it" for name in silent])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from functools import cache
 from typing import Annotated, Any, Literal
@@ -13,6 +14,7 @@ from zlmreport.job.types import Options
 
 #: Values of a key of `Instead`.
 STATED, OTHER = "stated", "other"
+_WHOLE_NUMBER = re.compile("-?[0-9]{1,9}")
 
 
 def _require_distinct(orders: tuple[int, ...]) -> tuple[int, ...]:
@@ -69,4 +71,4 @@ def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[O
 
 def _read_value(text: str) -> str | int:
     """Return the value of a key as a job has it: a whole number where it is written like one."""
-    return int(text) if text.removeprefix("-").isdecimal() else text
+    return int(text) if _WHOLE_NUMBER.fullmatch(text) else text

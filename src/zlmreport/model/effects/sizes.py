@@ -48,7 +48,7 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
     unit = find_unit_of(parameter.dimension, axis.kind)
     symbol = write_behind(unit.symbol) if unit.symbol else ""
     written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=symbol)
-    return (question or usual).given(value=written, times=f"{times:.2g}")
+    return (question or usual).given(value=written, times=float(f"{times:.2g}"))
 
 
 def name_of(parameter: Parameter, value: float) -> Words | None:

@@ -114,8 +114,9 @@ def _list_left(deviation: FloatArray, beside: Sequence[tuple[_Grid, int]], grid:
     basis = _make_orthonormal(others)
     left = deviation - sum(each.given[row] for each, row in beside) - grid.given
     left = left - (left @ basis) @ basis.T
-    own = grid.columns - basis @ (basis.T @ grid.columns)
-    lengths = np.linalg.norm(grid.columns, axis=1)
+    with np.errstate(over="ignore", invalid="ignore"):  # a row without a finite value is never the best
+        own = grid.columns - basis @ (basis.T @ grid.columns)
+        lengths = np.linalg.norm(grid.columns, axis=1)
     scaled = own / np.where(lengths > 0, lengths, 1.0)[:, np.newaxis]
     values, vectors = np.linalg.eigh(scaled.transpose(0, 2, 1) @ scaled)
     seen = values > _IMITATED

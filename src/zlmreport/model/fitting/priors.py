@@ -14,8 +14,8 @@ from typing import Any, Self
 
 import numpy as np
 
+from zlmreport.errors import count_in_words
 from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, SourceName
-from zlmreport.job.parse import count_in_words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.fitting.contrasts import make_contrasts_of

@@ -12,7 +12,6 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import LineOfPlane
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.report import report_error
 from zlmreport.model.diagnosis.study import find_instrument_error
@@ -145,8 +144,7 @@ def _find_other_quantity(job: Job, first: Job) -> Iterator[Problem]:
 
 
 def _find_error(job: Job) -> str:
-    """Return which error of its axis a job measured; that of position where it does not say."""
-    return job.axis.error or find_symbol_of_positioning(job.axis.name) or job.axis.name
+    return job.axis.symbol or job.axis.measurand.identifier
 
 
 def _write_arrows(measurements: MeasurementSet) -> str:

@@ -112,13 +112,11 @@ def list_further_changes(
         yield _change_by_session(_SECOND_SESSION, 0.0, 0.0)
         yield _change_by_session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
     longer = float(round(_LONGER * plan.dwell)) or plan.dwell
-    yield PlanChange(
-        "dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer)
-    )
+    yield PlanChange("dwell", None, _REST.given(seconds=longer), lambda each: replace(each, dwell=longer))
     yield PlanChange(
         "overrun",
         None,
-        _OVERRUN.given(times=f"{_FARTHER:g}"),
+        _OVERRUN.given(times=_FARTHER),
         lambda each: keep_within_travel(axis, replace(each, overrun=_FARTHER * each.overrun)),
     )
 
@@ -136,13 +134,13 @@ def keep_within_travel(axis: Axis, plan: Plan) -> Plan:
 
 def _change_by_session(advice: Words, minutes: float, change: float) -> PlanChange:
     after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
-    words = advice.given(minutes=f"{minutes:g}", change=f"{change:g}")
+    words = advice.given(minutes=minutes, change=change)
     return PlanChange("session", None, words, lambda each: replace(each, after=after))
 
 
 def _make_pause(column: str, minutes: float) -> PlanChange:
     pause = Pause(minutes * _SECONDS_PER_MINUTE, _KELVIN, column)
-    advice = _PAUSE[column].given(minutes=f"{minutes:g}", change=f"{_KELVIN:g}")
+    advice = _PAUSE[column].given(minutes=minutes, change=_KELVIN)
     return PlanChange("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
 
 

@@ -21,7 +21,7 @@ from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import Diagnosis
 from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.fit import Fit, fit
@@ -224,12 +224,8 @@ def _plan_unmeasured(
 
 
 def _make_columns(model: AxisModel, design: Design) -> FloatArray:
-    columns = [_make_columns_of_term(term, design) for term in model.terms]
+    columns = [term.compute_some_columns(design) for term in model.terms]
     return np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
-
-
-def _make_columns_of_term(term: Term, design: Design) -> FloatArray:
-    return term.compute_columns(design, term.make_grid(design)[0])[0]
 
 
 def collect_experiment(experiment: Experiment, job: Job, language: Language) -> dict[str, Any]:

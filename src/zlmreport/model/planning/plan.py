@@ -16,7 +16,7 @@ from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, count_in_words
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
@@ -108,8 +108,8 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     if 2 * len(targets) * runs > _MOST_READINGS:
         raise InputError.at(
             job.place_of("plan"),
-            f"plan: {len(targets)} targets in {runs} runs are more than {_MOST_READINGS} readings; state a "
-            "smaller plan.targets.count, or plan.runs",
+            f"plan: {count_in_words(len(targets), 'target')} in {count_in_words(runs, 'run')} are more than "
+            f"{_MOST_READINGS:,} readings; state a smaller plan.targets.count, or plan.runs",
         )
     plan = replace(motion, targets=targets, runs=runs)
     expected = ExpectedTest(axis.deviation_unit.to_si(keys.repeatability), keys.temperature_change)

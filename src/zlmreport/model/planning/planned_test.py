@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, count_in_words
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
@@ -105,14 +105,13 @@ def describe_planned_test(
 def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
     """Refuse a test of which a diagnosis could say nothing."""
     readings = len(design.position)
-    parameters = sum(
-        term.compute_columns(design, term.make_grid(design)[0])[0].shape[1] for term in base.terms
-    )
+    parameters = sum(term.compute_some_columns(design).shape[1] for term in base.terms)
     if readings < parameters + _FEWEST_DEGREES:
         raise InputError.at(
             job.place_of("plan"),
-            f"plan: {readings} readings are too few: the model has {parameters} parameters, and an effect is "
-            f"seen from {_FEWEST_DEGREES} readings more on; take more targets or runs",
+            f"plan: {readings} readings are too few: the model has "
+            f"{count_in_words(parameters, 'parameter')}, and an effect is seen from "
+            f"{_FEWEST_DEGREES} readings more on; take more targets or runs",
         )
 
 

@@ -76,7 +76,7 @@ def find_determined(model: AxisModel, design: Design) -> AxisModel:
     for term in model.terms:
         if term.effect.untestable(design) is None:
             extended = AxisModel((*kept.terms, term))
-            columns = [each.compute_columns(design, each.make_grid(design)[0])[0] for each in extended.terms]
+            columns = [each.compute_some_columns(design) for each in extended.terms]
             with contextlib.suppress(ModelError):
                 refuse_collisions(extended, columns)
                 kept = extended
