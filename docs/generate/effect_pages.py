@@ -12,6 +12,7 @@ from markdown import code, symbol, table
 from zlmreport.job.types import list_keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.units import Unit, write_behind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, Parameter, Shape, find_unit_of
 from zlmreport.model.effects.sizes import find_usual_range
@@ -133,9 +134,9 @@ def _sizes(effect: Effect) -> Iterator[str]:
     for each in _all(effect):
         unit = find_unit_of(each.dimension, kind)
         for named in each.named:
-            ends = " to ".join(_number(end * unit.per_si) for end in (named.low, named.high))
+            ends = _write_span(_number(named.low * unit.per_si), _number(named.high * unit.per_si), unit)
             said = named.says.in_language(_EN)
-            yield f"{code(each.name)} of {f'{ends} {unit.symbol}'.strip()}: {said}."
+            yield f"{code(each.name)} of {ends}: {said}."
         for question in (each.question, each.question_below):
             if question:
                 yield f"Asked: “{question.given(value='…', times='…').in_language(_EN)}”"
@@ -150,8 +151,16 @@ def _range(parameter: Parameter, kind: AxisKind, smallest: float | None, largest
     low, high = (None if bound is None else _number(bound * unit.per_si) for bound in (smallest, largest))
     if low is None and high is None:
         return f"any, {unit.symbol}" if unit.symbol else "any"
-    span = f"{low} to {high}" if low and high else (f"from {low}" if low else f"up to {high}")
-    return f"{span} {unit.symbol}".strip()
+    if low and high:
+        return _write_span(low, high, unit)
+    behind = write_behind(unit.symbol).rstrip()
+    return f"from {low}{behind}" if low else f"up to {high}{behind}"
+
+
+def _write_span(low: str, high: str, unit: Unit) -> str:
+    """Write from where to where: ``−3 to 3 µm``, ``−5″ to 5″``."""
+    behind = write_behind(unit.symbol).rstrip()
+    return f"{low}{'' if behind.startswith(' ') else behind} to {high}{behind}"
 
 
 def _number(value: float) -> str:

@@ -392,9 +392,7 @@ def fit_model(
     return Modelled(
         history,
         diagnosis,
-        make_forecasts(choose_standards(job, registry), study, history)
-        if job.axis.measurand.is_position
-        else (),
+        make_forecasts(choose_standards(job, registry), study, history),
         study.list_titles(registry.effects),
         study,
         experiment,

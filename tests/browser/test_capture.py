@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from browser.conftest import _ADDRESS
 from cli.test_capture import JOB, PLUGIN, WHOLE
@@ -44,3 +45,24 @@ def test_a_capture_is_begun_by_a_click_and_ends_in_the_workbench(address: str, w
     expect(page.locator("tr.taken")).to_have_count(4)
     page.get_by_role("link", name="To the results").click()
     expect(page.locator("#part-standards")).to_contain_text("ISO 230-2:2014")
+
+
+def test_what_was_wrong_with_a_click_stands_until_the_next(address: str, window: Window) -> None:
+    page = window(address)
+    refusal = {"status": 422, "json": {"problems": ["the line is taken"]}}
+    page.route("**/api/capture", lambda route: _refuse_clicks(route, refusal))
+    page.get_by_role("button", name="Begin").click()
+    told = page.get_by_text("the line is taken")
+    expect(told).to_be_visible()
+    for _ in range(2):
+        with page.expect_response(lambda each: each.request.method == "GET"):
+            pass
+    page.wait_for_timeout(100)
+    expect(told).to_be_visible()
+
+
+def _refuse_clicks(route: Route, refusal: dict[str, Any]) -> None:
+    if route.request.method == "POST":
+        route.fulfill(**refusal)
+    else:
+        route.continue_()

@@ -165,4 +165,6 @@ def test_of_readings_that_give_nothing_terminal_and_page_say_the_same(
     page = (tmp_path / "ONE-1.html").read_text(encoding="utf-8")
     assert "and so there is no uncertainty of one" in page
     assert "U incomplete" not in page
-    assert "U incomplete" not in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "U incomplete" not in told
+    assert "  ISO 230-2:2014\n    This test defines none of the parameters.\n" in told

@@ -161,7 +161,9 @@ def test_a_dry_run_for_programs(fleet: Fleet, run: Run) -> None:
     _, output, _ = run("fleet", "fleet.yaml", "--dry-run", "--json")
     due = json.loads(output)["due"]
     assert [each["due"] for each in due] == ["certificate", "refused", "certificate"]
-    assert "jobs/y.yaml:1:15" in due[1]["problems"][0]
+    (problem,) = due[1]["problems"]
+    assert problem["file"].endswith("jobs/y.yaml")
+    assert (problem["line"], problem["column"]) == (1, 15)
 
 
 @pytest.mark.usefixtures("fleet")

@@ -8,7 +8,9 @@ import pytest
 
 from cli.commands import Shop, use
 from offers import exemplary_registry, offering
+from testing.exemplary import ExemplaryStandard
 from zlmreport.job.schema import make_job_schema
+from zlmreport.language import Words
 from zlmreport.plugin.registry import Plugin, collect
 
 
@@ -49,6 +51,17 @@ def test_plugins_that_do_not_work_are_listed_with_the_reason(
     assert run.output.splitlines()[:2] == ["standards", "  none"]
     assert "  broken  acme 0.1  standard 'object' lacks identifier" in run.output
     assert run.output.endswith("switched off by ZLMREPORT_DISABLE_PLUGINS\n  resting\n")
+
+
+@pytest.mark.parametrize("columns", [60, 80])
+def test_a_long_title_has_the_room_that_a_line_leaves(
+    columns: int, shop: Shop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    title = " ".join(["Accuracy and repeatability of positioning"] * 4)
+    monkeypatch.setattr(ExemplaryStandard, "title", Words(title))
+    monkeypatch.setenv("COLUMNS", str(columns))
+    lines = shop.run("plugins").output.splitlines()
+    assert max(map(len, lines)) <= columns
 
 
 def test_schema_is_printed_with_the_keys_of_the_installed_plugins(shop: Shop) -> None:

@@ -155,6 +155,24 @@ def test_an_effect_that_does_not_stand_out_is_told(shop: Shop, effect: str) -> N
     assert "it may not be there" in run.output
 
 
+def test_a_history_of_a_straightness_forecasts_no_control(shop: Shop) -> None:
+    rows = [
+        f"{at},{way},{run},{0.01 * at + run}" for run in (1, 2) for way in "+-" for at in (0, 50, 100, 150)
+    ]
+    shop.write("straight.csv", "\n".join(["target,direction,run,deviation", *rows]) + "\n")
+    shop.write(
+        "straight.yaml",
+        "schema: zlmreport/job/1\ncertificate: {number: S-1, kind: report}\naxis: {name: Y}\n"
+        "measurement: {error: EXY, source: {plugin: laser-csv, file: straight.csv}}\n"
+        'evaluate: ["iso230-1:2012"]\nmodel: {effects: [offset]}\n',
+    )
+    run = shop.run("model", "history", "straight.yaml")
+    assert run.code == 0, run.messages
+    assert "+ offset" in run.output
+    assert "if the control corrects" not in run.output
+    assert told(shop.run("model", "history", "straight.yaml", "--json"))["steps"][1]["predicted"] == []
+
+
 def test_a_history_tells_every_step_with_what_standards_would_say(shop: Shop) -> None:
     steps = told(shop.run("model", "history", "job.yaml", "--json"))["steps"]
     errors = [step["error"]["rms"] for step in steps]

@@ -123,6 +123,33 @@ def test_the_numbers_of_each_are_told_apart_in_a_table(shop: Shop) -> None:
     assert (shop.folder / "MACHINE-1.xlsx").stat().st_size > 0
 
 
+def test_what_was_found_of_one_that_was_adjusted_is_read_from_the_digital_certificate(shop: Shop) -> None:
+    shop.write("found.csv", readings(20.0, 10, 100.0))
+    adjusted = (
+        "as_found: {work: repair, adjustment: New nut., measurement: {date: 2026-11-16, source: FOUND}}\n"
+    )
+    shop.write(
+        "positioning.yaml",
+        POSITIONING + adjusted.replace("FOUND", "{plugin: laser-csv, file: found.csv}"),
+    )
+    part = results(shop, whole("dcc, json"))["parts"]["EXX"]
+    (shop.folder / "MACHINE-1.xml").rename(shop.folder / "given.xml")
+
+    def read(test: str, state: str) -> str:
+        source = f"{{plugin: dcc, file: given.xml, test: {test}, state: {state}}}"
+        return POSITIONING.replace("{plugin: laser-csv, file: x.csv}", source)
+
+    for state, expected in (("as left", part), ("as found", part["as_found"])):
+        assert shop.run(str(shop.write("again.yaml", read("EXX", state))), "--format", "json").code == 0
+        again = json.loads((shop.folder / "X-1.json").read_text(encoding="utf-8"))
+        values = [[each["value"] for each in of["evaluations"][0]["parameters"]] for of in (again, expected)]
+        assert values[0] == pytest.approx(values[1])
+        (shop.folder / "X-1.json").unlink()
+    refused = shop.run("check", str(shop.write("again.yaml", read("ECX", "as found"))))
+    assert refused.code == 2
+    assert "'ECX' has readings of one measurement only, and none as found" in refused.messages
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
     ("formats", "layout"), [("pdf, json, dcc", "standard"), ("pdf-typst, json", "sheet")]

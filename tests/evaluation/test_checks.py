@@ -288,6 +288,7 @@ def test_missing_readings_are_counted_with_n_by_position() -> None:
     ("words", "english", "german"),
     [
         (position_in_words(LINEAR, 0.0125), "12.5 mm", "12,5 mm"),
+        (position_in_words(LINEAR, 2.5431875), "2543.1875 mm", "2543,1875 mm"),
         (position_in_words(ROTARY, math.pi / 2), "90°", "90°"),
         (deviation_in_words(LINEAR, -1.5e-6), "−1.5 µm", "−1,5 µm"),
         (deviation_in_words(ROTARY, math.radians(2.5 / 3600)), "2.5″", "2,5″"),
@@ -454,3 +455,10 @@ def test_runs_are_counted_in_german() -> None:
         "1 Durchlauf",
         "2 Durchläufe",
     ]
+
+
+def test_a_mean_interval_has_no_digits_that_nobody_stated() -> None:
+    measurements = measured_at(0, 50.0001, 70, 100)
+    assert (
+        mean_interval(measurements, 0.25, Basis.APPLIED).found.in_language(Language.ENGLISH) == "33.3333 mm"
+    )

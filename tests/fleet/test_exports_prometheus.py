@@ -62,7 +62,7 @@ def test_jobs_are_counted_by_their_state() -> None:
         dict(labels)["state"]: count
         for labels, count in told(entries)["zlmreport_fleet_jobs"].samples.items()
     }
-    assert counts == {"made": 1, "unchanged": 1, "draft": 1, "failed": 2, "vanished": 0}
+    assert counts == {"made": 1, "unchanged": 1, "left": 0, "draft": 1, "failed": 2, "vanished": 0}
 
 
 def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:

@@ -205,7 +205,7 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     with engine.begin() as connection:
         connection.execute(text("UPDATE ledger_format SET format = 7"))
     engine.dispose()
-    with pytest.raises(InputError, match="is a ledger of format 7, and this program writes format 5"):
+    with pytest.raises(InputError, match=f"is a ledger of format 7, and this program writes format {FORMAT}"):
         Ledger.open(address, "north")
 
 
@@ -234,6 +234,7 @@ ADDED = {
     3: ("nights notices", "entries instrument"),
     4: ("entries type",),
     5: ("entries lesson",),
+    6: ("nights untried",),
 }
 
 
@@ -251,11 +252,13 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
         assert list(ledger.list_entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
         at_work.notice([NightNotice(About.CLOCK, _SET_BACK)])
+        at_work.leave(["x.yaml"])
         at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
         assert [each.lesson for each in ledger.list_lessons()] == [{"kind": "linear"}]
         last = ledger.find_last_night()
         assert last is not None
         assert last.notices == (NightNotice(About.CLOCK, _SET_BACK),)
+        assert last.untried == ("x.yaml",)
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,7 @@ from fleet.fleets import FLEET, Fleet, Here, Witness, without_processes
 from zlmreport.errors import Place, Problem
 from zlmreport.fleet import night
 from zlmreport.fleet.issuing import What
+from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.making import Failed, MadeCertificate, Task
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import describe_state
@@ -128,6 +129,13 @@ def test_a_job_may_take_ten_times_as_long_as_it_ever_took(
     assert limits == [600.0, 3000.0]
 
 
+def count_jobs(fleet: Fleet) -> Mapping[str, int]:
+    """Return what became of the two jobs in the last night, as the fleet's page has it."""
+    with Ledger.open(fleet.file.ledger, fleet.file.name) as ledger:
+        last = ledger.find_last_night()
+    return describe_state("Hall North", fleet.entries(), ["jobs/x.yaml", "jobs/y.yaml"], last).counts
+
+
 def test_after_its_time_a_night_begins_no_job_and_says_what_is_left(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -139,4 +147,8 @@ def test_after_its_time_a_night_begins_no_job_and_says_what_is_left(
     assert [each.english for each in witness.notices] == [
         "the time of the night was over before 2 of 2 jobs; they are for the next night"
     ]
+    counts = count_jobs(fleet)
+    assert (counts["left"], counts["unchanged"]) == (2, 0)
     assert fleet.spend().what == {"x": What.ISSUED, "y": What.ISSUED}
+    counts = count_jobs(fleet)
+    assert (counts["left"], counts["made"]) == (0, 2)

@@ -67,6 +67,13 @@ def test_what_concerns_the_whole_night_stands_first() -> None:
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
 
 
+def test_jobs_that_there_was_no_time_for_are_not_called_unchanged() -> None:
+    night = PastNight(NIGHT, NIGHT, untried=("x", "y"))
+    state = describe_state("Hall North", (), ["x", "y", "z"], night)
+    html = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
+    assert "0 made, 1 unchanged, 0 as drafts, 0 failed, 2 left for lack of time" in html
+
+
 def test_a_fleet_without_trouble_says_so() -> None:
     assert "Nothing: every job was made" in needs(*CALM)
 

@@ -86,3 +86,13 @@ def test_a_sheet_is_one_page_and_german_is_german(folder):
     assert "läuft X um" in text(path)
     words = text(path)
     assert words.index("Es fehlt") < words.index("Bild 1") < words.index("Seriennummer")
+
+
+@pytest.mark.parametrize("name", ["csv", "xlsx", "dcc"])
+def test_a_format_of_what_a_job_measured_is_refused(name, folder, capsys):
+    """A table of nothing but its header says that there is nothing."""
+    path = folder / "machine.yaml"
+    before = set(folder.iterdir())
+    assert main(["machine", "certificate", str(path), "--format", f"json,{name}", "-o", str(folder)]) == 2
+    assert f"--format: {name} states what a job measured" in capsys.readouterr().err
+    assert set(folder.iterdir()) == before

@@ -539,3 +539,8 @@ def test_small_matrices_have_one_thread_unless_somebody_else_decides(first: str,
         [sys.executable, "-c", code], env=own | stated, capture_output=True, text=True, check=True
     )
     assert said.stdout.strip() == threads
+
+
+def test_the_plan_of_a_circle_is_refused_with_the_command_that_plans_it() -> None:
+    with pytest.raises(z.InputError, match="a path and no targets; zlmreport plan prints it"):
+        z.plan(ROOT / "configs" / "circle" / "certificate.yaml")

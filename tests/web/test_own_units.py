@@ -9,6 +9,7 @@ import pytest
 from web.jobs import registry
 from zlmreport.language import Language
 from zlmreport.web.bench import Bench
+from zlmreport.web.commands import list_offered
 from zlmreport.web.comparison import ComparedTests
 from zlmreport.web.view import make_results
 
@@ -45,6 +46,14 @@ def test_of_the_standards_panel(straight: Bench) -> None:
     assert (slope["value"], slope["limit"]) == ("12,00 µm/m", "–")
     assert [each["limit"] for each in standard["rows"]][:2] == ["2,125", "–"]  # as the job states it
     assert not any(each["value"].endswith("m") for each in standard["rows"][:-1])
+
+
+def test_no_control_corrects_a_straightness_and_no_page_says_what_would_be_left(straight: Bench) -> None:
+    loaded = straight.load()
+    (standard,) = make_results(straight, loaded, Language.ENGLISH)["standards"]
+    assert {each["by_table"] for each in standard["rows"]} == {each["by_model"] for each in standard["rows"]}
+    assert {each["by_model"] for each in standard["rows"]} == {None}
+    assert list_offered(straight, loaded, Language.ENGLISH)["takesTable"] is False
 
 
 def test_of_compared_tests(straight: Bench) -> None:

@@ -24,14 +24,16 @@ const KINDS = {
 };
 
 /** Return a table; `first` may turn the first cell of a row into something else. */
-export function table({ caption, columns, rows }, title = "", first = content) {
+export function table({ caption, columns, groups }, title = "", first = content) {
   return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": caption },
     h("table", { class: "said" },
       caption !== title && h("caption", {}, caption),
       h("thead", {}, h("tr", {}, columns.map((each) => h("th", { scope: "col", class: each.right ? "number" : false }, content(each.heading), each.unit && ` (${each.unit})`)))),
-      h("tbody", {}, rows.map((row) => h("tr", {}, row.map((cell, index) => (index === 0
-        ? h("th", { scope: "row" }, first(cell))
-        : h("td", { class: columns[index]?.right ? "number" : false }, content(cell)))))))));
+      groups.map(({ heading, rows }) => h("tbody", {},
+        heading && h("tr", {}, h("th", { scope: "rowgroup", colspan: columns.length || false }, heading)),
+        rows.map((row) => h("tr", {}, row.map((cell, index) => (index === 0
+          ? h("th", { scope: "row" }, first(cell))
+          : h("td", { class: columns[index]?.right ? "number" : false }, content(cell))))))))));
 }
 
 function content(cell) {

@@ -25,6 +25,7 @@ class CapturePage {
     this.visits = h("section", { class: "panel", "aria-label": texts.captureVisit });
     this.events = h("section", { class: "panel" });
     this.before = {};
+    this.refused = [];
     document.body.replaceChildren(this.header, this.notice, h("main", { class: "capture" },
       h("div", {}, this.now, this.asked, this.orders, this.events), this.visits));
   }
@@ -58,7 +59,7 @@ class CapturePage {
     this.#fillIfNew("visits", this.visits, [found.visits, found.runs], () => this.#visits(found));
     this.#fillIfNew("events", this.events, found.lines, () => found.lines.length > 0 && [
       h("h2", {}, texts.captureEvents), h("ol", { class: "capture-lines", reversed: true }, found.lines.toReversed().map(({ name, text }) => h("li", {}, name && h("strong", {}, name), name && " ", text)))]);
-    this.#say(found.problems);
+    this.#say([...this.refused, ...found.problems]);
   }
 
   /** Fill an element only where what it shows has changed: what somebody types into or points at stays. */
@@ -146,9 +147,11 @@ class CapturePage {
   }
 
   async #do(step, text) {
+    this.refused = []; // what was wrong with a click stands until the next
     try {
       this.show(await post("/api/capture", { step, text }));
     } catch (error) {
+      if (error instanceof Refusal) this.refused = error.problems;
       this.#tell(error);
     }
   }

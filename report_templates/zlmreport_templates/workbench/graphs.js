@@ -203,7 +203,8 @@ export class Graphs {
   #shades() {
     if (this.shade === "direction") return null;
     const { values } = this.axes.get(this.shade);
-    const [low, high] = [Math.min(...values.filter((value) => value !== null)), Math.max(...values)];
+    const known = values.filter((value) => value !== null);
+    const [low, high] = [Math.min(...known), Math.max(...known)];
     return values.map((value) => `shade-${value === null ? 0 : Math.min(SHADES - 1, Math.floor((SHADES * (value - low)) / (high - low || 1)))}`);
   }
 

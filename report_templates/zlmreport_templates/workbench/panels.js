@@ -206,7 +206,7 @@ function stepButton({ effect, name }, step, actions) {
   return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, `+ ${name}`);
 }
 
-/** The parameters of the standards: now, and as forecast after compensation; the first standard open. */
+/** The parameters of the standards: now, and as forecast where a control compensates; the first standard open. */
 export function standards(texts, results) {
   const forecast = [texts.forecast, results.moving].filter(Boolean).join(" ");
   return results.standards.map((each, index) => h("details", { open: index === 0 },
@@ -219,7 +219,8 @@ export function standards(texts, results) {
 function standard(texts, each, forecast) {
   const limited = each.rows.some((row) => row.verdict);
   const stated = each.rows.some((row) => row.uncertainty);
-  const heads = [texts.parameter, texts.now, ...(stated ? [explained("± U", texts.uIs)] : []), ...(limited ? [texts.limit] : []), explained(texts.byTable, forecast), explained(texts.byModel, forecast)];
+  const foretold = each.rows.some((row) => row.by_table !== null);
+  const heads = [texts.parameter, texts.now, ...(stated ? [explained("± U", texts.uIs)] : []), ...(limited ? [texts.limit] : []), ...(foretold ? [explained(texts.byTable, forecast), explained(texts.byModel, forecast)] : [])];
   const cell = (look, ...content) => h("td", { role: "cell", class: look }, content);
   return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": each.designation }, h("table", { class: "standard", role: "table" },
     h("thead", { role: "rowgroup" }, h("tr", { role: "row" }, heads.map((name, index) => h("th", { scope: "col", role: "columnheader", class: index ? "number" : false }, name)))),
@@ -228,7 +229,7 @@ function standard(texts, each, forecast) {
       cell("number now", row.value),
       stated && cell("number quiet", row.uncertainty && `± ${row.uncertainty}`),
       limited && cell(`number limit ${row.mark}`, row.limit, row.verdict && h("span", {}, ` ${row.verdict}`)),
-      cell("number", row.by_table), cell("number", row.by_model))))));
+      foretold && [cell("number", row.by_table), cell("number", row.by_model)])))));
 }
 
 /** What this test cannot see, and what was taken for granted. */
@@ -325,6 +326,7 @@ export function preview(texts, made, close) {
 /** The table for a control: written, its forecast, and a second test held against it. */
 export function compensation(texts, job, made, wanted, number, actions) {
   const { offered } = job;
+  if (!offered.takesTable) return [];
   const before = wanted.table ?? { controller: (offered.controllers.find((each) => each.chosen) ?? offered.controllers.find((each) => each.isVerified))?.controller };
   if (!offered.tableIsStated) {
     return [h("h2", {}, texts.compensation), h("p", {}, texts.whichTable), button(texts.noTable, texts.noTable, "no-table", actions.noTable)];

@@ -11,7 +11,7 @@ from typing import NoReturn
 from zlmreport.cli.terminal import make_visible
 from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
-from zlmreport.language.formatting import write_general_number
+from zlmreport.language.formatting import write_stated_number
 from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
 from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.measurement.units import MILLIMETRE
@@ -27,7 +27,7 @@ def run(options: Namespace) -> int:
     axis = make_axis_of(options)
     instrument = find_plugins(files=options.plugin).instrument(options.instrument)
     title = instrument.title.in_language(Language.ENGLISH)
-    course = ", ".join(write_general_number(MILLIMETRE.from_si(position)) for position in axis.course)
+    course = ", ".join(write_stated_number(MILLIMETRE.from_si(position)) for position in axis.course)
     return put_on_line(
         instrument.emulator(Scene(axis, make_troubles_of(options))),
         options,

@@ -201,7 +201,7 @@ def _foretell(fleet: FleetFile, plugins: tuple[Path, ...], options: Namespace) -
                 "job": each.job,
                 "number": each.number or None,
                 "why": each.why or None,
-                "problems": [str(problem) for problem in each.problems],
+                "problems": [collect_problem(problem) for problem in each.problems],
             }
             for each in planned
         ]

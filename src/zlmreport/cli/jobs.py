@@ -25,6 +25,7 @@ from zlmreport.cli.terminal import (
 from zlmreport.document.blocks import Notice
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.readings import list_missing_readings
+from zlmreport.document.certificate.results import NO_PARAMETER
 from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import limit
@@ -325,6 +326,10 @@ def _name_in_a_line(axis: Axis) -> str:
 
 def _tell_parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
     parameters = evaluation.parameters
+    if not parameters:
+        yield f"  {evaluation.designation}"
+        yield from wrap(writer.say(NO_PARAMETER), "    ")
+        return
     has_limits = any(each.limit is not None for each in parameters)
     has_uncertainty = any(each.expanded_uncertainty is not None for each in parameters)
     mixed = is_mixed(parameters, writer)

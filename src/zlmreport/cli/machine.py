@@ -10,7 +10,7 @@ from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.machine_compensate import compensate, find_exit_code
 from zlmreport.cli.terminal import Colour, print_json, show_path
 from zlmreport.document.blocks import Block, Section
-from zlmreport.errors import Place
+from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document, write
 from zlmreport.language import Language
 from zlmreport.machines.comparison import compare_circles, compare_line
@@ -27,6 +27,7 @@ from zlmreport.machines.subjects.plan import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.pipeline import name_files
+from zlmreport.plugin.protocols import Renderer, needs_job
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.carrier import find_results_in
 
@@ -110,8 +111,10 @@ def _write_certificate(
     document = make_machine_document(machine, registry)
     output, certificate = machine.file.keys.output, document.certificate
     folder = options.output or output.directory or machine.path.parent
+    place = Place("--format") if options.format else machine.file.place_of("output", "formats")
     stated = options.format.split(",") if options.format else output.formats
-    renderers = [registry.renderer(each.strip(), Place("--format")) for each in stated if each.strip()]
+    renderers = [registry.renderer(each.strip(), place) for each in stated if each.strip()]
+    _refuse_formats_of_jobs(renderers, place)
     documents = [
         Document(folder / name, document.results if each.identifier == "json" else each.render(certificate))
         for name, each in zip(name_files(certificate.number, renderers), renderers, strict=True)
@@ -119,6 +122,21 @@ def _write_certificate(
     write(documents)
     shown, files = zip(*((show_path(each.path), str(each.path)) for each in documents), strict=True)
     return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": files}
+
+
+def _refuse_formats_of_jobs(renderers: Iterable[Renderer], place: Place) -> None:
+    """Raise `InputError` with the formats that write what a job measured: this document is of none."""
+    refused = [
+        Problem(
+            place,
+            f"{each.identifier} states what a job measured, and a document on a machine is of none; take it "
+            "out of its formats: json has the numbers of a machine",
+        )
+        for each in renderers
+        if needs_job(each)
+    ]
+    if refused:
+        raise InputError(refused)
 
 
 def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:

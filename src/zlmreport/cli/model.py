@@ -262,7 +262,7 @@ def learn(options: Namespace) -> int:
     if not options.output:
         print(write_as_text(found, folder.resolve().name), end="")
         return 0
-    print(*lay_out_table(told, indent="  "), sep="\n")
+    print(*lay_out_table(told, indent="  ", wrapping=1), sep="\n")
     print(f"\n{count_in_words(found.tests, 'test')} taught {show_path(options.output)}")
     print(f"next: name it in a job: model: {{priors: {options.output.name}}}")
     return 0

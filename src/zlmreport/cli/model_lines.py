@@ -144,11 +144,12 @@ def _draw_fall(
     history: Sequence[Fitted], forecasts: Sequence[StandardForecast], writer: Writer
 ) -> Iterator[str]:
     """Yield the fall chart: a bar for each effect, down to the noise floor, and what standards would say."""
-    forecast = forecasts[0]
+    forecast = next(iter(forecasts), None)
     yield from lay_out_sections([lay_out_fall(history, forecast, writer)])
-    symbols = ", ".join(write_plain(quantity.notation) for quantity in forecast.quantities)
-    what = f"{symbols}: {forecast.designation}"
-    yield f"  {what}, predicted if the control corrects all effects so far"
+    if forecast:
+        symbols = ", ".join(write_plain(quantity.notation) for quantity in forecast.quantities)
+        what = f"{symbols}: {forecast.designation}"
+        yield from wrap(f"{what}, predicted if the control corrects all effects so far")
 
 
 def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[str]:

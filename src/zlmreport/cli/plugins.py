@@ -31,11 +31,11 @@ def list_plugins(registry: Registry) -> Iterator[str]:
             for each in offers
             if each.kind is kind
         ]
-        yield from lay_out_table(rows or [("none", "", "")], indent="  ")
+        yield from lay_out_table(rows or [("none", "", "")], indent="  ", wrapping=1)
     if registry.failed:
         yield Colour.RED.set("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
-        yield from lay_out_table(rows, indent="  ")
+        yield from lay_out_table(rows, indent="  ", wrapping=2)
     if registry.disabled:
         yield f"switched off by {DISABLE}"
         yield from (f"  {name}" for name in registry.disabled)

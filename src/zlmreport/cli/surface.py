@@ -17,7 +17,7 @@ from zlmreport.document.subjects.fit import list_error_facts, write_polynomial
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.language import Language
-from zlmreport.language.formatting import round_pair, write_general_number
+from zlmreport.language.formatting import round_pair, write_general_number, write_stated_number
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import ModelError
@@ -75,7 +75,7 @@ def _space_evenly(spans: Sequence[tuple[float, float]], count: int) -> Sequence[
 
 def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     unit = plane.axis.position_unit
-    where = ", ".join(write_general_number(unit.from_si(line.across)) for line in plane.lines)
+    where = ", ".join(write_stated_number(unit.from_si(line.across)) for line in plane.lines)
     yield Colour.BOLD.set(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
     yield f"  {len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}"
     yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
@@ -83,7 +83,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
         design = line.observed.design
         aside = "; ".join(say(wording.reading_at(design, reading)) for reading in line.list_aside().tolist())
         if aside:
-            at = f"{plane.second} = {write_general_number(unit.from_si(line.across))} {unit.symbol}"
+            at = f"{plane.second} = {write_stated_number(unit.from_si(line.across))} {unit.symbol}"
             yield from wrap(f"set aside, for it stands off from its repeats, at {at}: {aside}")
     for surface in plane.surfaces:
         yield ""

@@ -20,6 +20,8 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import HELD
 
 _USUAL_LINE, _SHORTEST_LINE = 110, 60
+#: Letters of a column of texts, however much room the others take.
+_SHORTEST_TEXT = 15
 #: Seconds of a minute, minutes of an hour; and from how many seconds on only minutes are said.
 _MINUTE, _LONG = 60, 600
 #: A blank at which no line ends: before a number or a unit, and around a sign between numbers.
@@ -75,10 +77,20 @@ def lay_out_beside(label: str, texts: Iterable[str], column: int) -> Iterator[st
 
 
 def lay_out_table(
-    rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    "
+    rows: Iterable[Sequence[str]],
+    right: Sequence[int] = (),
+    indent: str = "    ",
+    *,
+    wrapping: int | None = None,
 ) -> Iterator[str]:
-    """Yield rows whose columns line up; `right` lists the columns that stand on their last letter."""
+    """Yield rows whose columns line up.
+
+    `right`: Columns that stand on their last letter.
+    `wrapping`: A column of texts, which has the room that the others leave in a line.
+    """
     rows = [tuple(row) for row in rows]
+    if wrapping is not None and rows:
+        rows = list(_wrap_column(rows, wrapping, measure_line() - len(indent)))
     widths = [max(map(measure_width, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = []
@@ -86,6 +98,17 @@ def lay_out_table(
             space = " " * (width - measure_width(cell))
             cells.append(space + cell if number in right else cell + space)
         yield indent + "  ".join(cells).rstrip()
+
+
+def _wrap_column(rows: Sequence[Sequence[str]], wrapping: int, line: int) -> Iterator[tuple[str, ...]]:
+    """Yield rows for a line of so many letters; what has no room in a column stands in further rows."""
+    widths = [max(map(measure_width, column)) for column in zip(*rows, strict=True)]
+    room = max(_SHORTEST_TEXT, line - sum(widths) + widths[wrapping] - 2 * (len(widths) - 1))
+    for row in rows:
+        first, *further = textwrap.wrap(row[wrapping], room, break_on_hyphens=False) or [""]
+        yield (*row[:wrapping], first, *row[wrapping + 1 :])
+        for text in further:
+            yield tuple(text if number == wrapping else "" for number in range(len(row)))
 
 
 def show_path(path: Path) -> str:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import round_pair, write_fixed_number, write_general_number
+from zlmreport.language.formatting import round_pair, write_fixed_number, write_stated_number
 from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import CELSIUS, Scale, Unit, with_unit
@@ -73,8 +73,6 @@ _MOST_DECIMALS = 3
 #: Of a parameter in a unit that no reading has, where no uncertainty says how many it has.
 _DECIMALS_OF_OTHER_UNITS = 2
 _MOST_TARGET_DECIMALS = 6
-#: Of a number that somebody states: all that a double keeps of it, but for what a conversion from SI adds.
-_STATED_DIGITS = 12
 _DECIMALS_OF_CELSIUS, _DECIMALS_OF_CONDITIONS = 2, 1
 
 
@@ -157,7 +155,7 @@ class Writer:
 
     def number(self, value: float) -> str:
         """Write a number that is stated, to its last digit and with none added."""
-        return write_general_number(value, self.language.decimal_sign, _STATED_DIGITS)
+        return write_stated_number(value, self.language.decimal_sign)
 
     def date(self, value: dt.date) -> str:
         """Write a date as ISO 8601 does: alike in every language, and never mistaken."""

@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import say_with_unit
+from zlmreport.measurement.units import say_stated, say_with_unit
 
 #: Positions come as decimal numbers of mm or °: what differs less than this is the same.
 _ROUNDING = 1e-9
@@ -40,8 +40,8 @@ _ALIKE = 1e-6
 
 
 def position_in_words(axis: Axis, value: float) -> Words:
-    """Return a position or a distance along the axis, m or rad, with its unit: ``250 mm``, ``90°``."""
-    return say_with_unit(float(axis.position_unit.from_si(value)), axis.position_unit.symbol)
+    """Return a position or a distance, m or rad, to its last stated digit: ``250 mm``, ``90°``."""
+    return say_stated(float(axis.position_unit.from_si(value)), axis.position_unit.symbol)
 
 
 def deviation_in_words(axis: Axis, value: float) -> Words:
@@ -364,7 +364,7 @@ def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -
     shortest, longest = float(intervals.min()), float(intervals.max())
     if longest - shortest <= _ALIKE * longest:
         found = Words("all intervals alike: {interval}")
-        found = found.given(interval=position_in_words(axis, float(intervals.mean())))
+        found = found.given(interval=position_in_words(axis, _round_mean(float(intervals.mean()))))
         return Finding(requirement, found, met=False, basis=basis)
     has_interval = longest <= _NO_INTERVAL * float(np.median(intervals))
     words = _INTERVALS if has_interval else _NO_COMMON_INTERVAL
@@ -378,7 +378,14 @@ def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> F
     requirement = Words("Mean interval at most {limit}")
     requirement = requirement.given(limit=position_in_words(axis, limit))
     interval = float(targets[-1] - targets[0]) / max(1, len(targets) - 1)
-    return Finding(requirement, position_in_words(axis, interval), interval <= limit * (1 + _ALIKE), basis)
+    return Finding(
+        requirement, position_in_words(axis, _round_mean(interval)), interval <= limit * (1 + _ALIKE), basis
+    )
+
+
+def _round_mean(interval: float) -> float:
+    """Return a mean of intervals without the digits that nobody stated."""
+    return float(f"{interval:.6g}")
 
 
 def worst_of_lines(lines: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:

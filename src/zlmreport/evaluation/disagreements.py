@@ -30,7 +30,7 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import ReadingDays
-from zlmreport.measurement.units import MILLIMETRE, say_with_unit
+from zlmreport.measurement.units import MILLIMETRE, say_stated
 
 _LATE = Words("Issued on {issued}, {years} after the measurement of {measured}")
 _YEARS = Words("{number} year", plural="{number} years")
@@ -208,7 +208,7 @@ def _find_exclusions_without_reason(job: Job) -> Iterator[Words]:
             approach = Approach.POSITIVE if each.direction == "+" else Approach.NEGATIVE
             yield _NO_REASON.given(
                 run=each.run,
-                target=say_with_unit(each.target, job.axis.position_unit.symbol),
+                target=say_stated(each.target, job.axis.position_unit.symbol),
                 arrow=approach.arrow,
                 reason=same(f"“{each.reason}”"),
             )
@@ -317,4 +317,4 @@ def _list_parts(symbols: tuple[str, ...], evaluation: Evaluation) -> Iterator[st
 
 def _write_limit(parameter: EvaluatedParameter, evaluation: Evaluation) -> Words:
     unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
-    return say_with_unit(unit.from_si(parameter.limit or 0.0), unit.symbol)
+    return say_stated(unit.from_si(parameter.limit or 0.0), unit.symbol)

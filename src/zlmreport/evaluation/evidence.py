@@ -31,7 +31,7 @@ from zlmreport.measurement.measurement_set import (
     find_last_digit,
     find_step,
 )
-from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, say_with_unit
+from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, say_stated, say_with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
 _LIE, _AND = Words("lie between"), Words("and")
@@ -225,7 +225,7 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
     for direction, position, run in far[:_MOST_NAMED]:
         yield _OUTLIER.given(
             run=int(measurements.runs[run]),
-            target=say_with_unit(
+            target=say_stated(
                 measurements.axis.position_unit.from_si(float(measurements.target_positions[position])),
                 measurements.axis.position_unit.symbol,
             ),
@@ -254,7 +254,7 @@ def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
         unit = measurements.axis.position_unit
         target = measurements.target_positions[measurements.target[there][at + 1]]
         yield _SPIKE.given(
-            target=say_with_unit(unit.from_si(float(target)), unit.symbol),
+            target=say_stated(unit.from_si(float(target)), unit.symbol),
             distance=_write_size(measurements, float(off[at])),
         )
 
@@ -344,7 +344,7 @@ def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> I
     for stray in join_found_in_both(*(find_stray_target(positions, each, step) for each in readings)):
         target = float(positions[stray.position])
         yield _STRAY.given(
-            target=say_with_unit(unit.from_si(target), unit.symbol),
+            target=say_stated(unit.from_si(target), unit.symbol),
             distance=_write_size(measurements, abs(stray.distance)),
         )
 
@@ -386,7 +386,7 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
         return
     yield words.given(
         range=_write_size(measurements, full_range),
-        length=say_with_unit(unit.from_si(length), unit.symbol),
+        length=say_stated(unit.from_si(length), unit.symbol),
     )
 
 
@@ -417,9 +417,7 @@ def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Word
         return
     given = find_step(measurements)
     if given > stated * (1 + 1e-9):
-        yield _COARSER.given(
-            stated=say_with_unit(stated, unit.symbol), given=say_with_unit(given, unit.symbol)
-        )
+        yield _COARSER.given(stated=say_stated(stated, unit.symbol), given=say_with_unit(given, unit.symbol))
 
 
 def _compute_mean(values: FloatArray, axis: int) -> FloatArray:

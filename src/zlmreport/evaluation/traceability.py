@@ -21,7 +21,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import CELSIUS, say_with_unit
+from zlmreport.measurement.units import CELSIUS, say_stated, say_with_unit
 
 if TYPE_CHECKING:
     from zlmreport.job.document_keys import Capability
@@ -273,8 +273,8 @@ def _say_out_of_scope(job: Job, cmc: Capability, measurements: MeasurementSet) -
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
     if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):
-        over = say_with_unit(length, axis.position_unit.symbol)
-        most = say_with_unit(cmc.length, axis.position_unit.symbol)
+        over = say_stated(length, axis.position_unit.symbol)
+        most = say_stated(cmc.length, axis.position_unit.symbol)
         yield _OUT_OF_SCOPE.given(what=_OF_LENGTH.given(length=over, most=most))
     for choice in job.standards:
         if cmc.standards is not None and choice.identifier not in cmc.standards:
@@ -296,7 +296,7 @@ def _say_out_of_range(extent: tuple[float, float], measurements: MeasurementSet)
     span = unit.from_si(float(np.nanmax(spanned) - np.nanmin(spanned)))
     if span > width * (1 + _ROUNDING):
         over = say_with_unit(float(f"{span:.4g}"), unit.symbol)
-        most = say_with_unit(width, unit.symbol)
+        most = say_stated(width, unit.symbol)
         yield _OUT_OF_RANGE.given(what=_OF_SPAN.given(length=over, most=most))
 
 

@@ -43,7 +43,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 5
+FORMAT = 6
 
 METADATA = MetaData()
 
@@ -61,6 +61,7 @@ NIGHTS = Table(
     Column("process", Integer, nullable=False),
     Column("beat", String),
     Column("notices", JSON),
+    Column("untried", JSON),
 )
 
 #: What became of a job in a night in which something became of it; rows are only ever added.
@@ -262,6 +263,7 @@ _SINCE = {
     ),
     3: ("ALTER TABLE entries ADD COLUMN type VARCHAR",),
     4: ("ALTER TABLE entries ADD COLUMN lesson JSON",),
+    5: ("ALTER TABLE nights ADD COLUMN untried JSON",),
 }
 
 

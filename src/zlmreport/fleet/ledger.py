@@ -119,6 +119,10 @@ class Night:
         """Note what concerns the whole night."""
         self._note(notices=[[each.about.value, *map(each.text.in_language, Language)] for each in notices])
 
+    def leave(self, jobs: Sequence[str]) -> None:
+        """Note the jobs that the night had no time for."""
+        self._note(untried=list(jobs))
+
     def report(self, news: Sequence[News], *, is_all: bool = True) -> None:
         """Note what is new: what is not known yet, or had ended.
 
@@ -327,7 +331,8 @@ class Ledger(Closable):
             NightNotice(About(about), _read_words(*texts)) for about, *texts in night.notices or ()
         )
         ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
-        return PastNight(dt.datetime.fromisoformat(night.began), ended, notices, came_to, beat)
+        began, untried = dt.datetime.fromisoformat(night.began), tuple(night.untried or ())
+        return PastNight(began, ended, notices, came_to, beat, untried=untried)
 
     def list_standings(self) -> Mapping[str, Standing]:
         """Return what the ledger knows of each job, by its path."""

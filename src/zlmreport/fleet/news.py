@@ -26,7 +26,7 @@ from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, find_at
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, join_parts, named
-from zlmreport.language.formatting import write_general_number, write_plain
+from zlmreport.language.formatting import write_plain, write_stated_number
 from zlmreport.measurement.units import find_printed_symbol, with_unit
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
@@ -172,7 +172,7 @@ class _TrendSayer:
 
     def say_not_met(self, trend: Trend) -> str:
         latest, sign = trend.series.latest, self.language.decimal_sign
-        number = write_general_number(latest.limit or 0.0, sign)
+        number = write_stated_number(latest.limit or 0.0, sign)
         limit = with_unit(number, find_printed_symbol(latest.unit))
         told = _NOT_MET.given(symbol=self.name_symbol(trend), value=write_value(latest, sign), limit=limit)
         return told.in_language(self.language)

@@ -281,6 +281,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
                 happened = desk.keep(tasks[task.job.absolute()], result)
                 is_upgrade = task.stated is not None and happened.what is What.CONFIRMED
                 witness.note_happened(replace(happened, is_upgrade=is_upgrade))
+        work.night.leave([each.job for each, _ in reversed(remaining)])
         for each, _ in reversed(remaining):
             witness.note_happened(Happened(What.LEFT, each.job, each.number, each.why))
     yield from say_left(len(remaining), due)

@@ -100,7 +100,9 @@ def _say_jobs_done(state: FleetState) -> Words:
     """Return what became of the jobs of the last run."""
     counts = state.counts
     drafts = words.AS_DRAFTS.given(number=counts["draft"])
-    return words.JOBS_DONE.given(jobs=state.jobs, drafts=drafts, **counts)
+    done = words.JOBS_DONE.given(jobs=state.jobs, drafts=drafts, **counts)
+    left = counts["left"]
+    return words.JOBS_LEFT.given(done=done, number=left) if left else done
 
 
 def _make_tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:

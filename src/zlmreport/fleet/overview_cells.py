@@ -21,9 +21,9 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import (
     round_pair,
     write_fixed_number,
-    write_general_number,
     write_p_value,
     write_plain,
+    write_stated_number,
 )
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import find_printed_symbol, with_unit
@@ -71,7 +71,7 @@ class CellWriter:
         if latest.limit is None:
             return OverviewCellContext("–", style="number")
         text = with_unit(
-            write_general_number(latest.limit, self.language.decimal_sign), find_printed_symbol(latest.unit)
+            write_stated_number(latest.limit, self.language.decimal_sign), find_printed_symbol(latest.unit)
         )
         return OverviewCellContext(text, style="number")
 

@@ -129,6 +129,7 @@ class PastNight:
     came_to: Mapping[State, int] = field(default_factory=dict)  #: How many jobs became what in it.
     beat: datetime | None = None  #: When it gave its last sign of life.
     is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `see_at`.
+    untried: tuple[str, ...] = ()  #: Jobs that it had no time for.
 
     @property
     def seconds(self) -> float | None:

@@ -44,6 +44,8 @@ class FleetState:
     trends: tuple[Trend, ...]  #: Every parameter of every axis, machine by machine.
     effects: tuple[Series, ...] = ()  #: Parameters of the error models over time, where jobs name effects.
     terms: tuple[DueDate, ...] = ()  #: Of every axis that has one, the earliest first.
+    #: How many of them the last run had no time for; of those that failed before, or are drafts, none.
+    untried: int = 0
 
     @property
     def notices(self) -> tuple[NightNotice, ...]:
@@ -63,13 +65,14 @@ class FleetState:
 
     @property
     def counts(self) -> Mapping[str, int]:
-        """How many jobs the last run made, had no reason to make, left as drafts, and could not make."""
+        """How many jobs the last run made, had no reason or no time to make, left as drafts, failed at."""
         vanished = sum(each.entry.state is State.VANISHED for each in self.failures)
         drafts, failed = len(self.drafts), len(self.failures) - vanished
-        unchanged = self.jobs - self.made - drafts - failed
+        unchanged = self.jobs - self.made - drafts - failed - self.untried
         return {
             "made": self.made,
             "unchanged": unchanged,
+            "left": self.untried,
             "draft": drafts,
             "failed": failed,
             "vanished": vanished,
@@ -134,6 +137,7 @@ def describe_state(
     certificates = select_standing(history)
     series = list_series_of(certificates)
     began = night.began if night else None
+    counted = {each.job for each in current if each.state.is_failure or each.state is State.DRAFT}
     return FleetState(
         name=name,
         night=night,
@@ -151,6 +155,7 @@ def describe_state(
         trends=judge_trends(each for each in series if each.standard != MODEL),
         effects=tuple(each for each in series if each.standard == MODEL),
         terms=_list_terms(certificates, rules, began),
+        untried=len(set(night.untried) & set(jobs) - counted) if night else 0,
     )
 
 

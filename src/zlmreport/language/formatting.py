@@ -24,6 +24,8 @@ LEAST_P = 1e-6
 _DIGITS = 2
 #: Of a value that is given exactly, or whose uncertainty is unknown.
 _DECIMALS = 3
+#: Of a number that somebody states: all that a double keeps of it, but for what a conversion from SI adds.
+_STATED_DIGITS = 12
 #: Room for every double, the largest too.
 _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 
@@ -86,6 +88,15 @@ def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, di
     if "e" in text:
         text = f"{Decimal(text):f}"
     return text.replace("-", MINUS).replace(".", sign)
+
+
+def write_stated_number(value: float, sign: DecimalSign = DecimalSign.POINT) -> str:
+    """Write a number that somebody states, or a difference of such: to its last digit, and with none added.
+
+    >>> write_stated_number(2543.1875), write_stated_number(0.1 + 0.2)
+    ('2543.1875', '0.3')
+    """
+    return write_general_number(value, sign, _STATED_DIGITS)
 
 
 def hold_together(text: str) -> str:

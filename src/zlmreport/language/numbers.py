@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number
+from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number, write_stated_number
 
 _SIGNIFICANT_DIGITS = 3
 _NUMBER = Words("{number}")
@@ -25,6 +25,11 @@ class _Rounded:
 def number_words(value: float, decimals: int) -> Words:
     """Return a number with fixed decimals."""
     return _NUMBER.given(number=_Rounded(write_fixed_number(value, decimals)))
+
+
+def say_stated_number(value: float) -> Words:
+    """Return a number that somebody states, to its last digit."""
+    return _NUMBER.given(number=_Rounded(write_stated_number(value)))
 
 
 def write_significant(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:

@@ -243,7 +243,7 @@ def _list_facts(machine: MachineFile, say: Sayer) -> Facts:
         (say(_MACHINE), keys.machine.type),
         (say(_SERIAL), keys.machine.serial or ""),
         (say(_CHAIN), machine.machine.chain.letters),
-        (say(_TOOL), f"{', '.join(map(say.write_general, keys.tool))} mm"),
+        (say(_TOOL), f"{', '.join(map(say.write_stated, keys.tool))} mm"),
         (say(_KNOWN), say(say_known(machine.machine))),
         (say(_ISSUED), stated.issued.isoformat() if stated.issued else ""),
         (say(_AUTHORISED), write_person(stated.authorised_by) if stated.authorised_by else ""),

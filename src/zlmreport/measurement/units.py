@@ -10,6 +10,7 @@ from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
 from zlmreport.language import Words
+from zlmreport.language.numbers import say_stated_number
 from zlmreport.measurement.arrays import FloatArray
 
 #: 0 °C in kelvin.
@@ -33,6 +34,11 @@ def with_unit(number: str, symbol: str) -> str:
 def say_with_unit(value: float, symbol: str) -> Words:
     """Return a value with its unit, for sentences: each language writes the number its own way."""
     return Words(with_unit("{value}", symbol)).given(value=value)
+
+
+def say_stated(value: float, symbol: str) -> Words:
+    """Return a value that somebody states, such as a position or a limit, to its last digit with its unit."""
+    return Words(with_unit("{value}", symbol)).given(value=say_stated_number(value))
 
 
 def write_behind(symbol: str) -> str:

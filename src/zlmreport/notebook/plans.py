@@ -32,6 +32,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _NAME = "plan"
+_NO_TARGETS = (
+    "a circular test has a path and no targets; zlmreport plan prints it and writes its part programs"
+)
 _SECONDS = 60.0
 #: How far a plan sees an effect that is not hidden, or that this axis cannot have.
 _SEEN_OR_ELSEWHERE = frozenset({Sight.VISIBLE.value, Sight.OTHER_AXIS.value})
@@ -48,6 +51,8 @@ class Plan:
     """A planned test: ``plan.targets``, ``plan.to_frame()``, ``plan.minutes``, ``plan.hidden``."""
 
     def __init__(self, job: Job) -> None:
+        if job.axis.circle:
+            raise InputError.at(job.place_of("circle"), _NO_TARGETS)
         effects = [each for each in registry().effects if is_for(each, job.axis.measurand)]
         planned = describe_planned_test(job, pipeline.choose_standards(job, registry()), effects)
         plan = planned.proposal.plan

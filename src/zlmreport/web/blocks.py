@@ -57,7 +57,8 @@ def _make_block(block: Block, names: Naming) -> dict[str, Any]:
             return _make_table(block, names)
         case Formulas(caption, rows):
             cells = [[_make_cell(each, names) for each in row] for row in rows]
-            return {"kind": "table", "caption": caption, "columns": [], "rows": cells}
+            groups = [{"heading": "", "rows": cells}]
+            return {"kind": "table", "caption": caption, "columns": [], "groups": groups}
         case Graph(figure):
             image = ET.fromstring(to_svg(figure, names.language))  # noqa: S314 - drawn by this program
             return {
@@ -82,7 +83,13 @@ def _make_table(table: Table, names: Naming) -> dict[str, Any]:
             }
             for column in (table.columns[number] for number in shown)
         ],
-        "rows": [[_make_cell(row[number], names) for number in shown] for row in rows],
+        "groups": [
+            {
+                "heading": names.name_in(group.heading),
+                "rows": [[_make_cell(row[number], names) for number in shown] for row in group.rows],
+            }
+            for group in table.groups
+        ],
     }
 
 

@@ -175,6 +175,7 @@ def list_offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, 
         "formats": [
             {"format": each.identifier, "chosen": each.identifier in chosen} for each in registry.renderers
         ],
+        "takesTable": job.axis.measurand.is_position,
         "tableIsStated": job.keys.axis.compensation_table is not None,
         "controllers": [
             {

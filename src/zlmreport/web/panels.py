@@ -141,6 +141,7 @@ class Panels:
         `results`: Of the job's standards, in their order.
         """
         study, whole = self.loaded.study, self.whole.fit
+        is_position = self.design.axis.measurand.is_position  # else no control corrects it
         tests = [
             compensate_readings(FittedModel(study.measurements, study.observed, whole)),
             correct_by_model(study.measurements, study.observed, whole),
@@ -156,7 +157,10 @@ class Panels:
                 {
                     "designation": evaluated.evaluation.designation,
                     "unit": self.writer.deviation_unit.symbol,
-                    "rows": [self._make_row(each, forecast[each.quantity.symbol]) for each in parameters],
+                    "rows": [
+                        self._make_row(each, forecast[each.quantity.symbol] if is_position else None)
+                        for each in parameters
+                    ],
                     "unmet": [
                         self.say(named(finding.requirement, finding.found))
                         for finding in evaluated.evaluation.findings
@@ -182,11 +186,13 @@ class Panels:
     def _write_deviation(self, value: float | None) -> str:
         return write_deviation(value, self.design.axis, self.language)
 
-    def _make_row(self, parameter: EvaluatedParameter, forecast: Any) -> dict[str, Any]:
+    def _make_row(self, parameter: EvaluatedParameter, forecast: Any | None) -> dict[str, Any]:
         quantity, decision = parameter.quantity, parameter.decision
         writer = self.writer.of_quantity(quantity)
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
-        by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)
+        by_table, by_model = (
+            (None, None) if forecast is None else (quantity.printed_sign * float(value) for value in forecast)
+        )
 
         def written(number: str) -> str:
             """Return a number with its unit, where that is another than the panel says."""
@@ -203,8 +209,8 @@ class Panels:
             "limit": written(limit(parameter, self.writer)),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
-            "by_table": written(writer.deviation(by_table)),
-            "by_model": written(writer.deviation(by_model)),
+            "by_table": None if by_table is None else written(writer.deviation(by_table)),
+            "by_model": None if by_model is None else written(writer.deviation(by_model)),
         }
 
 

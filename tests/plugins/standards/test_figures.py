@@ -311,3 +311,22 @@ def test_titles_name_the_axis_as_the_user_typed_it(identifier: str) -> None:
         "Achse {X}:" in figure.title.in_language(Language.GERMAN)
         for figure in figures(identifier, test).values()
     )
+
+
+@pytest.mark.parametrize(
+    ("measurements", "shown"),
+    [
+        (TEST, "limits at 2 standard deviations, largest reversal and repeatability"),
+        (UPWARDS, "limits at 2 standard deviations"),
+        (ONE_RUN, "largest reversal"),
+        (simulated_test(runs=1, approaches=[Approach.POSITIVE]), ""),
+    ],
+    ids=["whole", "one direction", "one run", "one reading"],
+)
+def test_the_caption_of_the_means_names_what_they_show(measurements: MeasurementSet, shown: str) -> None:
+    figure = figures("iso230-2:2014", measurements)["means"]
+    said = ", ".join(filter(None, ("mean deviations", shown)))
+    assert figure.title.in_language(Language.ENGLISH).endswith(f": {said}")
+    drawn = {each.notation for each in figure.panels[0].arrows}
+    assert ("B_{i}" in drawn) == ("reversal" in shown)
+    assert ("R_{i}" in drawn) == ("repeatability" in shown)

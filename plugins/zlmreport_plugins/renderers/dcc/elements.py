@@ -44,6 +44,8 @@ TIME = "zlmreport_time"
 CONDITION = "zlmreport_condition_"
 #: Begins the identifier of the readings of one of several measured lines; its name follows.
 TEST = "zlmreport_test_"
+#: The same of its readings as found: an identifier stands once in a document.
+TEST_AS_FOUND = "zlmreport_testAsFound_"
 #: Kinds beside DEVIATION, and what each says of the measurement set.
 TRAITS = {
     "zlmreport_indication": "is_indication",

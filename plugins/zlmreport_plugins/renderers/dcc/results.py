@@ -48,6 +48,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     SECOND,
     TARGET,
     TEST,
+    TEST_AS_FOUND,
     TIME,
     TRAITS,
     dcc,
@@ -122,6 +123,7 @@ class _Test:
     #: name and line: What one of several is called; of lines that are evaluated together, its readings.
     name: str = ""
     line: MeasurementSet | None = None
+    identifier: str = TEST  #: Begins the identifier of its readings, if it has a name.
 
 
 def make_measurement_results(certificate: Certificate, job: Job) -> ET.Element:
@@ -147,7 +149,8 @@ def _make_results_of_measurement(certificate: Certificate, job: Job, name: str) 
     after = find_state("after", work, writer)
     tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, name)]
     if before:
-        tests.insert(0, _Test(find_state("before", work, writer), found, certificate.budget_as_found, before))
+        state, budget = find_state("before", work, writer), certificate.budget_as_found
+        tests.insert(0, _Test(state, found, budget, before, name=name, identifier=TEST_AS_FOUND))
     tests += (
         _Test(
             None,
@@ -183,7 +186,7 @@ def _make_readings_alone(
 
 
 def _make_result_of_readings(test: _Test, line: MeasurementSet, writer: AdministrativeWriter) -> ET.Element:
-    identifier = {"id": f"{TEST}{test.name}"} if test.name else {}
+    identifier = {"id": f"{test.identifier}{test.name}"} if test.name else {}
     return _make_result(_READINGS, _make_readings(line, writer), writer, refType=READINGS, **identifier)
 
 
@@ -242,7 +245,7 @@ def _make_used_methods(evaluations: Iterable[Evaluation], writer: Administrative
 def _make_reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]:
     """Return the reference from parameters to the readings of which they are, where these have names."""
     names = ["-".join(filter(None, (test.name, line))) for line in measurements.tests] or [test.name]
-    return {"refId": " ".join(f"{TEST}{each}" for each in names)} if all(names) else {}
+    return {"refId": " ".join(f"{test.identifier}{each}" for each in names)} if all(names) else {}
 
 
 def _make_result(

@@ -35,6 +35,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     SI,
     TARGET,
     TEST,
+    TEST_AS_FOUND,
     TIME,
     TRAITS,
     write_unit_of,
@@ -117,12 +118,17 @@ def _find_readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.
             f"carries no readings (no result of the kind {READINGS}): its results cannot be evaluated again"
         )
         raise InputError.at(text.place(), message)
-    tests = {each.get("id", "").removeprefix(TEST): each for each in found if each.get("id")}
-    if tests or options.test:
-        if options.test in tests:
-            return tests[options.test]
-        names = ", ".join(tests) or "none"
-        raise InputError.at(text.place(), f"say which of its lines is meant: test (it has: {names})")
+    named = {each.get("id", ""): each for each in found if each.get("id")}
+    tests = [each.removeprefix(TEST) for each in named if each.startswith(TEST)]
+    if named or options.test:
+        if options.test not in tests:
+            names = ", ".join(tests) or "none"
+            raise InputError.at(text.place(), f"say which of its lines is meant: test (it has: {names})")
+        meant = f"{TEST_AS_FOUND if options.state == 'as found' else TEST}{options.test}"
+        if meant not in named:
+            message = f"{quoted(options.test)} has readings of one measurement only, and none as found"
+            raise InputError.at(text.place(), message)
+        return named[meant]
     if options.state == "as found" and len(found) == 1:
         raise InputError.at(text.place(), "has readings of one measurement only, and none as found")
     return found[0 if options.state == "as found" else -1]

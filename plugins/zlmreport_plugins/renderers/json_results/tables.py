@@ -112,6 +112,7 @@ class CsvRenderer:
     title = Words("Results, one value a row (CSV)")
     suffix = ".csv"
     needs_layout = False
+    needs_job = True
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the table."""
@@ -200,6 +201,7 @@ class XlsxRenderer:
     title = Words("Workbook of results (XLSX)")
     suffix = ".xlsx"
     needs_layout = False
+    needs_job = True
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the workbook."""

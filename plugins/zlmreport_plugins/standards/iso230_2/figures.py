@@ -32,6 +32,15 @@ _MEAN = {
     Approach.POSITIVE: Words("Mean of the positive direction"),
     Approach.NEGATIVE: Words("Mean of the negative direction"),
 }
+#: What the graph of means shows, by whether there are limits, and both directions.
+_OF_MEANS = {
+    (True, True): Words(
+        "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and repeatability"
+    ),
+    (True, False): Words("Axis {axis}: mean deviations, limits at {k} standard deviations"),
+    (False, True): Words("Axis {axis}: mean deviations, largest reversal"),
+    (False, False): Words("Axis {axis}: mean deviations"),
+}
 
 
 def draw_figures(edition: Edition, evaluation: Evaluation) -> Iterator[Figure]:
@@ -66,10 +75,7 @@ class _Graphs:
             curves=self._draw_all_means(),
             arrows=self._draw_bidirectional_arrows(f"B{self.i}", f"R{self.i}"),
         )
-        title = Words(
-            "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and "
-            "repeatability"
-        )
+        title = _OF_MEANS[bool(shown.bands), self.diagram.is_bidirectional]
         return self._make_figure("means", title.given(k=self.k), shown)
 
     def draw_overall(self) -> Figure:

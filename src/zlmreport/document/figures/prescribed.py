@@ -31,7 +31,7 @@ from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import say_with_unit
+from zlmreport.measurement.units import say_stated, say_with_unit
 
 Mark = TypeVar("Mark")
 
@@ -302,7 +302,7 @@ def _describe_arrow(axis: Axis, arrow: Arrow) -> Words:
     return Words("{symbol} = {length} at {x}").given(
         symbol=write_plain(arrow.notation),
         length=say_with_unit(arrow.high - arrow.low, axis.deviation_unit.symbol),
-        x=say_with_unit(arrow.x, axis.position_unit.symbol),
+        x=say_stated(arrow.x, axis.position_unit.symbol),
     )
 
 
@@ -312,8 +312,8 @@ def _describe_bracket(axis: Axis, bracket: Bracket) -> Words:
     return Words("{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}").given(
         symbol=write_plain(bracket.notation),
         length=say_with_unit(bracket.high - bracket.low, axis.deviation_unit.symbol),
-        low_at=say_with_unit(bracket.low_at, axis.position_unit.symbol),
-        high_at=say_with_unit(bracket.high_at, axis.position_unit.symbol),
+        low_at=say_stated(bracket.low_at, axis.position_unit.symbol),
+        high_at=say_stated(bracket.high_at, axis.position_unit.symbol),
     )
 
 

@@ -11,7 +11,7 @@ from zlmreport.document.blocks import Align, Block, Column, Paragraph, RowGroup,
 from zlmreport.document.subjects.plan_values import SCHEMA
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import write_general_number
+from zlmreport.language.formatting import write_general_number, write_stated_number
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.planning.circle_path import SENSES, CirclePath
 
@@ -53,7 +53,7 @@ def lay_out_circle_plan(job: Job, paths: Sequence[CirclePath], language: Languag
     def say(words: Words) -> str:
         return words.in_language(language)
 
-    arc = write_general_number(paths[0].turns[0].arc)
+    arc = write_stated_number(paths[0].turns[0].arc)
     return (
         Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _describe_path(job, paths[0]))),
         Section("feeds", say(_FEEDS), tuple(_lay_out_feeds(paths, language))),

@@ -20,7 +20,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.writer import NOTHING
 from zlmreport.language import Language, Words, named, same
-from zlmreport.language.formatting import MINUS, round_pair, write_general_number
+from zlmreport.language.formatting import MINUS, round_pair, write_general_number, write_stated_number
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import DEGREE, Unit, with_unit
@@ -277,7 +277,7 @@ def _say_one_way(fit: Fit, language: Language) -> Iterator[Paragraph]:
         yield Paragraph(f"Δ{approach.arrow} = {write_polynomial(values.tolist(), powers, language)}")
     if curves:
         first, last = (
-            write_general_number(axis.position_unit.from_si(end), language.decimal_sign)
+            write_stated_number(axis.position_unit.from_si(end), language.decimal_sign)
             for end in fit.design.span
         )
         words = _SCOPE.given(axis=axis.name, unit=axis.position_unit.symbol, first=first, last=last)

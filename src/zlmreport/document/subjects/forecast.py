@@ -55,7 +55,9 @@ class StandardForecast:
 def make_forecasts(
     standards: Iterable[tuple[EvaluatingStandard, Any]], study: Study, history: Sequence[Fitted]
 ) -> tuple[StandardForecast, ...]:
-    """Return the forecast by each standard."""
+    """Return the forecast by each standard; none of an error that no control corrects, such as an angle."""
+    if not study.measurements.axis.measurand.is_position:
+        return ()
     tests = [correct_by_model(study.measurements, study.observed, each.fit) for each in history]
     tests.append(compensate_readings(FittedModel(study.measurements, study.observed, history[-1].fit)))
     statistics = position_statistics(

@@ -20,7 +20,7 @@ from zlmreport.document.blocks import (
 from zlmreport.evaluation.checks import position_in_words, readings_in_words
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, named
-from zlmreport.language.formatting import write_fixed_number, write_general_number, write_percentage
+from zlmreport.language.formatting import write_fixed_number, write_percentage, write_stated_number
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import with_unit, write_behind
@@ -128,7 +128,7 @@ class _Plan:
         return _ASSUMED if key in self.planned.proposal.assumed else ""
 
     def write_number(self, value: float) -> str:
-        return write_general_number(value, self.language.decimal_sign)
+        return write_stated_number(value, self.language.decimal_sign)
 
     def lay_out_targets(self) -> Iterator[Block]:
         proposal, unit = self.planned.proposal, self.axis.position_unit.symbol

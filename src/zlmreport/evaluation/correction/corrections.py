@@ -21,7 +21,7 @@ from zlmreport.evaluation.correction.compensated import find_compensated_by_inst
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import AirKeys, DeadPathKeys, ExclusionKeys, MaterialKeys
 from zlmreport.language import Words
-from zlmreport.language.formatting import write_general_number
+from zlmreport.language.formatting import write_stated_number
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -217,7 +217,7 @@ def _find_reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
 
 
 def _write_position(axis: Axis, value: float) -> str:
-    return with_unit(write_general_number(value), axis.position_unit.symbol)
+    return with_unit(write_stated_number(value), axis.position_unit.symbol)
 
 
 _NANOMETRE = 1e-9

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 from zlmreport.document.blocks import Align, Cell, Column, RowGroup, Table
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import round_pair, write_fixed_number, write_general_number
+from zlmreport.language.formatting import (
+    round_pair,
+    write_fixed_number,
+    write_general_number,
+    write_stated_number,
+)
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, write_behind
 
 #: Digits behind the sign of lengths in µm.
@@ -32,13 +37,17 @@ class Sayer:
         """Return a number with no needless digits."""
         return write_general_number(value, self.language.decimal_sign)
 
+    def write_stated(self, value: float) -> str:
+        """Return a number that somebody states, to its last digit."""
+        return write_stated_number(value, self.language.decimal_sign)
+
     def write_micrometres(self, value: float) -> str:
         """Return a length in m as µm, without the unit."""
         return self.write_number(MICROMETRE.from_si(value))
 
     def write_millimetres(self, value: float) -> str:
         """Return a position in m as mm, without the unit."""
-        return self.write_general(round(MILLIMETRE.from_si(value), 3) + 0.0)
+        return self.write_stated(round(MILLIMETRE.from_si(value), 3) + 0.0)
 
     def write_span(self, low: float, high: float) -> str:
         """Return from where to where, m, as mm without the unit."""
