@@ -31,7 +31,7 @@ from zlmreport_step_gauge.machines.live import EMULATE, make_live_run
 from zlmreport_step_gauge.machines.run import find_live_probing
 from zlmreport_step_gauge.paths.foretold import foretell
 from zlmreport_step_gauge.paths.path import ProbingPath
-from zlmreport_step_gauge.set_up import GaugeSetUp, make_gauge_set_up
+from zlmreport_step_gauge.set_up import GaugeSetUp, make_gauge_set_up, round_to_two_digits
 from zlmreport_step_gauge.source import StepGaugeSource
 from zlmreport_step_gauge.standard import StepGaugeEvaluation
 from zlmreport_step_gauge.uncertainty import list_gauge_contributions
@@ -70,7 +70,7 @@ def _list_location_facts(located: Located, writer: Writer) -> Iterator[Fact]:
     yield Fact(Words("Ends at C2"), _write_point(location.end, writer), key)
     yield Fact(
         Words("Direction C1C2"),
-        f"u = {_write_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
+        f"u = {writer.number(round_to_two_digits(MICRORADIAN.from_si(location.direction_uncertainty)))} µrad",
         key,
     )
 
@@ -79,10 +79,6 @@ def _write_point(coordinates: tuple[float, float, float], writer: Writer) -> str
     """Write coordinates to a micrometre: x / y / z."""
     sign = writer.language.decimal_sign
     return " / ".join(fixed_number(MILLIMETRE.from_si(each), 3, sign) for each in coordinates) + " mm"
-
-
-def _write_two_digits(value: float, writer: Writer) -> str:
-    return writer.number(float(f"{value:.2g}"))
 
 
 _TITLE = Words(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import replace
 from enum import Enum
@@ -26,7 +25,7 @@ from zlmreport_step_gauge.deviations import Deviations, EffectiveRadius, RadiusS
 from zlmreport_step_gauge.gauge import Face, Side
 from zlmreport_step_gauge.location import Misalignment
 from zlmreport_step_gauge.probed import Probed
-from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp
+from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, round_to_two_digits
 
 INDICATION = Words(
     "Sign: deviation = indicated − calibrated position, by how much the machine reads too much (error of "
@@ -152,8 +151,8 @@ def _say_direction(direction: tuple[float, float, float]) -> PartRow:
 def _say_misalignment(which: Words, found: Misalignment) -> Words:
     return _ASKEW.given(
         which=which,
-        angle=_round_to_two_digits(MICRORADIAN.from_si(found.angle)),
-        uncertainty=_round_to_two_digits(MICRORADIAN.from_si(found.uncertainty)),
+        angle=round_to_two_digits(MICRORADIAN.from_si(found.angle)),
+        uncertainty=round_to_two_digits(MICRORADIAN.from_si(found.uncertainty)),
         verdict=_SIGNIFICANT if found.is_significant else _INSIGNIFICANT,
     )
 
@@ -164,19 +163,15 @@ def _say_radius(found: EffectiveRadius) -> Words:
     if found.source is RadiusSource.NOWHERE:
         return _CANCELS
     radius = float(round(MILLIMETRE.from_si(found.radius), 6))
-    uncertainty = _round_to_two_digits(MICROMETRE.from_si(found.uncertainty))
+    uncertainty = round_to_two_digits(MICROMETRE.from_si(found.uncertainty))
     if found.source is RadiusSource.STATED:
         return _STATED.given(radius=radius, uncertainty=uncertainty)
     return _DETERMINED.given(
         radius=radius,
         number=len(found.by_block),
-        scatter=_round_to_two_digits(MICROMETRE.from_si(found.scatter)),
+        scatter=round_to_two_digits(MICROMETRE.from_si(found.scatter)),
         uncertainty=uncertainty,
     )
-
-
-def _round_to_two_digits(value: float) -> float:
-    return value if not value or math.isnan(value) else float(f"{value:.2g}")
 
 
 #: The condition that says which face was touched: +1 a front face, −1 a back face; effects of the error model

@@ -18,11 +18,9 @@ from zlmreport.plugin import (
     did_you_mean,
     read_only_floats,
 )
-from zlmreport.plugin.source import SourceFile
+from zlmreport.plugin.source import SourceFile, cap_problems
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 
-#: Problems of one file that are named one by one.
-_MOST_NAMED = 20
 #: Digits of the number of a face: no gauge has more faces.
 _LONGEST_NUMBER = 9
 
@@ -96,17 +94,7 @@ def arrange_on_grid(
     if not found:
         found.extend(_find_missed(faces, taken, place))
     if found:
-        ordered = sorted(set(found))
-        raise InputError(
-            [
-                *ordered[:_MOST_NAMED],
-                *(
-                    [Problem(place, f"and {len(ordered) - _MOST_NAMED} more")]
-                    if len(ordered) > _MOST_NAMED
-                    else []
-                ),
-            ]
-        )
+        raise InputError(cap_problems(found))
     cycles = tuple(sorted({cycle for _, cycle in taken}))
     dimension = len(points[0].coordinates)
     coordinates = np.full((len(faces), len(cycles), dimension), np.nan)

@@ -139,3 +139,8 @@ def _make_expansion_of_scale(keys: StepGaugeKeys, job: Job) -> Expansion | None:
     return Expansion(
         coefficient * MICROMETRE_PER_METRE_KELVIN, above_reference_temperature(CELSIUS.to_si(temperature))
     )
+
+
+def round_to_two_digits(value: float) -> float:
+    """Return an uncertainty, a scatter or a small angle with the digits that are said of it."""
+    return float(f"{value:.2g}")

@@ -20,6 +20,7 @@ from zlmreport.plugin import (
     Words,
 )
 from zlmreport.plugin.extension import (
+    STATED_COVERAGE_FACTOR,
     STATED_IN_THE_JOB,
     USUAL_CONTRIBUTIONS,
     Acts,
@@ -30,10 +31,7 @@ from zlmreport.plugin.extension import (
 from zlmreport.plugin.standard import position_statistics
 from zlmreport_step_gauge.deviations import compute_radius_uncertainty
 from zlmreport_step_gauge.gauge import StepGauge
-from zlmreport_step_gauge.set_up import GaugeSetUp
-
-#: Of the calibrated distances.
-_COVERAGE_FACTOR = 2.0
+from zlmreport_step_gauge.set_up import GaugeSetUp, round_to_two_digits
 
 _FACES = Words("Calibration of the faces")
 _FACES_ALONG = Words("Calibration of the faces, part that grows with the length")
@@ -98,11 +96,11 @@ def _list_of_faces(gauge: StepGauge) -> Iterator[Contribution]:
     nominal = np.array([face.nominal for face in gauge.faces])
     expanded = np.array([face.expanded_uncertainty for face in gauge.faces])
     distance = (nominal - nominal[0]) / (nominal[-1] - nominal[0])
-    at_each, along = part_uncertainty(distance, expanded / _COVERAGE_FACTOR)
+    at_each, along = part_uncertainty(distance, expanded / STATED_COVERAGE_FACTOR)
     stated = _OF_FACES.given(
         low=MICROMETRE.from_si(float(expanded.min())),
         high=MICROMETRE.from_si(float(expanded.max())),
-        factor=_COVERAGE_FACTOR,
+        factor=STATED_COVERAGE_FACTOR,
     )
     source = calibration_in_words(gauge.certificate)
     for name, size, acts in (
@@ -120,7 +118,7 @@ def _list_of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iter
     """
     is_front = Approach.POSITIVE in measurements.approaches
     first = set_up.gauge.faces[0 if is_front else 1]
-    of_face = first.expanded_uncertainty / _COVERAGE_FACTOR if first.distance else 0.0
+    of_face = first.expanded_uncertainty / STATED_COVERAGE_FACTOR if first.distance else 0.0
     touches = max(1, int(np.count_nonzero(np.isfinite(measurements.deviations()[:, 0]))))
     size = math.hypot(of_face, set_up.probing_uncertainty / math.sqrt(touches))
     if size:
@@ -185,7 +183,7 @@ def _list_of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contributi
         math.sqrt(2) * length * uncertainty**2,
         Acts.ALONG_THE_LENGTH,
         Distribution.ONE_SIDED,
-        _STANDARD.given(value=_round_to_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
+        _STANDARD.given(value=round_to_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
         _DIRECTION_SOURCE,
         "misalignment",
     )
@@ -208,8 +206,4 @@ def _list_of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contributi
 
 
 def _compute_standard(value: float) -> Words:
-    return _STANDARD.given(value=_round_to_two_digits(MICROMETRE.from_si(value)), unit="µm")
-
-
-def _round_to_two_digits(value: float) -> float:
-    return float(f"{value:.2g}")
+    return _STANDARD.given(value=round_to_two_digits(MICROMETRE.from_si(value)), unit="µm")

@@ -1,5 +1,4 @@
-"""A sound calibration certificate of an axis of 1 m, to be spoilt as an assessor finds certificates "
-"spoilt."""
+"""A sound calibration certificate of an axis of 1 m, to be spoilt as an assessor finds them."""
 
 from __future__ import annotations
 

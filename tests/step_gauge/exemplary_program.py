@@ -6,8 +6,9 @@ from typing import Any
 
 from zlmreport.job.types import Options
 from zlmreport.language import Words
+from zlmreport.plugin.program import plain_name
 from zlmreport_step_gauge.paths.path import Probing, ProbingPath
-from zlmreport_step_gauge.paths.programs import coordinates, direction, plain
+from zlmreport_step_gauge.paths.programs import coordinates, direction
 from zlmreport_step_gauge.testing import Stated
 
 
@@ -18,7 +19,7 @@ class ExemplaryProbing:
     options: Any = Options
 
     def write(self, path: ProbingPath, _options: Any) -> str:
-        lines = [f"SAY {plain(path.gauge)}"]
+        lines = [f"SAY {plain_name(path.gauge)}"]
         for move in path.moves:
             if isinstance(move, Probing):
                 lines.append(" ".join(["TOUCH", *coordinates(move.target, 4), *direction(move.normal)]))

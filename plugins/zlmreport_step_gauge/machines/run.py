@@ -21,6 +21,7 @@ from typing import Protocol, Self
 
 from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem, quoted
 from zlmreport.plugin.extension import Job, JournalFile, take_names, unwritable
+from zlmreport.plugin.program import plain_name
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
 from zlmreport_step_gauge.machines.session import (
     MachineError,
@@ -35,7 +36,6 @@ from zlmreport_step_gauge.paths.plan import PlannedPath, find_remaining, plan_pa
 from zlmreport_step_gauge.paths.programs import (
     coordinates,
     direction,
-    plain,
     write_beginning,
     write_command,
 )
@@ -92,7 +92,7 @@ class PointJournal:
             *coordinates(centre, 5),
             *direction(probing.normal),
         ]
-        told = ", ".join(f"{plain(name)} {value:.9g}" for name, value in others.items())
+        told = ", ".join(f"{plain_name(name)} {value:.9g}" for name, value in others.items())
         remark = [f"# face {probing.face}, cycle {probing.cycle}: {told}"] if told else []
         self._append(",".join(row), *remark)
         self.done.add((probing.face, probing.cycle))
@@ -111,7 +111,7 @@ class PointJournal:
 
     def _make_head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)
-        what = f"{plain(self._path.gauge)}, job {plain(self._path.number)}"
+        what = f"{plain_name(self._path.gauge)}, job {plain_name(self._path.number)}"
         return (
             f"# {what}; I++ DME, centres of the tip, mm, nominal radius {radius:.6g} mm",
             f"{_FINGERPRINT}{digest_path(self._path)}",

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
 from pydantic import Field
 
 from zlmreport.plugin import MILLIMETRE, InputError, Options, Words, hookimpl
-from zlmreport.plugin.program import PartProgram
+from zlmreport.plugin.program import PartProgram, plain_name
 from zlmreport_step_gauge.keys import TOOL
 from zlmreport_step_gauge.paths.path import Move, Point, Probing, ProbingPath, Travel
 
 #: Digits after the decimal point of a unit vector: 10⁻⁷ rad is 0.1 µm over a metre.
 _DIRECTION_DIGITS = 7
-_LONGEST_NAME = 32
-#: What no language takes for the end of a text or for a word of its own.
-_NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
 def coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
@@ -38,15 +34,6 @@ def direction(vector: Point) -> tuple[str, str, str]:
     """
     i, j, k = (_write_fixed(each, _DIRECTION_DIGITS) for each in vector)
     return i, j, k
-
-
-def plain(text: str) -> str:
-    """Return a user's text as every language takes it: short, ASCII, without quotes.
-
-    >>> plain("CAL-2026's")
-    'CAL-2026_s'
-    """
-    return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]
 
 
 def _write_fixed(value: float, decimals: int) -> str:
@@ -183,10 +170,10 @@ class Dmis:
 
 
 def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
-    name = plain(path.number)
+    name = plain_name(path.number)
     yield f"DMISMN/'{name}',4.0"
     yield f"FILNAM/'{name}'"
-    yield f"$$ {plain(path.gauge)}, {len(path.probings)} points"
+    yield f"$$ {plain_name(path.gauge)}, {len(path.probings)} points"
     yield "UNITS/MM,ANGDEC"
     yield f"DID(OUT)=DEVICE/STOR,'{name}.dmo'"
     yield "OPEN/DID(OUT),FDATA,DMIS,OUTPUT"

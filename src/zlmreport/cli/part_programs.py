@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from zlmreport.cli.terminal import show_path
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document
 from zlmreport.job.choices import Choice, Find, choose_programs_by_name
@@ -28,27 +29,33 @@ def write_program_of(subject: Callable[[Place], Any], program: PartProgram, choi
 
 
 def choose_programs(
-    named: str | None,
-    folder: Path | None,
+    options: Namespace,
     stated: tuple[Choice, ...],
     find: Find,
     known: Sequence[PartProgram],
 ) -> tuple[Choice, ...]:
     """Return the programs that the command line names, or else those of the job.
 
-    `named`: Identifiers on the command line, parted by commas; None if there are none.
-
     Raises `InputError` if there is none of that name, or no folder to write it into.
     """
-    if named is None:
+    if options.program is None:
         return stated
-    if folder is None:
+    if options.output is None:
         raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
-    names = [name.strip() for name in named.split(",") if name.strip()]
+    names = [name.strip() for name in options.program.split(",") if name.strip()]
     if not names:
         such_as = ",".join(each.identifier for each in known[:2])
         raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
     return choose_programs_by_name(names, _OPTION, stated, find)
+
+
+def tell_written(options: Namespace, programs: Sequence[Choice], written: Sequence[Path]) -> None:
+    """Print the files of a plan; which programs there are, where nobody says into which folder."""
+    if programs and not options.output:
+        names = ", ".join(each.identifier for each in programs)
+        print(f"part programs for {names}: state a folder, --output DIR")
+    for path in written:
+        print(show_path(path))
 
 
 def make_program_files(

@@ -15,6 +15,7 @@ from zlmreport.cli.part_programs import (
     choose_programs,
     demand_file,
     make_program_files,
+    tell_written,
     write_program_of,
 )
 from zlmreport.cli.plan_circle import plan_circle
@@ -61,13 +62,7 @@ def run(options: Namespace) -> int:
         raise InputError.at(RUN, "this plan has no runs of its own; leave it out")
     if own:
         return _show_plan(options, job, registry, own)
-    programs = choose_programs(
-        options.program,
-        options.output,
-        job.programs,
-        registry.part_program,
-        registry.list_programs_for(),
-    )
+    programs = choose_programs(options, job.programs, registry.part_program, registry.list_programs_for())
     demand_file(options, programs)
     effects = [each for each in registry.effects if is_for(each, job.axis.measurand)]
     planned = describe_planned_test(job, pipeline.choose_standards(job, registry), effects)
@@ -104,11 +99,7 @@ def run(options: Namespace) -> int:
     print(f"{Colour.BOLD.set(number)}  axis {job.axis.name}: {size}")
     print(*lay_out_sections(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
-    if programs and not options.output:
-        names = ", ".join(each.identifier for each in programs)
-        print(f"part programs for {names}: state a folder, --output DIR")
-    for path in written:
-        print(show_path(path))
+    tell_written(options, programs, written)
     command = "zlmreport capture" if find_options_of(job) else "measure, then zlmreport"
     print(f"next: {command} {show_path(options.job)}")
     return 0
@@ -187,7 +178,7 @@ def _show_plan(
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
     known = registry.list_programs_for(extension.takes) if extension.takes else ()
-    programs = choose_programs(options.program, options.output, choice.programs, find, known)
+    programs = choose_programs(options, choice.programs, find, known)
     number = job.keys.certificate.number
     documents: tuple[Document, ...] = ()
     if options.output:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import partial
 
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.part_programs import RUN, choose_programs, demand_file, make_program_files
+from zlmreport.cli.part_programs import RUN, choose_programs, demand_file, make_program_files, tell_written
 from zlmreport.cli.terminal import Colour, print_json, say, show_path
 from zlmreport.document.subjects.circle_plan import (
     collect_circle_plan,
@@ -26,13 +26,7 @@ from zlmreport.plugin.registry import Registry
 
 def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     """Write and print the path of a circular test: a program for each control and each feed."""
-    programs = choose_programs(
-        options.program,
-        options.output,
-        job.programs,
-        registry.part_program,
-        registry.list_programs_for(),
-    )
+    programs = choose_programs(options, job.programs, registry.part_program, registry.list_programs_for())
     demand_file(options, programs)
     keys, number = job.keys, job.keys.certificate.number
     stated = keys.plan.circle.feeds if keys.plan.circle else []
@@ -60,11 +54,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     print(f"{Colour.BOLD.set(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
     print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
     print()
-    if programs and not options.output:
-        names = ", ".join(each.identifier for each in programs)
-        print(f"part programs for {names}: state a folder, --output DIR")
-    for file in written:
-        print(show_path(file))
+    tell_written(options, programs, written)
     print(f"next: measure, then zlmreport {show_path(options.job)}")
     return 0
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 from zlmreport.cli.terminal import show_path
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
+from zlmreport.job.parse import SUFFIXES
 from zlmreport.looking import look_at, write_job_of
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -21,7 +22,6 @@ if TYPE_CHECKING:
 
 _PLACE = Place("zlmreport workbench")
 #: Suffixes of jobs; any other file holds readings.
-_JOBS = (".yaml", ".yml")
 
 
 def run(options: Namespace) -> int:
@@ -70,9 +70,9 @@ def _open_workbench(options: Namespace) -> Served:
 
 def _find_job_of(path: Path, registry: Registry) -> Path:
     """Return the job of what is opened: for a file of readings that beside it, written if there is none."""
-    if path.suffix.lower() in _JOBS or not path.is_file():
+    if path.suffix.lower() in SUFFIXES or not path.is_file():
         return path
-    job = path.with_suffix(_JOBS[0])
+    job = path.with_suffix(SUFFIXES[0])
     if not job.exists():
         text = write_job_of(look_at(path, registry), path, job.parent)
         write_new([Document(job, text.encode())])

@@ -91,6 +91,11 @@ class PositionStatistics:
         both: BoolArray = np.all(self.is_measured, axis=-1)
         return both
 
+    @property
+    def mean_of_all_runs(self) -> FloatArray:
+        """The mean of both directions, or that of the only one that was measured, shape (..., position)."""
+        return self.of_both_or_single(self.mean_bidirectional, self.mean)
+
     def of_both_or_single(self, of_both: FloatArray, by_approach: FloatArray) -> FloatArray:
         """Return values of both directions together, or those of the single direction that was measured.
 

@@ -30,7 +30,6 @@ from zlmreport.measurement.axis import AxisKind
 Model = TypeVar("Model", bound=BaseModel)
 Path = tuple[Step, ...]
 
-_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _NO_NUMBER = re.compile(r"[-+]?\.(inf|nan)", re.IGNORECASE)
 _MOST_DIGITS = 400
 
@@ -116,7 +115,7 @@ def _resolve(scalar: Scalar) -> float | LocatedText | None:
     if scalar.plain and len(scalar.text) <= _MOST_DIGITS:
         if re.fullmatch(r"[-+]?\d+", scalar.text, re.ASCII):
             return int(scalar.text)
-        if _NUMBER.fullmatch(scalar.text):
+        if scalar.is_number:
             return float(scalar.text)
         if _NO_NUMBER.fullmatch(scalar.text):
             return float(scalar.text.replace(".", ""))

@@ -16,6 +16,8 @@ from zlmreport.job.types import (
 )
 from zlmreport.measurement.axis import AxisKind
 
+#: Of every uncertainty that a job states as expanded.
+STATED_COVERAGE_FACTOR = 2.0
 #: `zlmreport.evaluation.uncertainty.budget.Acts`, by its values.
 ActsName: TypeAlias = Literal[
     "along-the-length",

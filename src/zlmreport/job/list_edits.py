@@ -112,7 +112,6 @@ def insert(text: str, index: int, piece: str) -> str:
 _INDENT = 2
 #: Text that means nothing but itself without quotes, wherever it stands.
 _PLAIN = re.compile(r"[A-Za-z][\w./-]*(:[\w./-]+)*", re.ASCII)
-_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 _END_OF_DOCUMENT = re.compile(r"^\.\.\.", re.MULTILINE)
 
 
@@ -249,7 +248,7 @@ def write_as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str
     if isinstance(node, Scalar):
         if node.is_nothing:
             return "null"
-        return node.text if node.plain and _NUMBER.fullmatch(node.text) else _quote(node.text, quote)
+        return node.text if node.is_number else _quote(node.text, quote)
     if isinstance(node, Items):
         return f"[{', '.join(write_as_text(item, quote) for item in node.items)}]"
     pairs = ", ".join(

@@ -21,6 +21,8 @@ from yaml import MarkedYAMLError
 from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar
 
+#: How the name of a job file ends.
+SUFFIXES = (".yaml", ".yml")
 #: Of a job file, in bytes.
 LARGEST = 1024 * 1024
 #: Characters of one file that are complained of one by one.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -11,6 +12,8 @@ from zlmreport.errors import Place
 
 #: A key, or a place in a list, on the way to a value.
 Step: TypeAlias = str | int
+
+_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +28,11 @@ class Scalar:
     def is_nothing(self) -> bool:
         """Whether the key is there without a value."""
         return self.plain and self.text in {"", "~", "null"}
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is written as a number of YAML 1.2; infinity and NaN are none here."""
+        return self.plain and _NUMBER.fullmatch(self.text) is not None
 
 
 @dataclass(frozen=True, slots=True)

@@ -94,11 +94,6 @@ class MachineDiagnosis:
     noise_of_readings: float  #: The same of single readings, before they are thinned.
 
 
-def compute_rms_of(study: CircleStudy) -> float:
-    """Return the RMS of what a study leaves, m."""
-    return float(np.sqrt(np.mean(study.residual**2)))
-
-
 @dataclass(frozen=True, slots=True)
 class _Stage:
     """The model with some effects more, and what the contest says of it."""
@@ -153,8 +148,8 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
         steps.append(
             EffectStep(
                 leader.effect.identifier,
-                compute_rms_of(before.study),
-                compute_rms_of(after.study),
+                before.study.rms,
+                after.study.rms,
                 after.study.noise.rms,
             )
         )
@@ -298,7 +293,7 @@ def _make_candidate(study: CircleStudy, contender: Contender, probability: float
     estimates = after.list_estimates_of(contender.effect.identifier)
     return CircleCandidate(
         contender.effect, form, contender.evidence, probability, contender.p_value, estimates,
-        compute_rms_of(after), all(each.is_possible for each in estimates),
+        after.rms, all(each.is_possible for each in estimates),
     )  # fmt: skip
 
 
@@ -369,5 +364,5 @@ def _measure_explained(under: Whitened, columns: FloatArray, own: FloatArray) ->
 
 def _find_left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:
     """Return what is left beside all that is named: the residual beyond its noise."""
-    beyond = max(compute_rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
+    beyond = max(study.rms**2 - (study.noise.sigma**2), 0.0)
     return CircleRemainder(float(np.sqrt(beyond)), outcome.shape or Words("of no shape"))

@@ -8,7 +8,7 @@ from typing import Any
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, compute_rms_of
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
 from zlmreport.machines.report import collect_compared_sizes, collect_stretch
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.findings import list_absent, list_findings, say_how_told, say_verdict
@@ -122,7 +122,7 @@ def collect_remainder(diagnosis: MachineDiagnosis, language: Language) -> dict[s
     left = diagnosis.remainder
     if left is None:
         return None
-    total = compute_rms_of(diagnosis.complete)
+    total = diagnosis.complete.rms
     return {
         "rms": _MICRO * left.rms,
         "share": min(1.0, (left.rms / total) ** 2) if total else 0.0,
@@ -155,7 +155,7 @@ def collect_parameter(found: EstimatedTerm) -> dict[str, Any]:
 
 def collect_study(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
     """Return how far circles and model are apart; `noise_rms`, m, of the model that describes them."""
-    left = compute_rms_of(study)
+    left = study.rms
     return {
         "rms": _MICRO * left,
         "noise_rms": _MICRO * noise_rms,

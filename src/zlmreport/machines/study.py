@@ -223,6 +223,11 @@ class CircleStudy:
         """What is left, (N,), m."""
         return np.asarray(self.deviation - self.fitted)
 
+    @property
+    def rms(self) -> float:
+        """The root mean square of that, m."""
+        return float(np.sqrt(np.mean(self.residual**2)))
+
     def make_thinned_circle(self, index: int) -> CircularTest:
         """Return one of the tests with its readings thinned."""
         circle, design = self.design.circles[index], self.design

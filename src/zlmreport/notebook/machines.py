@@ -14,7 +14,7 @@ from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.cross_confirmation import confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
-from zlmreport.machines.diagnosis import MachineDiagnosis, compute_rms_of, diagnose as diagnosed
+from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.report import collect_prediction
@@ -133,7 +133,7 @@ class Machine:
     @property
     def rms(self) -> float:
         """Root mean square of what axes and effects leave of the circles, µm."""
-        return MICROMETRE.from_si(compute_rms_of(self.study))
+        return MICROMETRE.from_si(self.study.rms)
 
     def predict(self) -> dict[str, Any]:
         """Return what the axes predict of tests, work space and diagonals, as ``--json`` has it."""

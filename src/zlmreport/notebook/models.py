@@ -15,6 +15,7 @@ from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, lay_out_uns
 from zlmreport.document.subjects.fit import fit_sections
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.choices import EffectChoice, choose_effects_of, find_next_number
+from zlmreport.job.evaluation_keys import STATED_COVERAGE_FACTOR
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -42,7 +43,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _NAME = "fit"
-_COVERAGE_FACTOR = 2.0
 _ASKED = "What the axis does not state"
 _SIDES = {Approach.POSITIVE: "up", Approach.NEGATIVE: "down"}
 
@@ -527,7 +527,7 @@ def fit(
     4
     """
     data = readings_of(data, _NAME)
-    u = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
+    u = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / STATED_COVERAGE_FACTOR
     return _fit_model(
         data, _choose_effects(effects), Assumptions(instrument=InstrumentError(at_each_position=u))
     )

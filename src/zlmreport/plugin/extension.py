@@ -23,6 +23,7 @@ from zlmreport.files import (
     take_names,
 )
 from zlmreport.job.evaluation_keys import (
+    STATED_COVERAGE_FACTOR,
     ProgramKeys,
 )
 from zlmreport.job.extends import (
@@ -52,6 +53,7 @@ from zlmreport.plugin.extending import (
 )
 
 __all__ = [
+    "STATED_COVERAGE_FACTOR",
     "STATED_IN_THE_JOB",
     "USUAL_CONTRIBUTIONS",
     "Acts",

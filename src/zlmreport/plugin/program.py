@@ -13,6 +13,7 @@ from zlmreport.model.planning.programs import (
     ProgramOptions,
     write_axis_address as axis_address,
     write_heading as program_heading,
+    write_plain_name as plain_name,
     write_program_number as program_number,
     write_remark as reading_remark,
 )
@@ -29,6 +30,7 @@ __all__ = [
     "ProgramOptions",
     "axis_address",
     "circle_heading",
+    "plain_name",
     "program_heading",
     "program_number",
     "reading_remark",

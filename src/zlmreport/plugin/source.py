@@ -7,6 +7,7 @@ from zlmreport.measurement.axis import (
 )
 from zlmreport.measurement.collect import (
     Reading,
+    cap_problems,
     collect as collect_readings,
     is_run as is_run_number,
     say_no_run as no_run_number,
@@ -45,6 +46,7 @@ __all__ = [
     "SourceProposal",
     "TextCell",
     "TextFile",
+    "cap_problems",
     "collect_readings",
     "is_run_number",
     "known_encoding",

@@ -36,6 +36,7 @@ from zlmreport.measurement.table import (
     states_delimiter,
 )
 from zlmreport.measurement.times import (
+    ReadTime,
     find_days as days_of_readings,
     make_time_reader as time_reader,
     read_moment as moment,
@@ -49,6 +50,7 @@ __all__ = [
     "Cells",
     "EnclosureError",
     "Heading",
+    "ReadTime",
     "TableOptions",
     "TablePlace",
     "TextColumn",

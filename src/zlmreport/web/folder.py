@@ -20,6 +20,7 @@ from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.days import SOON
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.job.parse import SUFFIXES
 from zlmreport.language import Language, Words
 from zlmreport.machines.reading import read_machine
 from zlmreport.measurement.provenance import SourceFile
@@ -27,7 +28,6 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.verification.carrier import find_results_in
 from zlmreport.web.bench import PLACE, Bench, make_stamp_of
 
-_SUFFIXES = {".yaml", ".yml"}
 _SCHEMA = re.compile(r"^schema:\s*[\"']?zlmreport/(job|machine)/", re.MULTILINE)
 _MACHINE = "machine"
 #: The line that says what a file is stands among its first; comments may come before it.
@@ -112,7 +112,7 @@ def find_jobs_in(folder: Path) -> tuple[Path, ...]:
 
 def _is_job(path: Path, folder: Path) -> bool:
     hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
-    if hidden or path.suffix not in _SUFFIXES or not path.is_file():
+    if hidden or path.suffix not in SUFFIXES or not path.is_file():
         return False
     try:
         return _read_schema(path) != ""

@@ -12,7 +12,6 @@ from threading import RLock
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
-from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -140,12 +139,10 @@ def find_fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenErro
     by_axes = bench.make_study(loaded, base)
     measured = replace(by_axes, deviation=by_axes.deviation + by_axes.predicted)
     return (
-        FallenError("", compute_rms_of(measured)),
-        FallenError("", compute_rms_of(by_axes)),
+        FallenError("", measured.rms),
+        FallenError("", by_axes.rms),
         *(
-            FallenError(
-                each.identifier, compute_rms_of(bench.make_study(loaded, (*base, *further[: number + 1])))
-            )
+            FallenError(each.identifier, bench.make_study(loaded, (*base, *further[: number + 1])).rms)
             for number, each in enumerate(further)
         ),
     )

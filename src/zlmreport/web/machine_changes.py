@@ -8,7 +8,6 @@ from types import MappingProxyType
 from zlmreport.errors import InputError
 from zlmreport.files import demand
 from zlmreport.job.parse import LARGEST
-from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.editing import edit_effects, list_effects_with, list_effects_without, put_back
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -81,7 +80,7 @@ def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
 
 
 def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
-    return MICROMETRE.from_si(compute_rms_of(bench.make_study(loaded)))
+    return MICROMETRE.from_si(bench.make_study(loaded).rms)
 
 
 _ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = MappingProxyType(

@@ -14,7 +14,6 @@ from zlmreport.machines.diagnosis import (
     CircleCandidate,
     EffectStep,
     MachineDiagnosis,
-    compute_rms_of,
     diagnose,
 )
 from zlmreport.machines.planning import NextRun, plan_next_run
@@ -99,7 +98,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
         "share": candidate.probability,
         "plausible": candidate.is_plausible,
         "p": "",
-        "rmsBefore": _write_length(compute_rms_of(diagnosis.study), say),
+        "rmsBefore": _write_length(diagnosis.study.rms, say),
         "rmsAfter": _write_length(candidate.rms_after, say),
         "parameters": [collect_parameter(each, names.language) for each in candidate.estimates],
         "explains": say(effect.explains),

@@ -13,7 +13,6 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.editing import list_effects_with
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
@@ -192,7 +191,7 @@ class MachineView:
     def _list_error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
         if study is None:
             return
-        written = f"{self.say.write_micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
+        written = f"{self.say.write_micrometres(study.rms)} {MICROMETRE.symbol}"
         yield {"name": self.say(_ERROR), "value": written, "meaning": self.say(_ERROR_IS)}
 
     def _list_effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:

@@ -6,9 +6,8 @@ Long: a row is one reading of one channel. Wide: a row is one moment, and each c
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from zlmreport.plugin import FloatArray, InputError, Place, Problem, ReadingScal
 from zlmreport.plugin.source import SourceContext
 from zlmreport.plugin.table import (
     Cells,
+    ReadTime,
     TextColumn,
     TextRow,
     TextTable,
@@ -39,8 +39,6 @@ from zlmreport_plugins.sources.channels_csv.options import (
 
 #: A time of day without a date stands for a moment before.
 _ANY_YEAR = 1950
-#: Reads the time of a row, s; None if it noted why it cannot.
-ReadTime: TypeAlias = Callable[[TextRow], float | None]
 
 
 @dataclass(frozen=True, slots=True)

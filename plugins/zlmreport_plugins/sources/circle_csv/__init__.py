@@ -35,6 +35,7 @@ from zlmreport.plugin.source import (
     Reading,
     SourceContext,
     SourceProposal,
+    cap_problems,
     collect_readings,
 )
 from zlmreport.plugin.table import Cells, TextColumn, days_of_readings, folded, read_headings
@@ -132,11 +133,11 @@ class CircleCsv:
         if rows and not problems:
             problems = list(find_misread(rows, layout, table, circle, options))
         if problems or not rows:
-            raise InputError(_take_first(problems) or [Problem(table.source.place(), "holds no readings")])
+            raise InputError(cap_problems(problems) or [Problem(table.source.place(), "holds no readings")])
         turns = _collect_turns(rows, layout, circle, options)
         problems = [*_find_wrong_turns(turns)]
         if problems:
-            raise InputError(_take_first(problems))
+            raise InputError(cap_problems(problems))
         turns, follows = put_one_after_another(turns)
         readings, averaging, remarks = _choose_evaluated(turns, circle, options)
         provenance = Provenance(
@@ -201,13 +202,6 @@ def _say_asked(layout: CircleColumns) -> str:
         f"In which plane{radius} and at which feed (mm/min) was the circle run? The file does not tell; "
         "write it into 'circle' of the job."
     )
-
-
-def _take_first(problems: Sequence[Problem]) -> list[Problem]:
-    """Return the first problems; the table is long."""
-    ordered = sorted(set(problems))
-    more = ordered[20:]
-    return [*ordered[:20], *([Problem(more[0].place, f"and {len(more)} more")] if more else [])]
 
 
 def _collect_turns(

@@ -49,7 +49,6 @@ from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM
 from zlmreport_plugins.standards.iso230_1.reference_lines import (
     LineName,
     local_straightness,
-    mean_of_all_runs,
     residuals,
     slope,
     straightness,
@@ -124,7 +123,7 @@ class Iso230Part1:
 
     def _evaluate_straightness(self, statistics: PositionStatistics, options: LineOptions) -> Arithmetic:
         x, line, symbol = statistics.positions, options.reference_line, self.quantities[0].symbol
-        mean = mean_of_all_runs(statistics)
+        mean = statistics.mean_of_all_runs
         of_each = straightness(x, statistics.mean, line)
         of_runs = straightness(x, np.moveaxis(statistics.deviations, -1, -2), line)
         local = local_straightness(x, mean, line, options.window * _MILLIMETRE) if options.window else np.nan
@@ -150,7 +149,7 @@ class Iso230Part1:
         over_both = np.where(statistics.is_bidirectional, span_over_positions(both), np.nan)
         return Arithmetic(
             {
-                symbol: span_over_positions(mean_of_all_runs(statistics)),
+                symbol: span_over_positions(statistics.mean_of_all_runs),
                 f"{symbol}_fwd": of_each[..., 0],
                 f"{symbol}_bwd": of_each[..., 1],
                 f"{symbol}_both": over_both,

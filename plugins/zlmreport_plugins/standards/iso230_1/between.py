@@ -30,9 +30,11 @@ from zlmreport.plugin import (
     Positive,
     TextLine,
     Words,
+    named,
     same_in_all_languages,
 )
 from zlmreport.plugin.extension import (
+    STATED_COVERAGE_FACTOR,
     USUAL_CONTRIBUTIONS,
     Acts,
     Contribution,
@@ -52,13 +54,11 @@ from zlmreport.plugin.standard import (
 from zlmreport_plugins.standards.iso230_1.figures import LINES
 from zlmreport_plugins.standards.iso230_1.reference_lines import (
     LineName,
-    mean_of_all_runs,
     residuals,
     slope,
 )
 
 _FEWEST = 3
-_COVERAGE_FACTOR = 2.0
 #: Of the turn of one axis against the other, by the sum of both slopes.
 _SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
 #: A lean that is seen in a sketch, of its height.
@@ -102,7 +102,7 @@ def compute_values(
 
 
 def _compute_slope(statistics: PositionStatistics, line: LineName) -> FloatArray:
-    mean = mean_of_all_runs(statistics)
+    mean = statistics.mean_of_all_runs
     several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
     return np.where(several, slope(statistics.positions, mean, line), np.nan)
 
@@ -120,11 +120,11 @@ def list_contributions(
         name: [
             Contribution(
                 name=USUAL_CONTRIBUTIONS["square"],
-                standard_uncertainty=expanded / _COVERAGE_FACTOR * length,
+                standard_uncertainty=expanded / STATED_COVERAGE_FACTOR * length,
                 acts=Acts.ALONG_THE_LENGTH,
                 distribution=Distribution.NORMAL,
                 stated=expanded_uncertainty_in_words(
-                    square.expanded_uncertainty, ARCSECOND.symbol, _COVERAGE_FACTOR
+                    square.expanded_uncertainty, ARCSECOND.symbol, STATED_COVERAGE_FACTOR
                 ),
                 source=calibration_in_words(square.certificate),
                 contributor="square",
@@ -231,11 +231,11 @@ def _make_panel(
     name: str, measurements: MeasurementSet, statistics: PositionStatistics, line: LineName
 ) -> Panel:
     axis, x = measurements.axis, measurements.target_positions
-    mean = mean_of_all_runs(statistics)
+    mean = statistics.mean_of_all_runs
     shown = axis.position_unit.from_si(x)
     about = residuals(x, mean, line)
     return Panel(
-        heading=_HEADING.given(name=name, error=axis.error or axis.name),
+        heading=named(name, axis.error or axis.name),
         curves=tuple(
             Curve(notation, role, shown, axis.deviation_unit.from_si(each))
             for notation, role, each in (
@@ -323,7 +323,6 @@ _OF_THE_LINES = Words(
 )
 _POSITION = Words("Target position")
 _DEVIATION = Words("Deviation")
-_HEADING = Words("{name}: {error}")
 _LINES = Words("{symbol}: mean deviations of both lines with the {line}")
 _SEEN = Words(
     "Two graphs of deviation over position: {lines}. Slopes of the reference lines: {first} and {second}."

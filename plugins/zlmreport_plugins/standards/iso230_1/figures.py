@@ -24,7 +24,6 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_plugins.standards.iso230_1.reference_lines import (
     LineName,
-    mean_of_all_runs,
     residuals,
 )
 
@@ -49,7 +48,7 @@ def draw_straightness(
     """Yield the deviations about the line, the readings with it, and each direction about its own line."""
     symbol, diagram = quantities[0], Diagram(evaluation)
     x, statistics = evaluation.measurements.target_positions, evaluation.statistics
-    mean = mean_of_all_runs(statistics)
+    mean = statistics.mean_of_all_runs
     about = residuals(x, mean, line)
     taken_off = mean - about
     directions = [
@@ -83,7 +82,7 @@ def draw_straightness(
 def draw_angles(evaluation: Evaluation, quantities: Sequence[Quantity]) -> Iterator[Figure]:
     """Yield the angles over position, with the spans of the mean and of each direction."""
     diagram, statistics = Diagram(evaluation), evaluation.statistics
-    symbol, mean = quantities[0], mean_of_all_runs(statistics)
+    symbol, mean = quantities[0], statistics.mean_of_all_runs
     curves: list[Curve | None] = [
         diagram.curve(f"x̄_{{i}}{each.arrow}", MEAN_ROLES[each], statistics.mean[each.index])
         for each in Approach
@@ -125,7 +124,7 @@ def _make_figure(
     axis, evaluation = diagram.axis, diagram.evaluation
     alternative = alternative_text(
         graph_in_words(evaluation),
-        range_in_words(axis, _MEAN, mean_of_all_runs(evaluation.statistics)),
+        range_in_words(axis, _MEAN, evaluation.statistics.mean_of_all_runs),
         marks_in_words(axis, [mark for each in panels for mark in each.brackets]),
     )
     titled = title.given(axis=axis.name, symbol=symbol.symbol)

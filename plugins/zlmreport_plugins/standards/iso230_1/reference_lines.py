@@ -15,7 +15,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from zlmreport.plugin import BoolArray, FloatArray
-from zlmreport.plugin.standard import PositionStatistics, span_over_positions
+from zlmreport.plugin.standard import span_over_positions
 
 #: How the reference line is laid.
 LineName: TypeAlias = Literal["least-squares", "end-points", "minimum-zone"]
@@ -23,11 +23,6 @@ LineName: TypeAlias = Literal["least-squares", "end-points", "minimum-zone"]
 _TOO_FEW = 2
 #: Of a value of the zone's width that went through a few operations, relative to the readings.
 _ROUNDING = 1e-13
-
-
-def mean_of_all_runs(statistics: PositionStatistics) -> FloatArray:
-    """Return the mean of both directions, or that of the only one that was measured, (..., position)."""
-    return statistics.of_both_or_single(statistics.mean_bidirectional, statistics.mean)
 
 
 def slope(x: FloatArray, y: FloatArray, line: LineName) -> FloatArray:

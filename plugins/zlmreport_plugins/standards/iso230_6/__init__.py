@@ -189,7 +189,7 @@ def _compute_elongation(line: PositionStatistics) -> FloatArray:
     """
     if len(line.positions) < _ENDS:
         return np.full(line.mean.shape[:-2], np.nan)
-    mean = line.of_both_or_single(line.mean_bidirectional, line.mean)
+    mean = line.mean_of_all_runs
     return np.asarray((mean[..., -1] - mean[..., 0]) / (line.positions[-1] - line.positions[0]))
 
 

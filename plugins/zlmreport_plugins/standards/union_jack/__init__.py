@@ -27,6 +27,7 @@ from zlmreport.plugin import (
     hookimpl,
 )
 from zlmreport.plugin.extension import (
+    STATED_COVERAGE_FACTOR,
     USUAL_CONTRIBUTIONS,
     Contribution,
     Distribution,
@@ -71,7 +72,6 @@ from zlmreport_plugins.union_jack_lines import (
 #: Of the length that a diagonal has by the edges.
 _FITS = 0.1
 _FEWEST = 4
-_COVERAGE_FACTOR = 2.0
 
 
 class CarriageKeys(JobPart):
@@ -148,7 +148,7 @@ class UnionJack:
         stated = options.carriage.expanded_uncertainty
         if stated is None:
             return {}
-        said = expanded_uncertainty_in_words(stated, MILLIMETRE.symbol, _COVERAGE_FACTOR)
+        said = expanded_uncertainty_in_words(stated, MILLIMETRE.symbol, STATED_COVERAGE_FACTOR)
         source = calibration_in_words(options.carriage.certificate)
         expanded = MILLIMETRE.to_si(stated)
         return {
@@ -159,7 +159,7 @@ class UnionJack:
                     stated=said,
                     source=source,
                     contributor=_FEET,
-                    **of_the_reading(expanded / _COVERAGE_FACTOR / _find_foot(line), line, _FEET),
+                    **of_the_reading(expanded / STATED_COVERAGE_FACTOR / _find_foot(line), line, _FEET),
                 )
             ]
             for name, line in measurements.tests.items()

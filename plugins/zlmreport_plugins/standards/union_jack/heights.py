@@ -125,7 +125,7 @@ def find_plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
 
 def _sum_profile(statistics: PositionStatistics, *, backwards: bool) -> Profile:
     """Return the heights along a line as its slopes add up; backwards: of one measured the other way."""
-    slopes = statistics.of_both_or_single(statistics.mean_bidirectional, statistics.mean)
+    slopes = statistics.mean_of_all_runs
     feet = statistics.positions
     risen = np.cumsum(slopes * np.diff(feet, prepend=0.0), axis=-1)
     heights = np.concatenate([np.zeros((*risen.shape[:-1], 1)), risen], axis=-1)

@@ -146,7 +146,7 @@ class VdiGuideline:
 
 def mean_deviation(statistics: PositionStatistics) -> FloatArray:
     """x̄_j = (x̄_j↑ + x̄_j↓)/2, shape (..., position)."""
-    return statistics.of_both_or_single(statistics.mean_bidirectional, statistics.mean)
+    return statistics.mean_of_all_runs
 
 
 def position_spread(statistics: PositionStatistics, k: int) -> FloatArray:

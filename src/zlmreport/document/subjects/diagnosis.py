@@ -77,7 +77,7 @@ _FORMULA = Words("Formula to try")
 _LOOK = Words("Look at {at}. Measure {measure}.")
 _IMPROBABLE = Words("Hardly missing")
 _SENTENCES = ColumnKind.SENTENCES
-_MARKS = {
+MARKS = {
     Verdict.ADEQUATE: Mark.MET,
     Verdict.MISSING: Mark.OPEN,
     Verdict.UNEXPLAINED: Mark.NOT_MET,
@@ -202,7 +202,7 @@ def lay_out_diagnosis(
     excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
     leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
     sections = (
-        section("verdict", VERDICT, Paragraph(rows.statement, _MARKS[diagnosis.verdict]), rows.error),
+        section("verdict", VERDICT, Paragraph(rows.statement, MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
         section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
         section("model", EFFECTS, lay_out_parameters(fit, language) if fit.model.terms else None),

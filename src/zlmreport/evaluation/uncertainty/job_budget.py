@@ -34,7 +34,7 @@ from zlmreport.evaluation.uncertainty.set_up import (
     list_demanded,
     name_contributors_of_length,
 )
-from zlmreport.job.evaluation_keys import ContributionKeys
+from zlmreport.job.evaluation_keys import STATED_COVERAGE_FACTOR, ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -48,8 +48,6 @@ from zlmreport.measurement.units import (
     say_with_unit,
 )
 
-#: Of the uncertainties that a job states as expanded.
-_COVERAGE_FACTOR = 2.0
 _OF_THE_READING = Unit("%", "%", 100.0)
 
 
@@ -96,7 +94,9 @@ def make_budget_of(
         tuple(each for acts in Acts for each in contributions if each.acts is acts),
         missing,
         negligible,
-        _COVERAGE_FACTOR * math.fsum(each.standard_uncertainty for each in instrument) if usual else 0.0,
+        STATED_COVERAGE_FACTOR * math.fsum(each.standard_uncertainty for each in instrument)
+        if usual
+        else 0.0,
         _find_capability(job, set_up),
         expansion,
         in_readings,
@@ -136,19 +136,19 @@ def _list_device_contributions(
             unit.to_si(constant),
             wording.DEVICE,
             Acts(stated_acts) if stated_acts else set_up.acts_of_device,
-            wording.say_expanded_uncertainty(constant, unit.symbol, _COVERAGE_FACTOR),
+            wording.say_expanded_uncertainty(constant, unit.symbol, STATED_COVERAGE_FACTOR),
         ),
         (
             unit.to_si(per_metre) * set_up.length,
             wording.DEVICE_ALONG,
             set_up.acts_of_length,
-            wording.say_expanded_uncertainty(per_metre, f"{unit.symbol}/m · L", _COVERAGE_FACTOR),
+            wording.say_expanded_uncertainty(per_metre, f"{unit.symbol}/m · L", STATED_COVERAGE_FACTOR),
         ),
     ):
         if expanded:
             yield Contribution(
                 name=name,
-                standard_uncertainty=expanded / _COVERAGE_FACTOR,
+                standard_uncertainty=expanded / STATED_COVERAGE_FACTOR,
                 acts=acts,
                 distribution=Distribution.NORMAL,
                 stated=stated,
@@ -314,8 +314,8 @@ def _make_other_contribution(keys: ContributionKeys, measurements: MeasurementSe
         standard_uncertainty = keys.standard_uncertainty
     else:
         expanded = keys.expanded_uncertainty or 0.0
-        stated = wording.say_expanded_uncertainty(expanded, unit.symbol, _COVERAGE_FACTOR)
-        standard_uncertainty = expanded / _COVERAGE_FACTOR
+        stated = wording.say_expanded_uncertainty(expanded, unit.symbol, STATED_COVERAGE_FACTOR)
+        standard_uncertainty = expanded / STATED_COVERAGE_FACTOR
     if not standard_uncertainty:
         return
     size = float(unit.to_si(standard_uncertainty))

@@ -6,9 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, NoBudget
-from zlmreport.language import Words
-
-_OF_A_LINE = Words("{name}: {reason}")
+from zlmreport.language import named
 
 
 def join_budgets(
@@ -39,8 +37,7 @@ def join_budgets(
     missing = (*lacking, *(each for each in demanded if each not in considered))
     for name, of in budgets.items():
         if isinstance(of, NoBudget):
-            reason = _OF_A_LINE.given(name=name, reason=of.reason)
-            return NoBudget(reason, missing, tuple(declared.items()), longer)
+            return NoBudget(named(name, of.reason), missing, tuple(declared.items()), longer)
         own = (*of.contributions, *(each for test, found in more if test == name for each in found))
         ordered = tuple(each for acts in Acts for each in own if each.acts is acts)
         tests[name] = replace(of, contributions=ordered)

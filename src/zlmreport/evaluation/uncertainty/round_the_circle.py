@@ -15,6 +15,7 @@ import numpy as np
 
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, from_range
+from zlmreport.job.evaluation_keys import STATED_COVERAGE_FACTOR
 from zlmreport.job.job import Job
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.circle import NominalCircle
@@ -25,7 +26,6 @@ from zlmreport.measurement.units import MICROMETRE
 _HARMONICS: Mapping[Acts, tuple[int, ...]] = MappingProxyType(
     {Acts.ROUND_THE_CIRCLE: (2, 3, 4), Acts.OFF_CENTRE: (1,)}
 )
-_COVERAGE_FACTOR = 2.0
 #: What a job must state of a circle whose radius counts.
 OF_A_RADIUS = (
     "calibrated_length",
@@ -66,11 +66,11 @@ def list_circle_contributions(
     if circle.is_calibrated and keys.calibrated_length:
         yield Contribution(
             name=wording.USUAL["calibrated_length"],
-            standard_uncertainty=MICROMETRE.to_si(keys.calibrated_length) / _COVERAGE_FACTOR,
+            standard_uncertainty=MICROMETRE.to_si(keys.calibrated_length) / STATED_COVERAGE_FACTOR,
             acts=Acts.AT_THE_DATUM,
             distribution=Distribution.NORMAL,
             stated=wording.say_expanded_uncertainty(
-                keys.calibrated_length, MICROMETRE.symbol, _COVERAGE_FACTOR
+                keys.calibrated_length, MICROMETRE.symbol, STATED_COVERAGE_FACTOR
             ),
             source=wording.say_calibration(job.keys.instrument.certificate if job.keys.instrument else None),
             contributor="calibrated_length",

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from zlmreport.language import Language, Said, Words
+from zlmreport.language import Language, Said, Words, named
 from zlmreport.language.formatting import MINUS, write_fixed_number, write_general_number
 from zlmreport.live.capture.events import (
     BeamHeld,
@@ -96,7 +96,6 @@ _STANDS_STILL = Words(
 )
 _NO_TARGET = Words("no target at {position}, where it stands; is the datum right?")
 _MISREAD = Words("{position} is no target, {why}")
-_IN_DOUBT = Words("{visit}: {why}")
 _MAY_BE = Words("target {target} {arrow}: {candidates}")
 _TAKEN_AS_LIKELY = Words("{visit}: {share} % sure, and taken for it")
 _NO_VISIT = Words("no visit")
@@ -294,7 +293,7 @@ def _tell_asked_and_told(event: Event, writer: AxisWriter) -> CaptureLine | None
     match event:
         case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
             why = _say_departure(event.position - expected, writer)
-            line = _tell_line(_DOUBT, _IN_DOUBT.given(visit=writer.name_visit(visit), why=why), writer)
+            line = _tell_line(_DOUBT, named(writer.name_visit(visit), why), writer)
         case Unclear(target=target, approach=approach):
             said = _MAY_BE.given(
                 target=target, arrow=approach.arrow, candidates=write_candidates(event, writer)

@@ -5,11 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.planning.methods import Method, list_visits, plan_path
+from zlmreport.model.planning.methods import RUN_BY_RUN, list_visits, plan_path
 from zlmreport.model.planning.plan import Plan
-
-#: Methods that go over the whole axis in each run: there a run with a datum of its own adds scatter only.
-_RUN_BY_RUN = frozenset({Method.LINEAR, Method.UNIDIRECTIONAL})
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +34,7 @@ def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
             position=float(plan.targets[visit.target]),
             approach=visit.approach,
             run=visit.run,
-            part=visit.run if plan.method in _RUN_BY_RUN else 1,
+            part=visit.run if plan.method in RUN_BY_RUN else 1,
             travelled=visit.travelled,
         )
         for number, visit in enumerate(list_visits(stops), start=1)

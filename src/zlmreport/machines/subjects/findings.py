@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.document.blocks import Block, Cell, Column, Mark, Notice, Paragraph, Section, Table
+from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Table
+from zlmreport.document.subjects.diagnosis import CANDIDATES, MARKS, VERDICT
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
@@ -20,7 +21,6 @@ from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.effects.circle_effect import CircleEffect
 
-_MARKS = {Verdict.ADEQUATE: Mark.MET, Verdict.MISSING: Mark.OPEN, Verdict.UNEXPLAINED: Mark.NOT_MET}
 _MOST_CANDIDATES = 5
 
 
@@ -123,9 +123,9 @@ def list_findings(study: CircleStudy) -> list[Words]:
 
 def lay_out_verdict(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
     """Return the verdict, and what was found, in sentences."""
-    blocks: list[Block] = [Paragraph(say(say_verdict(diagnosis)), _MARKS[diagnosis.verdict])]
+    blocks: list[Block] = [Paragraph(say(say_verdict(diagnosis)), MARKS[diagnosis.verdict])]
     blocks += [Paragraph(_write_sentence(say(each))) for each in list_findings(diagnosis.complete)]
-    return Section("verdict", say(_VERDICT), tuple(blocks))
+    return Section("verdict", say(VERDICT), tuple(blocks))
 
 
 def lay_out_absence(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
@@ -172,12 +172,12 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
         make_right_column(say(_RMS_AFTER), "µm"),
         Column(""),
     )
-    blocks: list[Block] = [make_plain_table(say(_CANDIDATES), columns, rows)]
+    blocks: list[Block] = [make_plain_table(say(CANDIDATES), columns, rows)]
     first = diagnosis.candidates[0]
     blocks.append(lay_out_parameters(first.estimates, say))
     if first.indistinguishable_from:
         blocks.append(Paragraph(say(_TELL_APART.given(how=say_how_told(first, diagnosis)))))
-    return Section("candidates", say(_CANDIDATES), tuple(blocks))
+    return Section("candidates", say(CANDIDATES), tuple(blocks))
 
 
 def lay_out_model(study: CircleStudy, say: Sayer) -> Section:
@@ -224,16 +224,11 @@ def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
 def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
     """Return the error before and after a change of the model."""
     sizes = [
-        write_significant(MICROMETRE.from_si(each), 2)
-        for each in (_compute_rms(before), _compute_rms(after), after.noise.rms)
+        write_significant(MICROMETRE.from_si(each), 2) for each in (before.rms, after.rms, after.noise.rms)
     ]
     names = ", ".join(after.names) or say(_NONE)
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
-
-
-def _compute_rms(study: CircleStudy) -> float:
-    return float(np.sqrt(np.mean(study.residual**2)))
 
 
 def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
@@ -273,7 +268,6 @@ _NEXT_LOOK = Words(
     "Next: repeat the run. If it comes again, look at the machine where the residual stands out: no "
     "effect of the catalogue has its shape."
 )
-_VERDICT = Words("Verdict")
 _ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
 _MISSING = Words("Missing: {effects}.")
 _TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.")
@@ -287,7 +281,6 @@ _FEED = Words("run the circle at a quarter or at four times the feed, too")
 _RADIUS = Words("run the circle with a bar of another length, too")
 _REPEAT = Words("repeat the run, at another feed and another radius")
 _NOT_FOUND = Words("Looked for and, beside all that, not found")
-_CANDIDATES = Words("What may be missing")
 _EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
 _EVIDENCE, _RMS_AFTER = Words("evidence"), Words("RMS after", context="machine")
 _IMPOSSIBLE = Words("impossible values")

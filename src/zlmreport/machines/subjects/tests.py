@@ -129,7 +129,7 @@ def make_failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | N
 
 def _say_of_test(found: ComparedTest, stretch: Stretch, *, is_one: bool) -> Words:
     said = describe_stretch(stretch, is_circle=isinstance(found.test, CircularTest))
-    return said if is_one else _NAMED.given(test=found.name, said=said)
+    return said if is_one else named(found.name, said)
 
 
 def describe_stretch(stretch: Stretch, *, is_circle: bool) -> Words:
@@ -257,7 +257,6 @@ _OUTSIDE = Words(
     "is extrapolated"
 )
 _FAILS = Words("Where it differs from the prediction")
-_NAMED = Words("{test}: {said}")
 _SENSES = {
     1: Words("counter-clockwise", context="adverb"),
     -1: Words("clockwise", context="adverb"),

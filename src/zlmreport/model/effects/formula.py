@@ -12,7 +12,7 @@ from zlmreport.job.formula import Call, Number, Tree, compute, find_calls_in, fi
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys, FormulaParameter, Search
 from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, find_kinds_of
 from zlmreport.job.types import Options
-from zlmreport.language import Words, same
+from zlmreport.language import Words, named, same
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import STATE_OF_AIR
@@ -58,7 +58,6 @@ _KNOWN = {
     "derived": Words("derived by algebra"),
     "experience": Words("engineering experience; no standard states it"),
 }
-_FROM = Words("{known}: {source}")
 #: Of a value that the job states, the harmonics by which another is no other.
 _HARMONICS, _SAME = np.arange(1, 5), 1e-3
 
@@ -366,7 +365,7 @@ def _say_source(keys: FormulaKeys) -> Words | None:
     if keys.look is None and keys.source is None:
         return None
     known = _KNOWN[keys.known]
-    return known if keys.source is None else _FROM.given(known=known, source=keys.source)
+    return known if keys.source is None else named(known, keys.source)
 
 
 def _drop_harmonics(values: FloatArray, stated: float, *, is_count: bool) -> FloatArray:

@@ -27,7 +27,7 @@ _TARGETS_A_LINE = 5
 _LONGEST_NAME = 32
 #: Addresses of most controls.
 _ONE_LETTER = re.compile("[XYZABCUVW]")
-#: What no control takes for the end of a remark, for an address, or for a word of its own.
+#: What nobody takes for the end of a remark or of a text, for an address, or for a word of its own.
 _NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 _SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
@@ -333,5 +333,9 @@ def write_program_number(value: float) -> str:
 
 
 def write_plain_name(text: str) -> str:
-    """Return a user's name as every control takes it in a remark."""
+    """Return a user's name as every control and probing language takes it: short, ASCII, unquoted.
+
+    >>> write_plain_name("CAL-2026's")
+    'CAL-2026_s'
+    """
     return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]
