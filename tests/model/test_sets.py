@@ -162,7 +162,7 @@ def test_a_bow_that_comes_with_the_warmth_is_one_thing_without_a_name() -> None:
     # A growth, a drift and a curve along the axis would share it.
     place = (DESIGN.position - DESIGN.span[0]) / DESIGN.length
     warmth = -np.expm1(-(DESIGN.time - DESIGN.time.min()) / (0.5 * DESIGN.duration))
-    bow = 6 * SIGMA * warmth * np.exp(-0.5 * ((place - 0.4) / 0.25) ** 2)
+    bow = 9 * SIGMA * warmth * np.exp(-0.5 * ((place - 0.4) / 0.25) ** 2)
     search = SetSearch(_contest(_hiding(("backlash", [])) + bow))
     found = search.find_best()
     assert _names(found) == {"backlash"}

@@ -263,10 +263,14 @@ class Formula:
             raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
 
     def _refuse_zeros(self, free: list[str]) -> None:
-        """Refuse a range that begins or ends at 0 where the formula divides by the parameter."""
+        """Refuse a range that begins or ends at 0 where the formula divides by the parameter.
+
+        Where it is told what is searched, the values that are tried follow from the test: none of them is 0.
+        """
         for name in free:
-            ends = self.keys.parameters[name].range
-            if ends and 0.0 in ends:
+            parameter = self.keys.parameters[name]
+            is_told = parameter.search or parameter.stated or parameter.values
+            if not is_told and parameter.range and 0.0 in parameter.range:
                 theta = {each: self._find_middle(each) for each in self.searched} | {name: 0.0}
                 tried = (
                     self.compute_values(self._make_readings(theta, *positions), theta)

@@ -123,8 +123,10 @@ class SetSearch:
         """
         if self.has_nameless(best):
             begun = [(named, self._names, PROMISING)]
-            if any(self.contest.parts[number].irregular is not None for number in self._list_loud(best)):
-                best = self._begin_without_irregular(best)
+            parts = [self.contest.parts[number] for number in self._list_loud(best)]
+            is_irregular = any(part.irregular is not None for part in parts)
+            best = self._begin_anew(best, [self._forms, *([self._regular] if is_irregular else [])])
+            if is_irregular:
                 regular = self._climb(self._begin(best.members, self._regular), self._regular)
                 begun.append((regular, self._regular, _NEAR))
             for each, scope, within in begun:
@@ -133,13 +135,14 @@ class SetSearch:
                     best = min(best, self._climb(end, self._whole), key=find_score)
         return self._do_without_each(best, self._whole)
 
-    def _begin_without_irregular(self, best: EffectSet) -> EffectSet:
-        """Return the best of a set and of where climbs lead that begin with nothing irregular, from nothing.
+    def _begin_anew(self, best: EffectSet, scopes: Sequence[Scope]) -> EffectSet:
+        """Return the best of a set and of where climbs lead that begin with nothing.
 
-        What is irregular takes in every wave and every step at once: where several are there, none gains by
-        itself what it costs. Beside curves that are smooth, or forms alone, each does.
+        `scopes`: What is thought of at first. Beside forms alone what curves are short of shows itself. And
+        what is irregular takes in every wave and every step at once: where several are there, none gains by
+        itself what it costs; beside curves that are smooth, each does.
         """
-        for scope in (self._regular, self._forms):
+        for scope in scopes:
             end = self._climb(self._begin((), scope), scope, is_thorough=True)
             best = min(best, self._climb(self._release(end), self._whole), key=find_score)
         return best
