@@ -125,7 +125,10 @@ class SetSearch:
             begun = [(named, self._names, PROMISING)]
             parts = [self.contest.parts[number] for number in self._list_loud(best)]
             is_irregular = any(part.irregular is not None for part in parts)
-            best = self._begin_anew(best, [self._forms, *([self._regular] if is_irregular else [])])
+            if is_irregular:
+                best = self._begin_anew(best, (self._regular, self._forms))
+            elif any(part.course.along is Along.TIME for part in parts):
+                best = self._begin_anew(best, (self._forms,))
             if is_irregular:
                 regular = self._climb(self._begin(best.members, self._regular), self._regular)
                 begun.append((regular, self._regular, _NEAR))
@@ -138,9 +141,9 @@ class SetSearch:
     def _begin_anew(self, best: EffectSet, scopes: Sequence[Scope]) -> EffectSet:
         """Return the best of a set and of where climbs lead that begin with nothing.
 
-        `scopes`: What is thought of at first. Beside forms alone what curves are short of shows itself. And
-        what is irregular takes in every wave and every step at once: where several are there, none gains by
-        itself what it costs; beside curves that are smooth, each does.
+        `scopes`: What is thought of at first. What is irregular takes in every wave and every step at once:
+        where several are there, none gains by itself what it costs; beside curves that are smooth, or forms
+        alone, each does. And where two curves in time cancel each other, a form says when it happens.
         """
         for scope in scopes:
             end = self._climb(self._begin((), scope), scope, is_thorough=True)
