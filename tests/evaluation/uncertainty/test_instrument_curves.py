@@ -109,3 +109,7 @@ def test_waves_have_the_stated_size_at_each_position_whatever_their_number() -> 
         drawn = sample_waves(form, np.linspace(0, 1, 7), 40_000, np.random.default_rng(3))
         assert np.sqrt(np.mean(drawn**2, axis=0)) == pytest.approx(np.ones(7), rel=0.02)
         assert np.abs(drawn).max() <= math.sqrt(2)
+
+
+def test_an_error_of_each_position_has_no_half_waves_in_any_version_of_python() -> None:
+    assert [form.half_waves for form in CurveForm] == [(), (1,), (2, 4)]

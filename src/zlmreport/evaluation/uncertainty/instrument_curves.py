@@ -19,11 +19,17 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 
 
 class CurveForm(Enum):
-    """How an instrument errs of which only the size is known: the half waves that it may have on a line."""
+    """How an instrument errs of which only the size is known."""
 
-    AT_EACH_POSITION = ()  #: None: each position has an error of its own.
-    BEND = (1,)
-    WAVES = (2, 4)
+    AT_EACH_POSITION = "at each position"
+    BEND = "bend"
+    WAVES = "waves"
+
+    @property
+    def half_waves(self) -> tuple[int, ...]:
+        """The half waves that it may have on a line; none where each position has an error of its own."""
+        # Not the values themselves: Python 3.11 up to 3.11.2 makes an object of a value that is ().
+        return {CurveForm.BEND: (1,), CurveForm.WAVES: (2, 4)}.get(self, ())
 
 
 def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[CurveForm, ...]:
@@ -55,6 +61,6 @@ def sample_waves(
 
     `shares`: Of the length, at each position. Each number of half waves that a form has is as likely.
     """
-    half_waves = generator.choice(form.value, (count, 1))
+    half_waves = generator.choice(form.half_waves, (count, 1))
     phases = 2 * np.pi * generator.random((count, 1))
     return np.asarray(math.sqrt(2.0) * np.sin(np.pi * half_waves * shares + phases))

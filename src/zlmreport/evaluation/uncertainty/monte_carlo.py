@@ -377,7 +377,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         count = min(at_once, trials - first)
         errors = along[first : first + count, np.newaxis] * effect
         at_positions = budget.acting(Acts.AT_EACH_POSITION)
-        formed = [each for each in at_positions if ways.form.value and is_of_the_instrument(each)]
+        formed = [each for each in at_positions if ways.form.half_waves and is_of_the_instrument(each)]
         own_of_positions = [each for each in at_positions if each not in formed]
         errors += sample_singly(own_of_positions, errors.shape, generator)
         for each in formed:
