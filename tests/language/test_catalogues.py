@@ -84,9 +84,12 @@ def test_a_translation_has_no_place_that_the_phrase_has_not(language: Language) 
 def test_a_run_reads_what_translators_wrote(language: Language) -> None:
     with (tool().folder_of(language) / "zlmreport.mo").open("rb") as file:
         compiled = GNUTranslations(file)
-    for context, (phrase, *_), (text, *_) in messages(language):
-        found = compiled.pgettext(context, phrase) if context else compiled.gettext(phrase)
-        assert found == text, "python docs/generate/translations.py"
+    for context, phrases, texts in messages(language):
+        if len(phrases) == 1:
+            found = compiled.pgettext(context, *phrases) if context else compiled.gettext(*phrases)
+        else:  # asked as the program asks: to the singular alone Python 3.11.2 has no answer
+            found = compiled.npgettext(context, *phrases, 1) if context else compiled.ngettext(*phrases, 1)
+        assert found == texts[0], "python docs/generate/translations.py"
 
 
 def test_a_plugin_may_bring_its_own_translation() -> None:

@@ -203,6 +203,14 @@ def test_what_linuxcnc_holds_is_squareness_alone_and_its_sign_needs_no_trial(tmp
     assert "the sign of linuxcnc is known; no trial is needed" in capsys.readouterr().err
 
 
+def test_what_a_straight_line_leaves_by_rounding_is_worth_no_table():
+    rounded = AxisErrorCurve(
+        "EXY", NODES[:2], np.array([0.0, 4e-22]), np.eye(2) * 1e-22, ErrorLine({}), "test"
+    )
+    plan = plan_tables(bare_machine([rounded, curve("EYX", BOW)]), PLACE)
+    assert (plan.taken, plan.within_uncertainty) == (("EYX",), ("EXY",))
+
+
 def test_a_table_ends_where_its_own_axis_was_measured(tmp_path, capsys):
     path = tmp_path / "machine.yaml"
     apart = "  - {EXX: {600: 0, 900: 2}, expanded_uncertainty: 0.5}\n"

@@ -62,7 +62,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     small: list[str] = []
     for moving, off in permutations(AXES, 2):
         known = [each for each in machine.curves if _is_acting_across(each.name, moving, off)]
-        worth = [each for each in known if each.span > each.largest_uncertainty]
+        worth = [each for each in known if each.span > each.largest_uncertainty + _NOTHING]
         small += [each.name for each in known if each not in worth]
         if worth:
             taken += [each.name for each in worth]
