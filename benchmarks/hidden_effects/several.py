@@ -44,7 +44,7 @@ from zlmreport.model.simulation.simulate import make_design_of
 
 _SIGMAS = (0.05, 0.3, 0.8, 3.0)  # µm; on a rotary axis as many µm at a radius of one metre
 _SIZES = (1.5, 4.0)  # in σ
-_CAUSES, _RUNS = (2, 3, 4), (3, 5)
+_CAUSES, _RUNS, _TARGETS = (2, 3, 4), (3, 5), 21
 _ROTARY_SHARE = 0.2
 _SEED = 20_261_126
 #: The constant is in the model, and a cosine error is a scale error.
@@ -140,13 +140,19 @@ def _is_seen(deviation: FloatArray, along: FloatArray, sigma: float) -> bool:
     return squares > 0.0 and float(lever @ deviation) ** 2 > _SEEN * sigma**2 * squares
 
 
-def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
-    """Return an axis; the same number gives the same."""
+def drawn_axis(number: int, *, with_stranger: bool, targets: int = _TARGETS) -> Drawn:
+    """Return an axis; the same number gives the same.
+
+    `targets`: How many; others than as a rule lie anywhere, as a pitch has no room for many.
+    """
     random = np.random.default_rng([_SEED, number, with_stranger])
     is_rotary = random.random() < _ROTARY_SHARE
     method = (Method.LINEAR, Method.PENDULUM)[int(random.integers(2))]
     draw = drawn_rotary_test if is_rotary else drawn_linear_test
-    description = draw(random, method, 21, int(random.choice(_RUNS)))
+    description = draw(random, method, _TARGETS, int(random.choice(_RUNS)))
+    if targets != _TARGETS:
+        anywhere = np.sort(random.uniform(*description.axis.travel, targets))
+        description = replace(description, plan=replace(description.plan, targets=anywhere))
     sigma = float(MICROMETRE.to_si(_SIGMAS[number % len(_SIGMAS)]))
     description = replace(description, noise=SimulatedNoise(reading=sigma))
     design = wandering(make_design_of(description), random)
@@ -330,6 +336,8 @@ def main(arguments: Sequence[str]) -> None:
     parser.add_argument("--axes", type=int, default=40, help="how many (%(default)s)")
     parser.add_argument("--first", type=int, default=1000, help="number of the first (%(default)s)")
     parser.add_argument("--stranger", action="store_true", help="with a shape outside the catalogue beside")
+    parser.add_argument("--targets", type=int, default=_TARGETS, help="of each test (%(default)s)")
     asked = parser.parse_args(arguments)
     numbers = range(asked.first, asked.first + asked.axes)
-    print(report([followed(drawn_axis(each, with_stranger=asked.stranger)) for each in numbers]))
+    drawn = (drawn_axis(each, with_stranger=asked.stranger, targets=asked.targets) for each in numbers)
+    print(report([followed(each) for each in drawn]))

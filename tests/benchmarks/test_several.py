@@ -52,6 +52,12 @@ def test_an_axis_has_two_to_four_causes_of_the_size_that_is_stated() -> None:
         assert np.std(drawn.observed.deviation) > 1.2 * drawn.sigma
 
 
+def test_a_test_may_have_more_targets_than_the_pitch_has_room_for() -> None:
+    drawn = drawn_axis(1, with_stranger=False, targets=101)
+    assert len(drawn.observed.design.target_positions) == 101
+    assert drawn.causes == _draw_alone().causes
+
+
 @pytest.mark.long
 def test_many_names_that_one_curve_replaces_are_not_told() -> None:
     drawn = drawn_axis(9022, with_stranger=True)  # a smooth curve along the axis, and three causes

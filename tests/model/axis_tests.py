@@ -36,9 +36,14 @@ AXIS = Axis(
 )
 
 
-def linear_test(targets: int = 21, runs: int = 5, *, seed: int = 1, axis: Axis = AXIS) -> Design:
-    """Return a test by the linear method, with logs, on targets at random fractions of the pitch."""
-    places = _places(targets, seed)
+def linear_test(
+    targets: int = 21, runs: int = 5, *, seed: int = 1, axis: Axis = AXIS, places: FloatArray | None = None
+) -> Design:
+    """Return a test by the linear method, with logs, on targets at random fractions of the pitch.
+
+    `places`: Those of the targets, m, if they are others.
+    """
+    places = _places(targets, seed) if places is None else places
     visits = [
         (target, direction, run)
         for run in range(1, runs + 1)

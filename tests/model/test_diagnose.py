@@ -147,6 +147,19 @@ def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -
     assert quiet.remainder is None
 
 
+@pytest.mark.parametrize("size", [1.5, 4.0])
+def test_a_wave_in_time_has_its_name_also_where_its_period_had_to_be_searched_for(size: float) -> None:
+    short = linear_test(21, 3)
+    short = replace(short, time=short.time * 0.273)
+    model = model_of("offset")
+    causes = {"time-periodic": [61.0], "backlash-bow": []}
+    parts = [hidden(short, name, theta, size=size, model=model) for name, theta in causes.items()]
+    readings = np.sum(parts, axis=0) + 5e-6 * (short.time > 400.0) + noise(short)
+    found = diagnose(model, observations(short, readings), INSTALLED)
+    assert {each.identifier for each in found.together} == {*causes, "datum-step"}
+    assert found.remainder is None
+
+
 def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     place = DESIGN.position
     shape = (

@@ -60,6 +60,23 @@ def test_causes_are_found_beside_a_bump_that_nobody_knows() -> None:
 
 
 @pytest.mark.long
+def test_a_narrow_bump_that_many_targets_show_is_neither_another_form_nor_several_names() -> None:
+    places = np.sort(np.random.default_rng([77, 8]).uniform(0.0, 1.0, 161))
+    design = linear_test(161, 3, places=places)
+    causes: dict[str, list[float]] = {
+        "backlash": [],
+        "screw-pitch": [0.01],
+        "thermal-drift": [1500.0],
+        "scale-error": [],
+    }
+    bump = 5 * SIGMA * np.exp(-4 * np.log(2) * ((design.position - 0.42) / 0.05) ** 2)
+    found = _found(_hiding(*causes.items(), design=design, size=3.0) + bump, design)
+    assert _names(found) == causes.keys()
+    (left,) = found.unnamed
+    assert left.identifier == "bump"
+    assert left.theta == pytest.approx([0.42, 0.05], abs=0.004)
+
+
 def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
     random = np.random.default_rng(3)
     values = np.convolve(random.standard_normal(60), np.hanning(9), "valid")

@@ -281,6 +281,9 @@ def _estimate_memory(stated: _Stated, found: EffectSet) -> float:
 def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
     """Return a set without those that have no evidence of their own."""
     kept = _drop_needless(search, found)
+    # What is unusual, or took long to be found, costs evidence, but makes the same shape no other thing.
+    while (alike := search.find_named_alike(kept, _BEHIND, MENTION)) is not None:
+        kept = _drop_needless(search, alike)
     if search.has_nameless(found):
         # Beside names a form or a curve has to be better than a toss-up with one name more.
         alone = search.find_names_alone(kept, MENTION) if kept.named else None

@@ -78,14 +78,15 @@ class SetSearch:
         )
         told(0.3)
         released = self._release(named)
+        beside = self._climb_beside_curves(start, released)
+        told(0.4)
+        released = self._begin_with_forms(start, released, beside)
         if not self._list_loud(released):
             released = self._climb(released, self._whole, is_thorough=True)
             released = self._do_without_each(released, self._whole)
             is_whole = 0 < len(released.named) <= _FEW and not self._climbs.is_coloured(released)
             if is_whole and min(self.compute_own_evidence(released)) > _SURE:
                 return released
-        told(0.4)
-        beside = self._climb_beside_curves(start, released)
         told(0.6)
         together = self._climb(self._unite(beside, named), self._whole)
         best = self._climb(min((released, beside, together), key=find_score), self._whole, is_thorough=True)
@@ -97,6 +98,21 @@ class SetSearch:
         best = self._go_on_without_each(best, named)
         told(1.0)
         return best
+
+    def _begin_with_forms(self, start: Sequence[SetMember], named: EffectSet, beside: EffectSet) -> EffectSet:
+        """Return where a climb by names and forms leads, or the set of names alone.
+
+        Several names may do what one form does, and leave no place for it; so may a smooth curve. That little
+        is gained is no reason to think of forms: the climb is kept apart, and counts where it explains all
+        and its end is better beyond doubt than what is known.
+        """
+        apart = ScoredSets(self.contest)
+        begun = apart.score_near(start, self.contest.quiet, self._forms.levels)
+        end = Climb(apart).climb(begun, self._forms)
+        whole = apart.score_near(end.members, end.amplitudes, self._whole.levels)
+        if self._list_loud(whole) or whole.score > min(named.score, beside.score) - _SURE:
+            return named
+        return self._climb(self._release(end), self._whole)
 
     def _climb_beside_curves(self, start: Sequence[SetMember], released: EffectSet) -> EffectSet:
         """Return the best end of climbs that begin beside all that has no name."""
@@ -252,6 +268,33 @@ class SetSearch:
             if each.score < found.score + within and len(each.named) <= most and not self.has_nameless(each)
         ]
         return min(alone, key=find_score, default=None)
+
+    def find_named_alike(self, found: EffectSet, within: float, fit_within: float) -> EffectSet | None:
+        """Return the best of all sets looked at in which one name has the place and the shape of one form.
+
+        It has no more columns than the form: a polynomial does what many a form does.
+
+        `within`: What evidence it may lack; None where all lack more.
+        `fit_within`: The same of the fit alone, whatever the name costs.
+        """
+        fit, names, forms = self._compute_fit(found), list_names(found.named), list_unnamed(found)
+        alike = [
+            each
+            for (own, unnamed), each in self._sets.best.items()
+            if names < own
+            and unnamed < forms
+            and len(each.members) == len(found.members)
+            and len(each.named) == len(found.named) + 1
+            and sum(member.rank for member in each.members) <= sum(member.rank for member in found.members)
+            and not set(self._list_loud(each)) - set(self._list_loud(found))
+            and each.score < found.score + within
+            and self._compute_fit(each) < fit + fit_within
+        ]
+        return min(alike, key=find_score, default=None)
+
+    def _compute_fit(self, found: EffectSet) -> float:
+        """Return the score of a set but for what its effects cost."""
+        return self.contest.compute_criterion(found.amplitudes, found.columns)
 
     def compute_evidence_of_changes(self, found: EffectSet) -> float:
         """Return the evidence of what changes in time, or from run to run, and has no name in a set."""
