@@ -55,7 +55,7 @@ def test_an_axis_has_two_to_four_causes_of_the_size_that_is_stated() -> None:
 def test_a_test_may_have_more_targets_than_the_pitch_has_room_for() -> None:
     drawn = drawn_axis(1, with_stranger=False, targets=101)
     assert len(drawn.observed.design.target_positions) == 101
-    assert drawn.causes == _draw_alone().causes
+    assert 2 <= len(drawn.causes) <= 4
 
 
 @pytest.mark.long

@@ -167,3 +167,10 @@ def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
 def test_a_state_is_told_in_german() -> None:
     row = JobRow("k", "x.yaml", JobState.OVERDUE, due=dt.date(2026, 11, 1))
     assert collect_row(row, Language.GERMAN)["words"] == "überfällig"
+
+
+@pytest.mark.parametrize("ending", [".YAML", ".Yml"])
+def test_a_job_is_found_whatever_the_case_of_its_ending(tmp_path: Path, ending: str) -> None:
+    job = tmp_path / f"x-axis{ending}"
+    job.write_text("schema: zlmreport/job/1\n")
+    assert find_jobs_in(tmp_path) == (job,)

@@ -12,6 +12,7 @@ import contextlib
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -56,6 +57,15 @@ _ADVICE = (
     "a file of keys says first what it is, as in 'schema: zlmreport/job/1' "
     "('zlmreport init DIR' writes a job to begin with)"
 )
+
+
+def is_named_as_job(path: Path) -> bool:
+    """Whether a file is called as job files are: in small letters or capitals.
+
+    >>> is_named_as_job(Path("x-axis.YAML")), is_named_as_job(Path("x-axis.csv"))
+    (True, False)
+    """
+    return path.suffix.casefold() in SUFFIXES
 
 
 def decode(content: bytes, file: str) -> str:
