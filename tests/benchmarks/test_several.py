@@ -132,7 +132,7 @@ def test_what_is_sure_stays_where_something_beside_it_is_not() -> None:
     # Runs apart, and warmth of which several effects may be the cause.
     drawn = drawn_axis(12006, with_stranger=True)
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
-    assert [each.identifier for each in found.together] == ["backlash"]
+    assert "backlash" in {each.identifier for each in found.together} <= set(drawn.causes)
 
 
 @pytest.mark.long
