@@ -77,6 +77,7 @@ def test_a_narrow_bump_that_many_targets_show_is_neither_another_form_nor_severa
     assert left.theta == pytest.approx([0.42, 0.05], abs=0.004)
 
 
+@pytest.mark.long
 def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
     random = np.random.default_rng(3)
     values = np.convolve(random.standard_normal(60), np.hanning(9), "valid")
