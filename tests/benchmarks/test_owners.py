@@ -39,3 +39,12 @@ def test_a_fault_of_an_axis_is_built_by_its_names_down_to_the_noise(fault: str, 
     assert set(told.built.model.identifiers) == {"offset", *causes}
     assert told.built.last.error.rms < 1.15 * told.sigma
     assert told.built.last.remainder is None
+
+
+@pytest.mark.long
+def test_a_slope_that_two_effects_share_stays_one_slope_beside_a_bump() -> None:
+    (name,) = (each for each in LINEAR if each.startswith("bump"))
+    told = build_model(LINEAR[name], 2, is_rotary=False)
+    assert set(told.built.model.identifiers) == {"offset", "scale-error", "backlash"}
+    assert told.built.last.remainder is not None
+    assert told.built.last.remainder.low < 0.42 < told.built.last.remainder.high

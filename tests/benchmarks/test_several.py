@@ -68,6 +68,16 @@ def test_many_names_that_one_curve_replaces_are_not_told() -> None:
 
 
 @pytest.mark.long
+def test_a_displaced_stretch_among_many_targets_is_no_joint_and_another_back() -> None:
+    drawn = drawn_axis(33010, with_stranger=True, targets=101)
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    names = {each.identifier for each in found.together}
+    assert not names & {"scale-joint", "datum-step"}
+    assert found.remainder is not None
+    assert is_where_told(found.remainder, drawn)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("number", "cause"),
     [

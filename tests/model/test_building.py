@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from model.axis_tests import EFFECTS, model_of
+from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
 from model.hidden_effect import example_diagnosis
 from zlmreport.model.diagnosis.building import build, name_steps
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.finding import find
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
 
@@ -47,3 +48,34 @@ def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None
     found = build(model_of("offset"), diagnosing)
     assert asked == [("offset",), ("offset", "scale-kink"), ("offset", "first-run")]
     assert found.model.identifiers == ("offset", "first-run")
+
+
+def test_what_stands_in_a_model_does_not_give_way_to_what_is_no_better() -> None:
+    # A slope is a cosine error and a wrong scale alike: which was named first is no matter, once it is there.
+    design, model = pendulum_test(15, 4), model_of("offset", "cosine-error")
+    slope = hidden(design, "cosine-error", size=4, model=model_of("offset"))
+    readings = observations(design, slope + noise(design, 3))
+    fitted = fit(model, readings.design, readings.deviation)
+    found = find(fitted, INSTALLED, may_go=frozenset({"cosine-error"}), is_left=True)
+    assert (found.named, found.makeshift) == ((), ())
+
+
+def test_what_is_much_like_a_makeshift_comes_in_once_that_is_out() -> None:
+    example, asked = example_diagnosis(), list[tuple[str, ...]]()
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+        asked.append(model.identifiers)
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        if "scale-error" in model.identifiers:
+            return replace(example, fit=fitted, together=(), verdict=Verdict.ADEQUATE)
+        return replace(
+            example,
+            fit=fitted,
+            together=(EFFECTS["scale-error"],),
+            makeshift=("cosine-error",),
+            candidates=(),
+        )
+
+    found = build(model_of("offset", "cosine-error"), diagnosing)
+    assert asked == [("offset", "cosine-error"), ("offset", "scale-error")]
+    assert name_steps(found.steps) == ("− cosine-error", "+ scale-error")

@@ -107,7 +107,21 @@ def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
     assert _names(found) == {"backlash"}
     (left,) = found.unnamed
     assert left.identifier == "plateau"
-    assert left.theta == pytest.approx([0.45, 0.26], abs=0.06)
+    assert left.theta == pytest.approx([0.32, 0.58], abs=0.03)
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_stretch_that_is_displaced_is_found_to_the_gap_among_many_targets(seed: int) -> None:
+    places = np.sort(np.random.default_rng(seed).uniform(0.0, 1.0, 61))
+    design = linear_test(61, 3, places=places)
+    stretch = 4 * SIGMA * ((design.position > places[21]) & (design.position < places[37]))
+    found = _found(_hiding(("backlash", []), design=design) + stretch, design)
+    assert _names(found) == {"backlash"}
+    (left,) = found.unnamed
+    assert left.identifier == "plateau"
+    first, last = left.theta
+    assert places[21] <= first < places[22]
+    assert places[36] < last <= places[37]
 
 
 @pytest.mark.long
@@ -185,6 +199,15 @@ def test_a_bow_that_comes_with_the_warmth_is_one_thing_without_a_name() -> None:
     found = search.find_best()
     assert _names(found) == {"backlash"}
     assert _list_left(search, found) == [Course.PLACE_IN_TIME]
+
+
+@pytest.mark.parametrize("targets", [5, 8])
+def test_a_wave_is_not_shorter_than_two_steps_between_targets(targets: int) -> None:
+    design = linear_test(targets, places=np.linspace(0.0, 1.0, targets))
+    waves = [each for each in list_unnamed_forms(design) if each.form.name == "wave" and each.carrier == ""]
+    assert all(float(each.starts.min()) >= 2.0 / (targets - 1) for each in waves)
+    # Of five targets a line leaves three numbers, and any wave has three.
+    assert bool(waves) is (targets > 5)
 
 
 def test_a_drift_that_begins_late_is_neither_a_step_of_the_zero_nor_a_passing_warmth() -> None:

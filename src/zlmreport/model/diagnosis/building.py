@@ -109,15 +109,18 @@ def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, li
     """Return the model with the set of a diagnosis, and the steps to it; what cannot be fitted ends it."""
     fitted, error = diagnosis.fit, diagnosis.error
     equals = {each.identifier: each.equals for each in diagnosis.candidates}
-    changes = [(each, False) for each in diagnosis.together]
-    changes += [(term.effect, True) for term in model.terms if term.effect.identifier in diagnosis.makeshift]
+    coming = [(each, False) for each in diagnosis.together]
+    going = [(term.effect, True) for term in model.terms if term.effect.identifier in diagnosis.makeshift]
     steps: list[BuildStep] = []
-    for effect, is_removed in changes:
+    # What is much like a makeshift can only be fitted when that is out.
+    for effect, is_removed in (*coming, *going, *(coming if going else ())):
+        if not is_removed and effect in (term.effect for term in model.terms):
+            continue
         changed = model.without(effect.identifier) if is_removed else model.with_effect(effect)
         try:
             fitted = fit(changed, fitted.design, fitted.deviation, diagnosis.fit.assumptions)
         except ModelError:
-            break
+            continue
         model, before, error = changed, error, compute_error_numbers(fitted)
         beside = () if is_removed else equals.get(effect.identifier, ())
         steps.append(BuildStep(effect, before, error, is_removed, beside))

@@ -20,7 +20,8 @@ from zlmreport.model.diagnosis.effect_set import (
     make_member,
 )
 from zlmreport.model.diagnosis.families import Family
-from zlmreport.model.diagnosis.likelihood import Amplitudes
+from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes
+from zlmreport.model.diagnosis.refining import hides_jumps, refine_member
 from zlmreport.model.diagnosis.scored_sets import ScoredSets
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 
@@ -124,6 +125,9 @@ class Climb:
         for family, block, spread in self._list_leading(now, scope, listed):
             member = make_member(family, block, spread)
             members = (*list_beside(now.members, member.effect), member)
+            if hides_jumps(member):
+                refined = refine_member(self._contest, members, len(members) - 1, now.amplitudes)
+                members = (*members[:-1], refined)
             glanced.append(self._sets.glance_at(members, now.amplitudes))
         glanced.sort(key=find_score)
         if limit is None and glanced:
@@ -137,7 +141,7 @@ class Climb:
         for amplitudes in dict.fromkeys((now.amplitudes, contest.as_noise(now.amplitudes))):
             scan = contest.scan(amplitudes, now.columns_with_tangents)
             names: set[str] = set()
-            for number in np.argsort(scan.criterion, kind="stable").tolist():
+            for number in np.argsort(np.round(scan.criterion, DIGITS_OF_SCORE), kind="stable").tolist():
                 family, choice = contest.families[number], (number, int(scan.best[number]))
                 if not np.isfinite(scan.criterion[number]) or len(names) == listed:
                     break

@@ -22,7 +22,15 @@ from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.blocks import average_likelihoods, solve_blocks, take_from
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.diagnosis.families import Family, group_forms_by_effect, is_known, list_families_of
-from zlmreport.model.diagnosis.likelihood import ROUNDING, Amplitudes, Likelihood, Place, Reduced, place_of
+from zlmreport.model.diagnosis.likelihood import (
+    DIGITS_OF_SCORE,
+    ROUNDING,
+    Amplitudes,
+    Likelihood,
+    Place,
+    Reduced,
+    place_of,
+)
 from zlmreport.model.diagnosis.nameless import list_parts_of, make_irregular_factors
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
@@ -226,7 +234,7 @@ class Contest(Likelihood):
             seen = np.maximum.reduceat(ranks, group.starts) > 0
             scan.criterion[group.families] = np.where(seen, least + spread + group.prices, np.inf)
             scan.spread[group.families] = spread
-            first = np.flatnonzero(above == 0.0)
+            first = np.flatnonzero(above < 10.0**-DIGITS_OF_SCORE)
             owner = np.repeat(np.arange(len(group.sizes)), group.sizes)[first]
             scan.best[group.families[owner[::-1]]] = (first - group.starts[owner])[::-1]
         return scan

@@ -287,15 +287,17 @@ def _complete(
     there was: what lowers the error comes first.
     """
     found, waiting, order = fitted, list(named), list[NamedEffect]()
-    while (step := _choose_next(found, waiting)) is not None:
-        found = step[1]
-        order.append(step[0])
-        waiting.remove(step[0])
-    for name in makeshift:
-        model = found.model.without(name)
-        if model.terms != found.model.terms:
-            found = fit(model, found.design, found.deviation, found.assumptions)
-    return found, (*order, *waiting)
+    going = [each for each in makeshift if each in fitted.model.identifiers]
+    while True:
+        while (step := _choose_next(found, waiting)) is not None:
+            found = step[1]
+            order.append(step[0])
+            waiting.remove(step[0])
+        if not going:
+            return found, (*order, *waiting)
+        # What is much like a makeshift can only be fitted when that is out.
+        found = fit(found.model.without(*going), found.design, found.deviation, found.assumptions)
+        going = []
 
 
 def _choose_next(fitted: Fit, waiting: Iterable[NamedEffect]) -> tuple[NamedEffect, Fit] | None:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from zlmreport.job.choices import part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.families import Family
-from zlmreport.model.diagnosis.likelihood import Amplitudes
+from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes
 from zlmreport.model.effects.effect import Effect
 
 #: By what members of a contest are told apart: family, columns, what the search cost, tangents.
@@ -101,8 +101,8 @@ def list_unnamed(found: EffectSet) -> frozenset[str]:
 
 
 def find_score(found: EffectSet) -> float:
-    """Return the score of a set: what a search makes small."""
-    return found.score
+    """Return the score of a set: what a search makes small, to where rounding begins."""
+    return round(found.score, DIGITS_OF_SCORE)
 
 
 def list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:

@@ -249,7 +249,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, 0.0, visible), None)
     found = search.find_best(start.members, lambda share: told(0.2 + 0.6 * share))
-    found = search.renumber(_believe_set(search, found))
+    found = search.renumber(_keep_what_stands(search, _believe_set(search, found), stated.may_go))
     named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
@@ -296,6 +296,21 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         kept = kept if fewer is None else _drop_needless(search, fewer)
     # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
     return kept
+
+
+def _keep_what_stands(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
+    """Return a set in which no effect of the model gives way to one that is no better.
+
+    `standing`: The effects of the model that may go.
+    """
+    gone = standing - {each.identifier for each in found.named}
+    for number, each in enumerate(found.members if gone else ()):
+        if each.family.is_named and each.identifier not in standing:
+            rivals = search.list_rivals(found, search.without(found, number), MENTION)
+            back = [other for other in rivals if gone > standing - {own.identifier for own in other.named}]
+            if back:
+                return _keep_what_stands(search, back[0], standing)
+    return found
 
 
 def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
@@ -356,6 +371,10 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
         ]
         if min(evidence) >= NAMED_BESIDE:
             break
+        one = search.find_one_instead(kept, several, TOLD_APART)
+        if one is not None:
+            kept = one
+            continue
         least = evidence.index(min(evidence))
         kept = search.find_best_holding(kept, [*kept.named[:least], *kept.named[least + 1 :]])
     return kept

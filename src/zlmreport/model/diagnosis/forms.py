@@ -33,7 +33,7 @@ _LATE = 3
 _FEWEST_OF_SAW = 2.0
 #: Of the travel, the longest stretch that is displaced as a whole: the ends of a longer one are two joints.
 _LONGEST = 1 / 3
-#: Targets in a period, or in a width, that at least must tell it.
+#: Steps between targets in a period, or in a width, that at least must tell it.
 _LEAST_IN_PERIOD, _LEAST_IN_WIDTH = 2.0, 1.5
 _DIGITS, _OF_STATED = 3, 6
 
@@ -44,9 +44,14 @@ class Form:
 
     name: str
     text: str
-    searched: tuple[str, ...]  #: Of c, a place, w, a width, and L, a period: what is searched.
+    searched: tuple[str, ...]  #: Of c, a place, e, an end, w, a width, and L, a period: what is searched.
     shape: Words  #: With places for width, period and the carrier.
     is_slope: bool = False  #: Whether its size is one per position.
+
+    @property
+    def numbers(self) -> int:
+        """How many numbers decide it."""
+        return len(self.searched) + ("{a}" in self.text) + ("{b}" in self.text)
 
 
 BUMP = Form(
@@ -75,10 +80,11 @@ KINK = Form(
     is_slope=True,
 )
 STEP = Form("step", "{a}*step({x} - c)", ("c",), Words("a step"))
+# By its ends, not its middle and length: it is searched one value after another, and each end has its gap.
 PLATEAU = Form(
     "plateau",
-    "{a}*step({x} - c + w/2)*step(c + w/2 - {x})",
-    ("c", "w"),
+    "{a}*step({x} - c)*step(e - {x})",
+    ("c", "e"),
     Words("a stretch displaced as a whole, {width} long"),
 )
 BOW = Form("bow", "{a}*(1 - (({x} - c)/w)^2)", (), Words("a bow"))
@@ -96,6 +102,8 @@ LATE = Form(
 )
 _ALONG_AXIS = (BUMP, PLATEAU, SAW, WAVE, KINK, STEP, BOW, FADING)
 _IN_TIME = (BUMP, WAVE, STEP, LATE)
+#: Numbers of a line: what it leaves of as many targets as a form has numbers, any form describes.
+_OF_A_LINE = 2
 #: Whose phase makes a carrier of one direction no other form.
 _DIRECTIONS = {"D": "D*", "up": "step(D)*", "down": "step(-D)*"}
 #: What a carrier makes of the words of a form.
@@ -110,7 +118,9 @@ CARRIERS = {
 IN_TIME = frozenset({"time", "lever"})
 #: Forms that begin or bend at one place.
 LOCAL = (BUMP, PLATEAU, STEP, KINK, LATE)
-_SEARCHED = frozenset("cwL")
+#: Forms that jump at each place that is searched.
+JUMPING = (STEP, PLATEAU)
+_SEARCHED = frozenset("cewL")
 
 
 class UnnamedForm(FormulaEffect):
@@ -137,7 +147,7 @@ class UnnamedForm(FormulaEffect):
         first, last = float(self.along[0]), float(self.along[-1])
         middle, extent = (first + last) / 2, last - first
         stated = {"c": middle if form is BOW else end, "w": extent / 2}
-        ranges = {name: (first, last) if name == "c" else (extent / 8, extent / 4) for name in form.searched}
+        ranges = {name: (first, last) if name in "ce" else (extent / 8, extent / 4) for name in form.searched}
         super().__init__(_make_keys((form, carrier), design.axis.kind, stated, ranges), design.axis.kind)
         named = dict(zip(form.searched, starts.T, strict=True))
         constant = np.ones(len(starts))
@@ -153,8 +163,15 @@ class UnnamedForm(FormulaEffect):
         """Return the values that are tried."""
         return self.starts
 
-    def list_searched_values(self, theta: FloatArray) -> dict[str, float]:
-        """Return the values of what is searched, by name."""
+    def list_values(self, theta: FloatArray) -> dict[str, float]:
+        """Return where it is, how wide and with which period, as far as that is searched: c, w and L."""
+        named = self._name_searched_values(theta)
+        if "e" in named:
+            first, last = named.pop("c"), named.pop("e")
+            return {"c": (first + last) / 2, "w": last - first}
+        return named
+
+    def _name_searched_values(self, theta: FloatArray) -> dict[str, float]:
         return {
             each.name: value
             for each, value in zip(self.searched, theta.tolist(), strict=True)
@@ -163,12 +180,12 @@ class UnnamedForm(FormulaEffect):
 
     def propose_formula(self, theta: FloatArray, design: Design) -> FormulaKeys:
         """Return its formula with ranges around the values that were found, named after its place."""
-        named = self.list_searched_values(theta)
+        named = self.list_values(theta)
         scale = 1.0 if self.carrier in IN_TIME else design.axis.position_unit.per_si
         width = named.get("w", named.get("L", float(np.ptp(self.along)) / 4))
         ranges = {
-            name: (value - width / 2, value + width / 2) if name == "c" else (value / 1.5, value * 1.5)
-            for name, value in named.items()
+            name: (value - width / 2, value + width / 2) if name in "ce" else (value / 1.5, value * 1.5)
+            for name, value in self._name_searched_values(theta).items()
         }
         marked = named.get("c") if self.form in LOCAL else named.get("L", named.get("w"))
         return _make_keys(
@@ -179,10 +196,14 @@ class UnnamedForm(FormulaEffect):
             None if marked is None else marked * scale,
         )
 
+    def list_gaps(self) -> FloatArray:
+        """Return the middles between neighbours along it, rising, SI: a jump is the same between two."""
+        return np.asarray((self.along[:-1] + self.along[1:]) / 2)
+
     def find_extent(self, theta: FloatArray) -> tuple[float, float]:
         """Return where it begins and ends, within what was measured, SI."""
         first, last = float(self.along[0]), float(self.along[-1])
-        named = self.list_searched_values(theta)
+        named = self.list_values(theta)
         if self.form in (BUMP, PLATEAU):
             half = named["w"] / 2
             return max(first, named["c"] - half), min(last, named["c"] + half)
@@ -196,8 +217,6 @@ def list_unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
     carriers = ("", *_DIRECTIONS) if design.is_bidirectional else ("",)
     for form in _ALONG_AXIS:
         starts = _choose_starts(form, design.target_positions)
-        if form is PLATEAU:
-            starts = _list_stretches(design.target_positions)
         for carrier in carriers if len(starts) else ():
             # A periodic form in one direction is the sum of the like and the opposite: these are enough.
             if not ({"L"} & {*form.searched} and carrier in {"up", "down"}):
@@ -221,16 +240,21 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
     """Return values that are tried along a coordinate, SI, shape (g, s)."""
     first, last = float(along[0]), float(along[-1])
     extent, count = last - first, len(along)
+    if count - _OF_A_LINE <= form.numbers:
+        return np.empty((0, len(form.searched)))
     inner = np.linspace(first, last, _PLACES)
     gaps = ((along[1:-2] + along[2:-1]) / 2)[:: max(1, count // (2 * _PLACES))]
     widths = [share * extent for share in _WIDTHS if share * (count - 1) >= _LEAST_IN_WIDTH]
-    most = min(_MOST_PERIODS, count / _LEAST_IN_PERIOD)
+    # Of targets at equal steps a wave that is shorter than two of them looks like one that is longer.
+    most = min(_MOST_PERIODS, (count - 1) / _LEAST_IN_PERIOD)
     periods = extent / np.arange(_FEWEST, most + 1e-9, 1 / _PER_PERIOD)
     phases = np.arange(_PHASES) / _PHASES
     rows: Sequence[tuple[float, ...]]
     match form.searched:
         case ("c", "w"):
             rows = list(product(inner[_LATE if form is LATE else 0 :].tolist(), widths))
+        case ("c", "e"):
+            return _list_stretches(along)
         case ("c", "L"):
             # The jump of a saw needs targets on either side, in more than one period.
             listed = [each for each in periods[: len(periods) // 2] if extent >= _FEWEST_OF_SAW * each]
@@ -247,13 +271,14 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
 
 
 def _list_stretches(along: FloatArray) -> FloatArray:
-    """Return middle and length of the stretches between two gaps of targets, up to a third of the travel."""
+    """Return the ends of the stretches between two gaps of targets, up to a third of the travel."""
     gaps = (along[:-1] + along[1:]) / 2
     gaps = gaps[:: max(1, len(gaps) // _PLACES)]
     first, last = np.triu_indices(len(gaps), k=1)
-    rows = np.column_stack([(gaps[first] + gaps[last]) / 2, gaps[last] - gaps[first]])
+    lengths = gaps[last] - gaps[first]
     fewest = _LEAST_IN_WIDTH * float(np.ptp(along)) / (len(along) - 1)
-    return np.asarray(rows[(rows[:, 1] >= fewest) & (rows[:, 1] <= _LONGEST * np.ptp(along))])
+    is_tried = (lengths >= fewest) & (lengths <= _LONGEST * np.ptp(along))
+    return np.column_stack([gaps[first], gaps[last]])[is_tried]
 
 
 def _make_keys(

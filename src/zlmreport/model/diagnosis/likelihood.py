@@ -25,6 +25,9 @@ from zlmreport.model.fitting.noise import NoiseSource
 
 #: Sum of squares of a residual that is no residual at all; share of the readings' that is rounding.
 NOTHING, ROUNDING = 1e-60, 1e-13
+#: Digits behind the point up to which scores are no rounding. On few targets many sets describe the same:
+#: which of them leads must not depend on the processor.
+DIGITS_OF_SCORE = 6
 
 #: For each part the number of its level.
 Amplitudes: TypeAlias = tuple[int, ...]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -11,12 +12,19 @@ from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
 from zlmreport.model.diagnosis.families import make_orthonormal
+from zlmreport.model.diagnosis.forms import JUMPING, UnnamedForm
 from zlmreport.model.diagnosis.likelihood import Amplitudes
+from zlmreport.model.effects.effect import Effect
 
 #: Evidence by which another part of a grid must be better for a parameter to jump there, and of another form.
 _JUMP, _CLEAR_GAIN = 2.0, 0.5
 #: Values that are tried between two of a grid, in steps of it, in rounds, each about the best of the last.
-_BETWEEN, _ROUNDS, _CLOSER = (-0.8, -0.6, -0.4, -0.2, 0.2, 0.4, 0.6, 0.8), 3, 0.22
+_BETWEEN, _ROUNDS, _CLOSER = (0.2, 0.4, 0.6, 0.8), 3, 0.22
+#: Share by which what is explained differs where it is the same but for rounding: between two targets a step
+#: is the same wherever it is.
+_EQUAL = 1e-9
+#: Share of the gaps that a grid of jumps has, but for the outermost ones, where it has all.
+_MOST_OF_GAPS = 2 / 3
 
 
 def jump_along_grids(
@@ -56,6 +64,14 @@ def jump_along_grids(
     return found, has_moved
 
 
+def hides_jumps(member: SetMember) -> bool:
+    """Return whether a member jumps at more places than its grid has: beside them it explains far less."""
+    effect = member.effect
+    if not isinstance(effect, UnnamedForm) or effect.form not in JUMPING:
+        return False
+    return len(np.unique(member.family.thetas)) < _MOST_OF_GAPS * len(effect.list_gaps())
+
+
 def refine_member(
     contest: Contest, members: Sequence[SetMember], number: int, amplitudes: Amplitudes
 ) -> SetMember:
@@ -80,23 +96,22 @@ def refine_member(
     best: tuple[FloatArray, int] | None = None
     steps = {}
     for column, values in places:
-        near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
-        step = steps[column] = float(values[near] - values[near - 1])
-        for _ in range(_ROUNDS):
-            tried = np.repeat(theta[np.newaxis], len(_BETWEEN), axis=0)
-            tried[:, column] += step * np.array(_BETWEEN)
-            tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
+        reach = _find_steps_beside(values, float(theta[column]))
+        steps[column] = float(np.min(np.abs(reach)))
+        for beside in _list_rounds(effect, reach):
+            between = beside(float(theta[column]))
+            tried = np.repeat(theta[np.newaxis], len(between), axis=0)
+            tried[:, column] = np.clip(between, values[0], values[-1])
             blocks, ranks, seen = make_orthonormal(
                 contest.space, contest.design, effect, tried, contest.least_visible
             )
             if not len(seen):
                 break
             explained = contest.explain_blocks(rest, blocks)
-            leading = int(np.argmax(explained))
-            if explained[leading] > most:
+            leading = int(np.argmax(explained > (1.0 - _EQUAL) * explained.max()))
+            if explained[leading] > (1.0 + _EQUAL) * most:
                 most, theta = float(explained[leading]), tried[seen[leading]]
                 best = blocks[:, leading], int(ranks[leading])
-            step *= _CLOSER
     columns = member.columns if best is None else contest.columns.add(best[0])
     rank = member.rank if best is None else best[1]
     moved = replace(member, theta=theta, columns=columns, rank=rank)
@@ -104,6 +119,28 @@ def refine_member(
         contest, [*members[:number], moved, *members[number + 1 :]], number, amplitudes, steps
     )
     return replace(moved, tangents=tangents)
+
+
+def _list_rounds(effect: Effect, reach: FloatArray) -> list[Callable[[float], FloatArray]]:
+    """Return for each round what gives the values that are tried about the best of the last.
+
+    `reach`: How far the first goes, down and up.
+    """
+    if isinstance(effect, UnnamedForm) and effect.form in JUMPING:
+        # Nothing changes within a gap of what was measured, and each may be narrow: all are tried.
+        gaps = effect.list_gaps()
+        return [lambda value: gaps[(gaps > value + reach[0]) & (gaps < value + reach[1])]]
+    steps = np.outer(reach, _BETWEEN).ravel()
+    return [partial(np.add, steps * _CLOSER**number) for number in range(_ROUNDS)]
+
+
+def _find_steps_beside(values: FloatArray, value: float) -> FloatArray:
+    """Return the steps of a grid down and up from the value of it that is next to another.
+
+    Targets, and the gaps between them, may lie anything but evenly.
+    """
+    steps, near = np.diff(values), int(np.argmin(np.abs(values - value)))
+    return np.array([-steps[max(near - 1, 0)], steps[min(near, len(steps) - 1)]])
 
 
 def _find_tangents(

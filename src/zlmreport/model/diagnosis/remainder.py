@@ -226,7 +226,7 @@ def _describe_shape(member: SetMember, design: Design) -> Words:
     """Return a form in words."""
     form = member.effect
     assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
-    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.list_searched_values(member.theta)
+    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.list_values(member.theta)
     words = form.form.shape.given(
         **{word: say(named[name]) for word, name in (("width", "w"), ("period", "L")) if name in named}
     )
@@ -246,7 +246,7 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member and form.form is not FADING:
         low, high = form.find_extent(main.member.theta)
-        place = form.list_searched_values(main.member.theta).get("c", low)
+        place = form.list_values(main.member.theta).get("c", low)
         is_local = form.form in LOCAL
         words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
         return words, low, high, unit

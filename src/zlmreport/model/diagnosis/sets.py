@@ -11,12 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence, Set as AbstractSet
 from dataclasses import replace
+from itertools import chain, combinations
 
 import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.climbing import BROAD, FOLLOWED, GAIN, PROMISING, Climb, Scope
+from zlmreport.model.diagnosis.climbing import BROAD, FOLLOWED, GAIN, PROMISING, Breadth, Climb, Scope
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
@@ -38,6 +39,8 @@ from zlmreport.model.effects.effect import Effect
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
 #: One beside smooth curves may lack as much.
 _MOST_ALONE, _NEAR = 5, 40.0
+#: Of forms that may stand for two names how many a scan brings, and how many of these are tried.
+_FOR_TWO: Breadth = (3, 1)
 #: How many of the sets of names alone that were passed are looked at so.
 _MOST_PASSED = 3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
@@ -83,7 +86,7 @@ class SetSearch:
         released = self._begin_with_forms(start, released, beside)
         if not self._list_loud(released):
             released = self._climb(released, self._whole, is_thorough=True)
-            released = self._do_without_each(released, self._whole)
+            released = self._put_forms_for_two(self._do_without_each(released, self._whole))
             is_whole = 0 < len(released.named) <= _FEW and not self._climbs.is_coloured(released)
             if is_whole and min(self.compute_own_evidence(released)) > _SURE:
                 return released
@@ -95,7 +98,7 @@ class SetSearch:
         told(0.7)
         best = self._go_back_to_names(best, named)
         told(0.8)
-        best = self._go_on_without_each(best, named)
+        best = self._put_forms_for_two(self._go_on_without_each(best, named))
         told(1.0)
         return best
 
@@ -186,6 +189,27 @@ class SetSearch:
             # A climb that comes by a set nearly known ends where that one did, perhaps a trifle lower.
             now = min(better, self._climb(better, scope), key=find_score)
 
+    def _put_forms_for_two(self, now: EffectSet) -> EffectSet:
+        """Return where climbs lead in which a form has the place of two names, as long as one ends higher.
+
+        A stretch that is displaced is one joint and another back: beside either of them it is needless.
+        """
+        forms = replace(self._whole, with_names=False)
+        while True:
+            fewer = (
+                replace(
+                    now, members=tuple(each for each in now.members if each is not one and each is not other)
+                )
+                for one, other in combinations(now.named, 2)
+            )
+            tried = (self._climbs.look_ahead(each, forms, _FOR_TWO, now.score + PROMISING) for each in fewer)
+            better = next(
+                (each for each in chain.from_iterable(tried) if each.score < now.score - GAIN), None
+            )
+            if better is None:
+                return now
+            now = min(better, self._climb(better, self._whole), key=find_score)
+
     def _begin(self, members: Sequence[SetMember], scope: Scope) -> EffectSet:
         """Return a set with its best amplitudes near nothing."""
         return self._sets.score_near(members, self.contest.quiet, scope.levels)
@@ -268,6 +292,25 @@ class SetSearch:
             if each.score < found.score + within and len(each.named) <= most and not self.has_nameless(each)
         ]
         return min(alone, key=find_score, default=None)
+
+    def find_one_instead(self, found: EffectSet, names: AbstractSet[str], within: float) -> EffectSet | None:
+        """Return the best of all sets looked at in which one name stands in the place of several.
+
+        `names`: Those that may, as they are installed.
+        `within`: What evidence it may lack; None where all lack more.
+        """
+        own, forms = list_names(found.named), list_unnamed(found)
+        instead = [
+            each
+            for (known, unnamed), each in self._sets.best.items()
+            if len(known - own) == 1
+            and known - own <= names
+            and len(own - known) > 1
+            and unnamed <= forms
+            and not set(self._list_loud(each)) - set(self._list_loud(found))
+            and each.score < found.score + within
+        ]
+        return min(instead, key=find_score, default=None)
 
     def find_named_alike(self, found: EffectSet, within: float, fit_within: float) -> EffectSet | None:
         """Return the best of all sets looked at in which one name has the place and the shape of one form.

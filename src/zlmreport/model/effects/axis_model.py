@@ -134,9 +134,9 @@ class AxisModel:
         )
         return effect.repeated(next(numbers))
 
-    def without(self, identifier: str) -> AxisModel:
-        """Return the model without an effect."""
-        return AxisModel(tuple(term for term in self.terms if term.effect.identifier != identifier))
+    def without(self, *identifiers: str) -> AxisModel:
+        """Return the model without some effects."""
+        return AxisModel(tuple(term for term in self.terms if term.effect.identifier not in identifiers))
 
     def link(self, thetas: Sequence[FloatArray]) -> tuple[FloatArray, ...]:
         """Return θ of all terms with those that equal another in their places."""
