@@ -16,8 +16,12 @@ import pytest
 from starlette.testclient import TestClient
 
 from processes import awaited
+from testing.exemplary import ExemplaryStandard
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
+from zlmreport.document.writer import NOTHING
+from zlmreport.evaluation.evaluation import Arithmetic
+from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.measurement.approach import Approach
@@ -100,6 +104,23 @@ def test_standards_say_what_is_and_what_would_be(page: dict[str, Any]) -> None:
     (standard,) = page["standards"]
     accuracy = standard["rows"][0]
     assert (accuracy["value"], accuracy["by_model"]) == ("17.41", "7.98")
+
+
+def test_a_standard_by_positions_is_forecast_by_the_positions_of_the_test(
+    workbench: Workbench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Sloping(ExemplaryStandard):
+        def arithmetic(self, statistics: PositionStatistics, options: Any) -> Arithmetic:
+            slope = (statistics.mean_positive[..., -1] - statistics.mean_positive[..., 0]) / np.ptp(
+                statistics.positions
+            )
+            return replace(super().arithmetic(statistics, options), parameters={"E": slope, "R": slope})
+
+    standard = Sloping()
+    monkeypatch.setattr(pipeline, "choose_standards", lambda *_: [(standard, standard.options())])
+    results = make_results(workbench.bench, workbench.bench.load(), Language.ENGLISH)
+    for row in results["standards"][0]["rows"]:
+        assert NOTHING not in {row["value"], row["by_table"], row["by_model"]}
 
 
 def test_the_page_is_plain_values(page: dict[str, Any]) -> None:

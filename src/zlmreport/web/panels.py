@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from itertools import zip_longest
 from typing import Any
-
-import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.document.blocks import Facts
@@ -22,14 +21,14 @@ from zlmreport.document.subjects.fit import (
     make_parameter_rows,
     write_deviation,
 )
+from zlmreport.document.subjects.forecast import make_forecasts
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import EvaluatedParameter
-from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import with_unit
-from zlmreport.model.compensation.basis import FittedModel, compensate_readings
-from zlmreport.model.diagnosis.study import Fitted, correct_by_model
+from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.registry import Registry
@@ -140,35 +139,26 @@ class Panels:
 
         `results`: Of the job's standards, in their order.
         """
-        study, whole = self.loaded.study, self.whole.fit
-        is_position = self.design.axis.measurand.is_position  # else no control corrects it
-        tests = [
-            compensate_readings(FittedModel(study.measurements, study.observed, whole)),
-            correct_by_model(study.measurements, study.observed, whole),
+        standards = pipeline.choose_standards(self.loaded.job, self.registry)
+        forecasts = make_forecasts(standards, self.loaded.study, [self.whole])
+        return [
+            {
+                "designation": each.evaluation.designation,
+                "unit": self.writer.deviation_unit.symbol,
+                "rows": [
+                    self._make_row(
+                        parameter, forecast.parameters[parameter.quantity.symbol] if forecast else None
+                    )
+                    for parameter in each.evaluation.parameters
+                ],
+                "unmet": [
+                    self.say(named(finding.requirement, finding.found))
+                    for finding in each.evaluation.findings
+                    if finding.met is False
+                ],
+            }
+            for each, forecast in zip_longest(results, forecasts)
         ]
-        statistics = position_statistics(np.stack([test.deviations() for test in tests]))
-        found = []
-        for (standard, options), evaluated in zip(
-            pipeline.choose_standards(self.loaded.job, self.registry), results, strict=True
-        ):
-            forecast = standard.arithmetic(statistics, options).parameters
-            parameters = evaluated.evaluation.parameters
-            found.append(
-                {
-                    "designation": evaluated.evaluation.designation,
-                    "unit": self.writer.deviation_unit.symbol,
-                    "rows": [
-                        self._make_row(each, forecast[each.quantity.symbol] if is_position else None)
-                        for each in parameters
-                    ],
-                    "unmet": [
-                        self.say(named(finding.requirement, finding.found))
-                        for finding in evaluated.evaluation.findings
-                        if finding.met is False
-                    ],
-                }
-            )
-        return found
 
     def list_excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""
@@ -186,11 +176,11 @@ class Panels:
     def _write_deviation(self, value: float | None) -> str:
         return write_deviation(value, self.design.axis, self.language)
 
-    def _make_row(self, parameter: EvaluatedParameter, forecast: Any | None) -> dict[str, Any]:
+    def _make_row(self, parameter: EvaluatedParameter, forecast: FloatArray | None) -> dict[str, Any]:
         quantity, decision = parameter.quantity, parameter.decision
         writer = self.writer.of_quantity(quantity)
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
-        by_table, by_model = (
+        by_model, by_table = (
             (None, None) if forecast is None else (quantity.printed_sign * float(value) for value in forecast)
         )
 

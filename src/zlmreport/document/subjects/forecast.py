@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +15,7 @@ from zlmreport.evaluation.evaluation import Quantity, QuantityGroup
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
@@ -39,17 +39,30 @@ _ORDER = (QuantityGroup.COMPOSITE, QuantityGroup.SYSTEMATIC, QuantityGroup.RANDO
 
 @dataclass(frozen=True, slots=True)
 class StandardForecast:
-    """The leading parameters of a standard, predicted for a corrected axis."""
+    """The parameters of a standard, predicted for a corrected axis."""
 
     #: standard and designation: Identifier and as printed.
     standard: str
     designation: str
     unit: Unit  #: In which deviations are printed.
     quantities: tuple[Quantity, ...]  #: The first parameter of each group: composite, systematic, random.
-    #: (steps, quantities): After each step of the model's history, m or rad; the first row is of the readings
-    #: as they are. NaN for what the test does not define.
-    by_step: FloatArray
-    by_table: FloatArray  #: (quantities,): With a table of the model, its rows at the targets, m or rad.
+    #: (steps + 1,) of each parameter, by its symbol: after each step of the model's history, and with a table
+    #: of the model, its rows at the targets; m or rad. NaN for what the test does not define.
+    parameters: Mapping[str, FloatArray]
+
+    @property
+    def by_step(self) -> FloatArray:
+        """(steps, quantities): Of the quantities; the first row is of the readings as they are."""
+        return self._leading[:-1]
+
+    @property
+    def by_table(self) -> FloatArray:
+        """(quantities,): Of the quantities, with a table."""
+        return self._leading[-1]
+
+    @property
+    def _leading(self) -> FloatArray:
+        return np.stack([self.parameters[quantity.symbol] for quantity in self.quantities], axis=1)
 
 
 def make_forecasts(
@@ -63,22 +76,16 @@ def make_forecasts(
     statistics = position_statistics(
         np.stack([test.deviations() for test in tests]), study.measurements.target_positions
     )
-    found = []
-    for standard, options in standards:
-        values = standard.arithmetic(statistics, options).parameters
-        quantities = _select_leading(standard.quantities)
-        table = np.stack([values[quantity.symbol] for quantity in quantities], axis=1)
-        found.append(
-            StandardForecast(
-                standard.identifier,
-                standard.designation,
-                study.measurements.axis.deviation_unit,
-                quantities,
-                read_only_floats(table[:-1]),
-                read_only_floats(table[-1]),
-            )
+    return tuple(
+        StandardForecast(
+            standard.identifier,
+            standard.designation,
+            study.measurements.axis.deviation_unit,
+            _select_leading(standard.quantities),
+            standard.arithmetic(statistics, options).parameters,
         )
-    return tuple(found)
+        for standard, options in standards
+    )
 
 
 def _select_leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
