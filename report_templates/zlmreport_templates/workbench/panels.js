@@ -188,22 +188,21 @@ function fixing(texts, { effect, name }, own, actions) {
 
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
 export function fall(texts, results, actions) {
-  const { rows, floor, unit } = results.fall;
-  const leftOutIsKnown = rows.some((each) => each.left_out);
+  const { heads: [first, ...heads], rows, floor } = results.fall;
   const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
-  const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, results.fall.rows[step].name) },
-    h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), leftOutIsKnown && h("td", { class: "number" }, leftOut));
+  const row = (label, { name, share, cells }, look, step = 0) => h("tr", { class: look, ...seen(step, name) },
+    h("th", { scope: "row" }, label), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), cells.map((each) => h("td", { class: "number" }, each)));
   return [
     h("h2", {}, texts.fall),
     h("table", { class: "fall" },
-      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, explained(`${texts.error} (${unit})`, texts.errorIs)), leftOutIsKnown && h("th", { scope: "col", class: "number" }, explained(`${texts.leftOut} (${unit})`, texts.leftOutIs)))),
-      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.name || texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
-        floor && row(explained(texts.noiseFloor, texts.noiseFloorIs), floor.share, floor.rms, "", "floor"))),
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, first.text), h("td", {}), heads.map((each) => h("th", { scope: "col", class: "number" }, explained(each.text, each.meaning))))),
+      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.label, each, undefined, step)),
+        floor && row(explained(floor.label, texts.noiseFloorIs), floor, "floor"))),
   ];
 }
 
-function stepButton({ effect, name }, step, actions) {
-  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, `+ ${name}`);
+function stepButton({ effect, name, label }, step, actions) {
+  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, label);
 }
 
 /** The parameters of the standards: now, and as forecast where a control compensates; the first standard open. */

@@ -8,7 +8,7 @@ from itertools import zip_longest
 from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.document.blocks import Facts
+from zlmreport.document.blocks import ColumnKind, Facts
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.document.certificate.values import limit
@@ -19,9 +19,8 @@ from zlmreport.document.subjects.fit import (
     ParameterRow,
     list_error_facts,
     make_parameter_rows,
-    write_deviation,
 )
-from zlmreport.document.subjects.forecast import make_forecasts
+from zlmreport.document.subjects.forecast import make_fall_table, make_forecasts
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.language import Language, Words, named
@@ -36,6 +35,12 @@ from zlmreport.web.bench import Loaded
 from zlmreport.web.naming import Naming
 from zlmreport.web.texts import TEXTS
 
+_RMS_IS = Words("Root mean square of the residuals: what the model does not explain.")
+_LEFT_OUT_IS = Words(
+    "Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
+    " of what is wrong with these predictions. If it is much larger than the error, the model "
+    "follows noise."
+)
 _CHI2_IS = Words(
     "Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "
     "where the model leaves only noise, larger where something is missing."
@@ -72,10 +77,8 @@ class Panels:
 
     def list_error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        meanings = {
-            self.say(name): self.say(TEXTS[key])
-            for name, key in ((RMS, "errorIs"), (FLOOR, "noiseFloorIs"), (LEFT_OUT, "leftOutIs"))
-        }
+        said = ((RMS, _RMS_IS), (FLOOR, TEXTS["noiseFloorIs"]), (LEFT_OUT, _LEFT_OUT_IS))
+        meanings = {self.say(name): self.say(meaning) for name, meaning in said}
         chi2 = self.say(_CHI2_IS)
         facts = list_error_facts(self.whole.error, self.design.axis, self.language)
         return [each | {"meaning": meanings.get(each["name"], chi2)} for each in collect_errors(facts)]
@@ -113,25 +116,31 @@ class Panels:
 
     def list_fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
         """Return how the error fell, effect by effect, down to the noise floor."""
-        unit = self.design.axis.deviation_unit
-        largest = max(each.error.rms for each in history) or 1.0
-        names = ["", *self.whole.fit.model.identifiers]
-        floor, called = self.whole.error.noise_rms, self.naming
+        table = make_fall_table(history, None, self.writer).without("chi2")
+        called, effects = self.naming, self.whole.fit.model.identifiers
+        of_rows = ("", *effects, "")  # the readings as they are; the noise floor
+        rows = [
+            {
+                "effect": effect,
+                "name": called.name_in(effect),
+                "label": called.name_in(str(label)),
+                "share": float(str(share)) / 100,
+                "cells": cells,
+            }
+            for effect, (label, share, *cells) in zip(of_rows, table.groups[0].rows, strict=False)
+        ]
+        meanings = {"rms": _RMS_IS, "cross_validated": _LEFT_OUT_IS}
         return {
-            "unit": unit.symbol,
-            "rows": [
+            "heads": [
                 {
-                    "effect": name,
-                    "name": called.name_in(name),
-                    "rms": self._write_deviation(each.error.rms),
-                    "share": each.error.rms / largest,
-                    "left_out": self._write_deviation(each.error.cross_validated_rms),
+                    "text": f"{column.heading} ({column.unit})" if column.unit else column.heading,
+                    "meaning": self.say(meanings[column.key]) if column.key in meanings else "",
                 }
-                for name, each in zip(names, history, strict=True)
+                for column in table.columns
+                if column.kind is not ColumnKind.BARS
             ],
-            "floor": None
-            if floor is None
-            else {"rms": self._write_deviation(floor), "share": min(1.0, floor / largest)},
+            "rows": rows[: 1 + len(effects)],
+            "floor": next(iter(rows[1 + len(effects) :]), None),
         }
 
     def list_standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
@@ -172,9 +181,6 @@ class Panels:
             }
             for each in self.loaded.measurements.provenance.exclusions
         ]
-
-    def _write_deviation(self, value: float | None) -> str:
-        return write_deviation(value, self.design.axis, self.language)
 
     def _make_row(self, parameter: EvaluatedParameter, forecast: FloatArray | None) -> dict[str, Any]:
         quantity, decision = parameter.quantity, parameter.decision

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from zlmreport.document.subjects.compensation import CONFIRMED
 from zlmreport.document.subjects.diagnosis import CANDIDATES, VERDICT
-from zlmreport.document.subjects.fit import EFFECTS
+from zlmreport.document.subjects.fit import EFFECTS, FLOOR
 from zlmreport.document.subjects.forecast import FALL
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
@@ -154,17 +154,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "setAllAside": Words("Set these readings aside"),
         "reason": Words("Reason, as the certificate will state it"),
         "bringBack": Words("Bring back"),
-        "effect": Words("Effect"),
-        "error": Words("Error"),
-        "noiseFloor": Words("Noise floor"),
-        "withoutModel": Words("without model"),
-        "leftOut": Words("Runs left out"),
-        "leftOutIs": Words(
-            "Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
-            " of what is wrong with these predictions. If it is much larger than the error, the model "
-            "follows noise."
-        ),
-        "errorIs": Words("Root mean square of the residuals: what the model does not explain."),
+        "noiseFloor": FLOOR,
         "noiseFloorIs": Words(
             "The scatter of readings repeated at one target in one direction: no model gets below it, and"
             " a good one nearly down to it."
@@ -252,9 +242,6 @@ MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
         "noiseFloorIs": Words(
             "Scatter, and irregular shape without a name: what is left once all that was found is in the "
             "model. No effect takes it away."
-        ),
-        "errorIs": Words(
-            "Root mean square of all circles together, without where the bar stands and how long it is."
         ),
         "compensation": TABLES,
         "writeTable": Words("Write the tables"),

@@ -15,7 +15,7 @@ from zlmreport.evaluation.evaluation import Quantity, QuantityGroup
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
@@ -24,9 +24,8 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluate import EvaluatingStandard
     from zlmreport.measurement.units import Unit
 
-#: Title of the fall of the error.
-FALL = Words("How the error falls")
-_EFFECT = Words("Effect")
+#: Title of the fall of the error, and the heading of its first column.
+FALL, EFFECT = Words("How the error falls"), Words("Effect")
 _FALL = Words(
     "How the error falls, effect by effect; the parameters of {designation} are predicted for an "
     "axis whose control corrects all effects down to the row"
@@ -53,12 +52,12 @@ class StandardForecast:
     @property
     def by_step(self) -> FloatArray:
         """(steps, quantities): Of the quantities; the first row is of the readings as they are."""
-        return self._leading[:-1]
+        return read_only_floats(self._leading[:-1])
 
     @property
     def by_table(self) -> FloatArray:
         """(quantities,): Of the quantities, with a table."""
-        return self._leading[-1]
+        return read_only_floats(self._leading[-1])
 
     @property
     def _leading(self) -> FloatArray:
@@ -100,9 +99,17 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
     """Return how the error fell, effect by effect, and what a standard would say after each.
 
     `forecast`: None of an error that no control corrects, such as a straightness.
+    """
+    left = say_no_table_takes_away(history[-1].fit, writer.language)
+    said = [Paragraph(left)] if left else []
+    return Section("fall", writer.say(FALL), (make_fall_table(history, forecast, writer), *said))
 
-    Its table has the columns ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``,
-    ``cross_validated`` and one for each quantity, by its symbol.
+
+def make_fall_table(history: Sequence[Fitted], forecast: StandardForecast | None, writer: Writer) -> Table:
+    """Return a row for the readings as they are, one for each effect, and the noise floor where it is known.
+
+    Its columns are ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``, ``cross_validated`` and
+    one for each quantity of the forecast, by its symbol.
     """
     say, language, whole = writer.say, writer.language, history[-1]
     axis, unit = whole.fit.design.axis, writer.deviation_unit.symbol
@@ -120,11 +127,11 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
         )
 
     columns = (
-        Column(say(_EFFECT), key="effect"),
+        Column(say(EFFECT), key="effect"),
         Column("", "%", Align.LEFT, "share", ColumnKind.BARS),
         Column(say(Words("RMS error")), unit, Align.RIGHT, "rms"),
         Column("χ²/ν", "", Align.RIGHT, "chi2"),
-        Column(say(Words("Cross-validated")), unit, Align.RIGHT, "cross_validated"),
+        Column(say(Words("Runs left out")), unit, Align.RIGHT, "cross_validated"),
         *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in quantities),
     )
     names = [say(_WITHOUT), *(f"+ {name}" for name in whole.fit.model.identifiers)]
@@ -137,12 +144,7 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
         blank = ("",) * (2 + len(quantities))
         rows.append((say(_FLOOR), _share(floor, largest), write_deviation(floor, axis, language), *blank))
     caption = say(_FALL.given(designation=forecast.designation) if forecast else FALL)
-    left = say_no_table_takes_away(whole.fit, language)
-    return Section(
-        "fall",
-        say(FALL),
-        (Table(caption, columns, (RowGroup(tuple(rows)),)), *([Paragraph(left)] if left else [])),
-    )
+    return Table(caption, columns, (RowGroup(tuple(rows)),))
 
 
 def _share(value: float, largest: float) -> str:
