@@ -14,7 +14,7 @@ from zlmreport.errors import Problem, did_you_mean, quoted
 from zlmreport.job.document_keys import Amends, OpinionKeys
 from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, find_wrong_positions
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Instrument, Measurement, SensorKeys
+from zlmreport.job.measurement_keys import InstrumentKeys, Measurement, SensorKeys
 from zlmreport.job.sentences import (
     GROUP_EXPECTED,
     MISSING,
@@ -165,7 +165,7 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield from _find_per_metre(keys.instrument)
 
 
-def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], Instrument | SensorKeys]]:
+def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], InstrumentKeys | SensorKeys]]:
     """Yield the instrument and the thermometers, each with the path of its keys."""
     if keys.instrument:
         yield ("instrument",), keys.instrument
@@ -186,7 +186,7 @@ def _find_turned_ranges(keys: JobKeys) -> Iterator[Contradiction]:
             )
 
 
-def _find_per_metre(instrument: Instrument) -> Iterator[Contradiction]:
+def _find_per_metre(instrument: InstrumentKeys) -> Iterator[Contradiction]:
     """Yield an uncertainty that grows with the length of an axis that has none."""
     stated = instrument.stated_uncertainty
     if stated and stated[1]:
