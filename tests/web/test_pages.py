@@ -19,6 +19,7 @@ from processes import awaited
 from testing.exemplary import ExemplaryStandard
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
+from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
 from zlmreport.document.writer import NOTHING
 from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.statistics import PositionStatistics
@@ -29,9 +30,11 @@ from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.design import place_at_positions
+from zlmreport.model.fitting.estimate import Plausibility
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import draw_sketch
+from zlmreport.web.panels import collect_parameter
 from zlmreport.web.texts import TEXTS, collect_texts
 from zlmreport.web.view import collect_diagnosed, make_results, make_view
 
@@ -121,6 +124,25 @@ def test_a_standard_by_positions_is_forecast_by_the_positions_of_the_test(
     results = make_results(workbench.bench, workbench.bench.load(), Language.ENGLISH)
     for row in results["standards"][0]["rows"]:
         assert NOTHING not in {row["value"], row["by_table"], row["by_model"]}
+
+
+@pytest.mark.parametrize(
+    ("known", "notes"),
+    [
+        ({"uncertainty": "", "is_given": True}, ["given"]),
+        ({"uncertainty": "", "at_bound": "max"}, ["held at max"]),
+        (
+            {"is_on_grid": True, "plausibility": Plausibility.IMPLAUSIBLE},
+            ["grid", "outside the plausible range"],
+        ),
+        ({"expected": "5"}, ["expected 5 mm"]),
+    ],
+)
+def test_a_parameter_has_the_notes_of_the_terminal(known: dict[str, Any], notes: list[str]) -> None:
+    row = replace(ParameterRow("wave", "L", "L", "its length", "4.9", "0.3", "mm", 4.9), **known)
+    assert collect_parameter(row, Language.ENGLISH)["notes"] == notes
+    said = write_in_a_sentence(row, Language.ENGLISH)
+    assert said.endswith(" ".join(f"({each})" for each in notes))
 
 
 def test_the_page_is_plain_values(page: dict[str, Any]) -> None:

@@ -12,7 +12,7 @@ const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
 const PRINTED = { um: "µm", arcsec: "″" };
 const LIKELY = 0.5;
 const CONFIRMED = { held: "held", "wrong-sign": "wrongSign", half: "half", shifted: "shifted", other: "otherTable" };
-const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
+const DOUBTS = new Set(["doubtful", "implausible"]);
 
 /** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
 export function verdict(texts, job, diagnosis, number, actions) {
@@ -141,7 +141,7 @@ function candidate(texts, each, actions) {
     h("p", {}, sentence(each.explains), "."),
     each.remedy && h("p", { class: "tell" }, h("strong", {}, named(texts.remedy)), each.remedy),
     wave(texts, each.name, actions.number, actions.wave(each.argument)),
-    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), DOUBTS[own.plausibility] || !own.expected ? " " : ", ", doubt(texts, own)))),
+    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), own.notes.length > 0 && !DOUBTS.has(own.plausibility) ? ", " : " ", notes(own)))),
   );
 }
 
@@ -156,7 +156,7 @@ export function effects(texts, job, actions) {
       h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
         h("td", { class: "number" }, own.fixed && actions.fix ? value(each, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
-        h("td", {}, own.given || own.at_bound ? h("span", { class: "given" }, own.given ? texts.given : texts.atBound) : doubt(texts, own)),
+        h("td", {}, notes(own)),
         h("td", {}, actions.fix && fixing(texts, each, own, actions)))))),
       wave(texts, each.name, actions.number, actions.wave(each.effect)),
     ))),
@@ -409,9 +409,10 @@ function amount(own) {
   return withUnit(`${own.value}${own.uncertainty ? ` ± ${own.uncertainty}` : ""}`, own.unit);
 }
 
-function doubt(texts, own) {
-  if (DOUBTS[own.plausibility]) return h("span", { class: `doubt ${own.plausibility}` }, texts[own.plausibility]);
-  return own.expected ? h("span", { class: "quiet" }, said(texts.expected, { value: own.expected })) : null;
+/** How a parameter is known where that is not by its U alone, and how it lies to what is usual or expected. */
+function notes(own) {
+  if (own.notes.length === 0) return null;
+  return h("span", { class: DOUBTS.has(own.plausibility) ? `doubt ${own.plausibility}` : "note" }, own.notes.join(", "));
 }
 
 /** A bar of a length from 0 to 1, with a mark at the noise floor. */

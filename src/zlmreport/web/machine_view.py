@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from zlmreport.document.blocks import Section
+from zlmreport.document.subjects.fit import OUTSIDE
 from zlmreport.document.subjects.forecast import EFFECT
 from zlmreport.document.writer import NOTHING
 from zlmreport.errors import InputError
@@ -247,9 +248,8 @@ def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]
         "uncertainty": "" if uncertainty == NOTHING else uncertainty,
         "unit": term.unit.symbol,
         "given": False,
-        "at_bound": False,
         "plausibility": "plausible" if term.is_possible else "implausible",
-        "expected": "",
+        "notes": [] if term.is_possible else [say(OUTSIDE)],
     }
 
 

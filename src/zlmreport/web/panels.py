@@ -19,6 +19,7 @@ from zlmreport.document.subjects.fit import (
     ParameterRow,
     list_error_facts,
     make_parameter_rows,
+    say_notes,
 )
 from zlmreport.document.subjects.forecast import make_fall_table, make_forecasts
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
@@ -93,7 +94,7 @@ class Panels:
                 "title": self.say(term.effect.title),
                 "equation": split_symbol(term.effect.equation),
                 "parameters": [
-                    collect_parameter(each) | {"fixed": each.name in term.fixed}
+                    collect_parameter(each, self.language) | {"fixed": each.name in term.fixed}
                     for each in make_parameter_rows(fit, self.language)
                     if each.effect == term.effect.identifier
                 ],
@@ -220,7 +221,7 @@ def collect_errors(facts: Facts) -> list[dict[str, str]]:
     return [{"name": name, "value": value} for name, value in facts.pairs]
 
 
-def collect_parameter(row: ParameterRow) -> dict[str, Any]:
+def collect_parameter(row: ParameterRow, language: Language) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     return {
         "name": row.name,
@@ -231,9 +232,8 @@ def collect_parameter(row: ParameterRow) -> dict[str, Any]:
         "uncertainty": row.uncertainty,
         "unit": row.unit,
         "given": row.is_given,
-        "at_bound": row.at_bound,
         "plausibility": row.plausibility.name.lower(),
-        "expected": row.expected,
+        "notes": list(say_notes(row, language)),
     }
 
 

@@ -133,8 +133,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "fixParameter": Words("Fix {parameter} at this value"),
         "free": Words("Free"),
         "freeParameter": Words("Estimate {parameter} from the readings"),
-        "given": Words("given"),
-        "atBound": Words("held at bound"),
         "probability": Words("Probability"),
         "errorAfter": Words("Error after it"),
         "alike": Words("These readings cannot tell them apart."),
@@ -208,9 +206,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "confusions": Words("What it is taken for"),
         "contains": Words("It contains {effects}, which cannot stand beside it in a model."),
         "language": Words("Language"),
-        "implausible": Words("implausible"),
-        "doubtful": Words("doubtful"),
-        "expected": Words("expected {value}"),
     }
 )
 
