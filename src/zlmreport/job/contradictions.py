@@ -130,7 +130,7 @@ def find_all_contradictions(
         named = ".".join(step for step in path if isinstance(step, str))
         yield Problem(place_of(tree, path), f"{named}: {message}")
     if keys.provided_by_customer or keys.external:
-        yield from find_supplied_problems(keys, tree)
+        yield from _find_supplied_problems(keys, tree)
 
 
 def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
@@ -312,7 +312,7 @@ def list_markable_keys() -> tuple[str, ...]:
     )
 
 
-def find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
+def _find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
     """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
     named: list[tuple[str, Path]] = [
         (key, ("provided_by_customer", index)) for index, key in enumerate(keys.provided_by_customer)

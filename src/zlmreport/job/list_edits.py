@@ -64,7 +64,7 @@ def add_member(written: Written, outer: WrittenValue, listed: Sequence[ListMembe
     return insert(text, line_end, f"{own_line},")
 
 
-def drop_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
+def _drop_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
     """Return the text without one of the members in the brackets or braces of `outer`.
 
     A comment in the line of a member goes with it, if that line holds nothing else.
@@ -173,7 +173,7 @@ def drop_item(text: str, where: ListKey, index: int) -> str:
     written = Written.of(text)
     listed = _take_own_list(written, where)
     if listed.form is ValueForm.BRACKETS:
-        return drop_member(written, listed, find_members(listed.parts), index)
+        return _drop_member(written, listed, find_members(listed.parts), index)
     item = listed.parts[index]
     dash = written.find_dash_of(item)
     start = written.line_start(dash)
