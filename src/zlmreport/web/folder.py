@@ -46,7 +46,7 @@ class JobState(IntEnum):
     UNDECIDED = 3
     SOON = 4
     FINE = 5
-    EARLIER = 6  #: A later job tests the same axis.
+    EARLIER = 6  #: A later job tests the same error of the same axis.
     WAITS = 7  #: It is being looked at.
 
 
@@ -74,6 +74,7 @@ class JobRow:
     number: str = ""  #: Of its certificate.
     machine: str = ""
     axis: Words = _NO_AXIS  #: With its name, as pages head it.
+    error: str = ""  #: The symbol of what was measured, ``EXX``; the name of the axis where it has none.
     measured: dt.date | None = None
     due: dt.date | None = None  #: By when the axis is to be measured again; None where no interval is stated.
     problems: tuple[str, ...] = ()  #: Why it fails, each with its place.
@@ -246,6 +247,7 @@ def _describe_row(row: JobRow, job: Job) -> JobRow:
         number=keys.certificate.number,
         machine=" ".join(filter(None, (keys.machine.type, keys.machine.serial))),
         axis=job.axis.heading,
+        error=job.axis.symbol or job.axis.name,
         measured=measured,
         due=measured + dt.timedelta(days=interval) if measured and interval else None,
     )
@@ -262,10 +264,10 @@ def _date_rows(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
     latest: dict[tuple[str, str], dt.date] = {}
     for each in rows:
         if each.measured:
-            axis = each.machine, each.axis.en
-            latest[axis] = max(each.measured, latest.get(axis, dt.date.min))
+            tested = each.machine, each.error
+            latest[tested] = max(each.measured, latest.get(tested, dt.date.min))
     for each in rows:
-        is_latest = each.measured is None or latest[each.machine, each.axis.en] == each.measured
+        is_latest = each.measured is None or latest[each.machine, each.error] == each.measured
         yield each.date(today, is_latest=is_latest)
 
 
