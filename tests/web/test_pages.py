@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from processes import awaited
+from processes import PATIENCE, awaited
 from testing.exemplary import ExemplaryStandard
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
@@ -234,7 +234,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
 
     def slow(study: Study) -> Fitted:
         begun.set()
-        assert go_on.wait(60)
+        assert go_on.wait(PATIENCE)
         made.append(len(study.model.terms))
         return fitted(study)
 
@@ -242,8 +242,8 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
     with ThreadPoolExecutor(3) as others:
         try:
             falls = [others.submit(bench.fit_history, loaded) for _ in range(2)]
-            assert begun.wait(60)
-            assert others.submit(bench.try_job, loaded.job).result(60).basis == loaded.basis
+            assert begun.wait(PATIENCE)
+            assert others.submit(bench.try_job, loaded.job).result(PATIENCE).basis == loaded.basis
         finally:
             go_on.set()
         assert falls[0].result() == falls[1].result()
