@@ -137,10 +137,11 @@ def test_an_earlier_test_of_an_axis_needs_nobody(job: Path, listing: TestClient)
     ("was", "other"),
     [
         ("name: X", "name: Y"),
+        ("name: X", "name: X2"),
         ("method: linear", "method: linear\n  error: EXX"),
         ("method: linear", "method: linear\n  error: EYX"),
     ],
-    ids=["another axis", "the same error by its symbol", "another error"],
+    ids=["another axis", "a second axis of the letter", "the same error by its symbol", "another error"],
 )
 def test_a_later_test_leaves_behind_none_of_another_axis_or_error(
     job: Path, listing: TestClient, was: str, other: str

@@ -74,7 +74,8 @@ class JobRow:
     number: str = ""  #: Of its certificate.
     machine: str = ""
     axis: Words = _NO_AXIS  #: With its name, as pages head it.
-    error: str = ""  #: The symbol of what was measured, ``EXX``; the name of the axis where it has none.
+    #: The name of the axis, and the symbol of what was measured of it, or what that is called without one.
+    tested: tuple[str, str] = ("", "")
     measured: dt.date | None = None
     due: dt.date | None = None  #: By when the axis is to be measured again; None where no interval is stated.
     problems: tuple[str, ...] = ()  #: Why it fails, each with its place.
@@ -247,7 +248,7 @@ def _describe_row(row: JobRow, job: Job) -> JobRow:
         number=keys.certificate.number,
         machine=" ".join(filter(None, (keys.machine.type, keys.machine.serial))),
         axis=job.axis.heading,
-        error=job.axis.symbol or job.axis.name,
+        tested=(job.axis.name, job.axis.symbol or job.axis.measurand.identifier),
         measured=measured,
         due=measured + dt.timedelta(days=interval) if measured and interval else None,
     )
@@ -261,13 +262,13 @@ def _find_state(evaluated: Sequence[Evaluated]) -> JobState:
 
 
 def _date_rows(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
-    latest: dict[tuple[str, str], dt.date] = {}
+    latest: dict[tuple[str, tuple[str, str]], dt.date] = {}
     for each in rows:
         if each.measured:
-            tested = each.machine, each.error
-            latest[tested] = max(each.measured, latest.get(tested, dt.date.min))
+            subject = each.machine, each.tested
+            latest[subject] = max(each.measured, latest.get(subject, dt.date.min))
     for each in rows:
-        is_latest = each.measured is None or latest[each.machine, each.error] == each.measured
+        is_latest = each.measured is None or latest[each.machine, each.tested] == each.measured
         yield each.date(today, is_latest=is_latest)
 
 
