@@ -96,6 +96,7 @@ CIRCUMSTANCES = {
             "LANG": "C",
             "LANGUAGE": "de",
             "PYTHONUTF8": "0",
+            "OPENPYXL_LXML": "False",  # as if lxml were not installed
         },
         clock=400 * 86400.5,
     ),

@@ -50,7 +50,7 @@ def compute_deviations_of(
         raise InputError(problems)
     actual, growth = _compute_distances(probed, set_up)
     radius = (
-        compute_radius_of(probed, set_up, along, actual, place)
+        _compute_radius_of(probed, set_up, along, actual, place)
         if not is_corrected
         else EffectiveRadius(RadiusSource.MACHINE)
     )
@@ -211,7 +211,7 @@ class EffectiveRadius:
     uncertainty: float = 0.0
 
 
-def compute_radius_of(
+def _compute_radius_of(
     probed: Probed, set_up: GaugeSetUp, along: FloatArray, actual: FloatArray, place: Place
 ) -> EffectiveRadius:
     """Return the effective radius of the probe in a test of centres of the tip.

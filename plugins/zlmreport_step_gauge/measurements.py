@@ -104,7 +104,7 @@ def list_remarks(deviations: Deviations, set_up: GaugeSetUp, *, targets_are_bloc
         yield _NOT_COMPENSATED
 
 
-def list_corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correction]:
+def _list_corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correction]:
     """Yield the compensation of temperatures, if there is one."""
     gauge, scale = set_up.gauge_expansion, set_up.scale_expansion
     if gauge is None:
@@ -255,7 +255,8 @@ def make_measurement_set(  # noqa: PLR0913 - what a set is made of
             *list_remarks(deviations, set_up, targets_are_blocks=targets is Targets.BLOCKS),
         ),
         tuple(
-            replace(each, largest=sign.factor * each.largest) for each in list_corrections(deviations, set_up)
+            replace(each, largest=sign.factor * each.largest)
+            for each in _list_corrections(deviations, set_up)
         ),
     )
     found = collect_readings(readings, axis, provenance, place=place)

@@ -82,7 +82,7 @@ def _read_row(
 _PARTED = re.compile(r"[\s,;]+")
 
 
-def read_sequence(path: Path) -> tuple[TextFile, list[Unnumbered]]:
+def _read_sequence(path: Path) -> tuple[TextFile, list[Unnumbered]]:
     """Read coordinates alone, x y z on a line, cycle after cycle; blanks, commas or semicolons part them."""
     text = read_text(path)
     problems: list[Problem] = []
@@ -111,7 +111,7 @@ _CALYPSO = ("partnb", "id", "actual", "unit")
 _END = "END"
 
 
-def is_calypso(header: str) -> bool:
+def _is_calypso(header: str) -> bool:
     """Whether a header is that of such a table."""
     return set(_CALYPSO) <= set(header.split("\t"))
 
@@ -122,7 +122,7 @@ def _find_header(text: TextFile) -> int:
     return next((index for index, line in lines if line.strip() and not line.lstrip().startswith("#")), 0)
 
 
-def read_calypso(path: Path, mapping: dict[str, int]) -> Points:
+def _read_calypso(path: Path, mapping: dict[str, int]) -> Points:
     """Read the distances in the table of characteristics of ZEISS Calypso, ``*_chr.txt``.
 
     Each part is a cycle, in the order in which the parts come. The layout is known from two independent
@@ -185,7 +185,7 @@ _COORDINATE = re.compile(r"\b(X|Y|Z)\(\s*([^()]*?)\s*\)")
 _IJK = re.compile(r"\bIJK\(\s*([^(),]*?)\s*,\s*([^(),]*?)\s*,\s*([^(),]*?)\s*\)")
 
 
-def read_log(path: Path) -> tuple[TextFile, list[Unnumbered]]:
+def _read_log(path: Path) -> tuple[TextFile, list[Unnumbered]]:
     """Read the measured points in the log of an I++ DME run, ``00120 # X(…), Y(…), Z(…), IJK(…)``.
 
     They come in the order of the log; an error that the machine answered is a defect.
@@ -327,8 +327,8 @@ def _read_points(options: StepGaugeOptions, set_up: GaugeSetUp, sides: tuple[Sid
     if layout == "table":
         return read_table(options.file, set_up.gauge, direction)
     if layout == "calypso":
-        return read_calypso(options.file, options.faces)
-    text, unnumbered = (read_log if layout == "ipp-dme" else read_sequence)(options.file)
+        return _read_calypso(options.file, options.faces)
+    text, unnumbered = (_read_log if layout == "ipp-dme" else _read_sequence)(options.file)
     return _add_faces(text, unnumbered, set_up, sides)
 
 
@@ -349,7 +349,7 @@ def _add_faces(
 def _find_layout(text: TextFile) -> str:
     """Tell the layout by the first line that is no comment."""
     first = text.lines[_find_header(text)]
-    if is_calypso(first):
+    if _is_calypso(first):
         return "calypso"
     if _ANSWER.match(first):
         return "ipp-dme"

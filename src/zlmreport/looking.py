@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import json
 import os
-import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from pydantic import ValidationError
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
+from zlmreport.job.list_edits import write_in_a_line
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurand import CIRCLE, list_measurands_of
 from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
 from zlmreport.plugin.registry import Registry
 
-#: What stands in YAML without quotation marks.
-_PLAIN = re.compile(r"[^\W\d_][\w ./()+-]*[\w).]|[^\W\d_]")
-_WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
 #: Axes that turn, by their letters (ISO 841).
 _TURNING = frozenset("ABC")
 #: How an axis is called that the file does not name.
@@ -43,9 +38,9 @@ class Looked:
         """Yield the lines of the ``source:`` block of a job that names the file so, and of its tests."""
         keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
         yield f"{indent}source:"
-        yield from (f"{indent}  {name}: {_write_in_yaml(value)}" for name, value in keys.items())
+        yield from (f"{indent}  {name}: {write_in_a_line(value)}" for name, value in keys.items())
         if self.proposal.tests:
-            yield f"{indent}tests: {_write_in_yaml({name: {} for name in self.proposal.tests})}"
+            yield f"{indent}tests: {write_in_a_line({name: {} for name in self.proposal.tests})}"
 
 
 def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
@@ -168,15 +163,3 @@ def _write_measured(looked: Looked) -> Iterator[str]:
     first, last = (axis.typed(float(each)) for each in looked.read.target_positions[[0, -1]])
     travel = f", travel: [{first:.15g}, {last:.15g}]" if first < last else ""  # a single target tells none
     yield f"axis: {{name: {axis.name}, kind: {axis.kind.value}{travel}}}"
-
-
-def _write_in_yaml(value: Any) -> str:
-    """Return a value in YAML, on one line: text without quotation marks where that is safe."""
-    if isinstance(value, Mapping):
-        pairs = (f"{_write_in_yaml(name)}: {_write_in_yaml(each)}" for name, each in value.items())
-        return f"{{{', '.join(pairs)}}}"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_write_in_yaml, value))}]"
-    if isinstance(value, str) and _PLAIN.fullmatch(value) and value.casefold() not in _WORDS_OF_YAML:
-        return value
-    return json.dumps(value, ensure_ascii=False)

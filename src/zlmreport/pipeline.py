@@ -170,7 +170,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
         return [each for each in said if each]
 
     generator, plugins = made_by or find_programs(job, registry)
-    tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials) if job.tests else ()
+    tests = _evaluate_tests(job, measurements, evaluations[0].budget, registry, trials) if job.tests else ()
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
     if is_laid_out:
@@ -260,7 +260,7 @@ def _find_refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
         yield from find_unstated(job.tests[name], of_line)
 
 
-def evaluate_tests(
+def _evaluate_tests(
     job: Job,
     measurements: MeasurementSet,
     budget: Budget | NoBudget,

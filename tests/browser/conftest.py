@@ -13,14 +13,15 @@ pytest.importorskip("starlette", reason="the workbench's extra is not installed"
 
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
 
-from processes import ZLMREPORT, started
+from processes import PATIENCE, ZLMREPORT, started
 from web.jobs import lay_out
 
 ROOT = Path(__file__).parents[2]
 _NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 _ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-#: The longest that is waited for what a page shows, ms: a busy machine takes its time.
-_PATIENCE = 60_000
+#: The longest that is waited for what a page shows, ms: a diagnosis that needs 9 s of a processor takes 100 s
+#: beside six busy processes.
+_PATIENCE = 1000 * PATIENCE
 _ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/\?token=\S+")
 
 

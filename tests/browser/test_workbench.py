@@ -65,7 +65,7 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
         "+ scale-error",
         "+ backlash",
         "+ screw-pitch",
-        "Noise floor",
+        "noise floor",
     ]
     errors = [float(each) for each in fall.locator("td:nth-child(3)").all_inner_texts()]
     assert errors == sorted(errors, reverse=True)

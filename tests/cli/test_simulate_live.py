@@ -87,7 +87,7 @@ def test_every_instrument_can_watch_the_axis(specification: Path) -> None:
         simulation.ended()
     port = said[3].removeprefix("port: ").strip()
     assert port.startswith("socket://127.0.0.1:")
-    assert f'port: "{port}"' in (specification.parent / "job.yaml").read_text(encoding="utf-8")
+    assert f"port: {port}" in (specification.parent / "job.yaml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

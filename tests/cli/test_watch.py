@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
-from processes import ZLMREPORT, group, run
+from processes import PATIENCE, ZLMREPORT, group, run
 from verification.issued import READINGS
 from zlmreport.plugin.presence import SIZE, Presence
 
@@ -99,7 +99,7 @@ def test_who_ends_the_command_ends_all_of_it(number: signal.Signals, tmp_path: P
         assert process.stdout.read(1) == b"x"
         process.send_signal(number)
         assert process.stdout.read() == b""
-        assert process.wait(60) == -number
+        assert process.wait(PATIENCE) == -number
 
 
 def test_what_is_noted_is_read_by_another() -> None:

@@ -14,6 +14,7 @@ import pytest
 import yaml
 
 from environments import ROOT
+from processes import PATIENCE
 from zlmreport.cli import main
 
 FLEET = ROOT / "configs" / "fleet"
@@ -52,7 +53,7 @@ def test_systemd_has_nothing_against_the_units(tmp_path: Path) -> None:
         text = (FLEET / name).read_text(encoding="utf-8")
         (tmp_path / name).write_text(text.replace("/opt/zlmreport/bin/zlmreport", sys.executable))
     command = ["systemd-analyze", "verify", "--man=no", *map(str, tmp_path.glob("nightly.*"))]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
     assert not re.findall(rf"^.*{tmp_path}.*$|^.*nightly\.\w+:.*$", done.stderr, re.MULTILINE)
 
 

@@ -68,8 +68,8 @@ def test_several_keys_are_stated_at_once_in_groups_that_there_were_not(tmp_path:
         HEAD.replace("kind: report}", "kind: report, issued: 2026-11-20}")
         + "axis: {name: X}\n"
         + TAIL
-        + 'customer: {name: "Müller: Söhne #1", address: "Werkstraße 2"}\n'
-        + 'uncertainty: {negligible: {device_temperature: "no length of its own"}, misalignment: 0.5}\n'
+        + 'customer: {name: "Müller: Söhne #1", address: Werkstraße 2}\n'
+        + "uncertainty: {negligible: {device_temperature: no length of its own}, misalignment: 0.5}\n"
     )
     assert edit.job.keys.customer is not None
     assert edit.job.keys.customer.name == "Müller: Söhne #1"

@@ -126,6 +126,36 @@ def test_another_kind_of_axis_is_refused(folder: Path) -> None:
         _compared(folder / "after.yaml", _ROTARY)
 
 
+def _measuring(job: Path, error: str) -> None:
+    """Let a job say that it measured a straightness."""
+    text = job.read_text(encoding="utf-8").replace("method: linear", f"method: linear\n  error: {error}")
+    job.write_text(text.replace("iso230-2:2014", '"iso230-1:2012"'), encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("own", "ours"), [("", "positioning accuracy of"), ("EZX", "straightness error EZX of")]
+)
+def test_another_error_of_the_axis_is_refused(folder: Path, tmp_path: Path, own: str, ours: str) -> None:
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    after, before = tmp_path / "after.yaml", tmp_path / "before.yaml"
+    _measuring(before, "EYX")
+    if own:
+        _measuring(after, own)
+    message = rf"it measured the straightness error EYX of axis X, and .*after.yaml the {ours} axis X: these"
+    with pytest.raises(InputError, match=message):
+        _compared(after, before)
+
+
+def test_positioning_may_have_its_symbol_in_one_test_and_none_in_the_other(
+    folder: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    text = (tmp_path / "before.yaml").read_text(encoding="utf-8")
+    named = text.replace("method: linear", "method: linear\n  error: EXX")
+    (tmp_path / "before.yaml").write_text(named, encoding="utf-8")
+    assert len(_compared(tmp_path / "after.yaml", tmp_path / "before.yaml")["tests"]) == 2
+
+
 @pytest.fixture
 def comparison(folder: Path, tmp_path: Path) -> Callable[[], tuple[ComparedTests, Path]]:
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)

@@ -133,6 +133,29 @@ def test_an_earlier_test_of_an_axis_needs_nobody(job: Path, listing: TestClient)
     ]
 
 
+@pytest.mark.parametrize(
+    ("was", "other"),
+    [
+        ("name: X", "name: Y"),
+        ("name: X", "name: X2"),
+        ("method: linear", "method: linear\n  error: EXX"),
+        ("method: linear", "method: linear\n  error: EYX"),
+    ],
+    ids=["another axis", "a second axis of the letter", "the same error by its symbol", "another error"],
+)
+def test_a_later_test_leaves_behind_none_of_another_axis_or_error(
+    job: Path, listing: TestClient, was: str, other: str
+) -> None:
+    text = job.read_text("utf-8")
+    assert was in text
+    later = text.replace("date: 2026-11-18", "date: 2026-11-20").replace(was, other)
+    if "EYX" in other:
+        later = later.replace("iso230-2:2014", '"iso230-1:2012"')
+    job.with_name("later.yaml").write_text(later, "utf-8")
+    states = {each["name"]: each["state"] for each in rows(listing)}
+    assert states == {"later.yaml": "fine", "job.yaml": "earlier" if "EXX" in other else "fine"}
+
+
 def test_a_limit_that_is_not_met_is_said(job: Path) -> None:
     text = job.read_text("utf-8").replace(
         "  - iso230-2:2014", "  - {standard: 'iso230-2:2014', tolerances: {A: 5}}"

@@ -15,9 +15,14 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
-from processes import awaited
+from processes import PATIENCE, awaited
+from testing.exemplary import ExemplaryStandard
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
+from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
+from zlmreport.document.writer import NOTHING
+from zlmreport.evaluation.evaluation import Arithmetic
+from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.measurement.approach import Approach
@@ -25,9 +30,11 @@ from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.design import place_at_positions
+from zlmreport.model.fitting.estimate import Plausibility
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import draw_sketch
+from zlmreport.web.panels import collect_parameter
 from zlmreport.web.texts import TEXTS, collect_texts
 from zlmreport.web.view import collect_diagnosed, make_results, make_view
 
@@ -100,6 +107,42 @@ def test_standards_say_what_is_and_what_would_be(page: dict[str, Any]) -> None:
     (standard,) = page["standards"]
     accuracy = standard["rows"][0]
     assert (accuracy["value"], accuracy["by_model"]) == ("17.41", "7.98")
+
+
+def test_a_standard_by_positions_is_forecast_by_the_positions_of_the_test(
+    workbench: Workbench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Sloping(ExemplaryStandard):
+        def arithmetic(self, statistics: PositionStatistics, options: Any) -> Arithmetic:
+            slope = (statistics.mean_positive[..., -1] - statistics.mean_positive[..., 0]) / np.ptp(
+                statistics.positions
+            )
+            return replace(super().arithmetic(statistics, options), parameters={"E": slope, "R": slope})
+
+    standard = Sloping()
+    monkeypatch.setattr(pipeline, "choose_standards", lambda *_: [(standard, standard.options())])
+    results = make_results(workbench.bench, workbench.bench.load(), Language.ENGLISH)
+    for row in results["standards"][0]["rows"]:
+        assert NOTHING not in {row["value"], row["by_table"], row["by_model"]}
+
+
+@pytest.mark.parametrize(
+    ("known", "notes"),
+    [
+        ({"uncertainty": "", "is_given": True}, ["given"]),
+        ({"uncertainty": "", "at_bound": "max"}, ["held at max"]),
+        (
+            {"is_on_grid": True, "plausibility": Plausibility.IMPLAUSIBLE},
+            ["grid", "outside the plausible range"],
+        ),
+        ({"expected": "5"}, ["expected 5 mm"]),
+    ],
+)
+def test_a_parameter_has_the_notes_of_the_terminal(known: dict[str, Any], notes: list[str]) -> None:
+    row = replace(ParameterRow("wave", "L", "L", "its length", "4.9", "0.3", "mm", 4.9), **known)
+    assert collect_parameter(row, Language.ENGLISH)["notes"] == notes
+    said = write_in_a_sentence(row, Language.ENGLISH)
+    assert said.endswith(" ".join(f"({each})" for each in notes))
 
 
 def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
@@ -191,7 +234,7 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
 
     def slow(study: Study) -> Fitted:
         begun.set()
-        assert go_on.wait(60)
+        assert go_on.wait(PATIENCE)
         made.append(len(study.model.terms))
         return fitted(study)
 
@@ -199,8 +242,8 @@ def test_a_click_waits_for_no_fit_of_a_step_and_each_is_made_once(
     with ThreadPoolExecutor(3) as others:
         try:
             falls = [others.submit(bench.fit_history, loaded) for _ in range(2)]
-            assert begun.wait(60)
-            assert others.submit(bench.try_job, loaded.job).result(60).basis == loaded.basis
+            assert begun.wait(PATIENCE)
+            assert others.submit(bench.try_job, loaded.job).result(PATIENCE).basis == loaded.basis
         finally:
             go_on.set()
         assert falls[0].result() == falls[1].result()

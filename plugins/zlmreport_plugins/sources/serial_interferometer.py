@@ -62,7 +62,7 @@ class Part:
     left_out: int  #: How many readings the others have.
 
 
-def count_readings(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
+def _count_readings(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
     """Return the readings that count, by the numbers of their visits, and what was left out.
 
     Readings of two attempts are not mixed, for each has a datum of its own. The attempt with the most
@@ -242,7 +242,7 @@ class SerialInterferometer:
         if history is None or not history.progress.is_over:
             raise AccessError.at(place, _say_unfinished(history))
         _demand_axis(history.header, context.axis, place)
-        taken, parts = count_readings(history)
+        taken, parts = _count_readings(history)
         provenance = Provenance(
             self.identifier, (history.file,), tuple(list_remarks(history, taken, parts, context.axis))
         )

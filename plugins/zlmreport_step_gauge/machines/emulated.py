@@ -27,7 +27,7 @@ Errors: TypeAlias = Callable[[FloatArray], FloatArray]
 _HALVINGS = 40
 
 
-def give_no_errors(points: FloatArray) -> FloatArray:
+def _give_no_errors(points: FloatArray) -> FloatArray:
     """Return the errors of a perfect machine."""
     return np.zeros_like(points)
 
@@ -73,7 +73,7 @@ class CoordinateMachine:
     """The machine."""
 
     boxes: Boxes  #: What stands on it.
-    errors: Errors = give_no_errors  #: Of the machine.
+    errors: Errors = _give_no_errors  #: Of the machine.
     effective_radius: float = 2e-3  #: Of the tip when it touches, m.
     noise: float = 0.0  #: Standard deviation of a coordinate at a touch, m.
     #: First and last position in x, y and z, m.

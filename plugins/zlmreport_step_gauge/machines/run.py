@@ -114,7 +114,7 @@ class PointJournal:
         what = f"{plain_name(self._path.gauge)}, job {plain_name(self._path.number)}"
         return (
             f"# {what}; I++ DME, centres of the tip, mm, nominal radius {radius:.6g} mm",
-            f"{_FINGERPRINT}{digest_path(self._path)}",
+            f"{_FINGERPRINT}{_digest_path(self._path)}",
             _COLUMNS,
         )
 
@@ -148,7 +148,7 @@ class PointJournal:
         return int(row["face"]), int(row["cycle"])
 
 
-def digest_path(path: ProbingPath) -> str:
+def _digest_path(path: ProbingPath) -> str:
     """Return what tells one path from another."""
     text = repr((path.gauge, path.tip_radius, path.moves))
     return hashlib.sha256(text.encode()).hexdigest()[:16]

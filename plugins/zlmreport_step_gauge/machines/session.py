@@ -144,7 +144,7 @@ def is_missed_face(error: MachineError) -> bool:
     return error.number in {NO_TOUCH, NO_SURFACE}
 
 
-def say_advice(error: MachineError) -> str:
+def _say_advice(error: MachineError) -> str:
     """Return what the operator can do."""
     return _ADVICE.get(error.number, "look at the machine, and start again")
 
@@ -203,7 +203,7 @@ class Session:
 
     def fail(self, error: MachineError) -> NoReturn:
         """Raise the error of the machine, with what the operator can do."""
-        raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {say_advice(error)}")
+        raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {_say_advice(error)}")
 
     def ask(self, command: str) -> SessionOutcome:
         """Give a command, and return how it ended."""

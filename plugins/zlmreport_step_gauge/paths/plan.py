@@ -102,7 +102,7 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
     path = ProbingPath(
         number=number,
         gauge=" ".join(part for part in (gauge.name, gauge.serial) if part),
-        moves=add_ends(inner, settings, room),
+        moves=_add_ends(inner, settings, room),
         tip_radius=settings.tip_radius,
         approach=settings.approach,
         search=settings.search,
@@ -148,12 +148,12 @@ def find_remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> P
     left = [move for move in planned.path.moves if move.cycle and (move.face, move.cycle) not in done]
     if not left:
         return replace(planned.path, moves=())
-    path = replace(planned.path, moves=add_ends(left, planned.settings, planned.room))
+    path = replace(planned.path, moves=_add_ends(left, planned.settings, planned.room))
     refuse_collisions(path, planned.room)
     return path
 
 
-def add_ends(inner: Sequence[Move], settings: PathSettings, room: Room) -> tuple[Move, ...]:
+def _add_ends(inner: Sequence[Move], settings: PathSettings, room: Room) -> tuple[Move, ...]:
     """Return moves with those to the first of their points and from the last.
 
     The tip goes straight from the safe position and back to it where that is free by the clearance, and else

@@ -93,7 +93,7 @@ export class MachinePage extends Loop {
     const { texts, parts, results, actions } = this;
     if (!results?.fall) return;
     const noise = this.diagnosis?.diagnosis?.noise;
-    const floor = noise ? { rms: noise.written, share: Math.min(1, noise.value / results.fall.largest) } : null;
+    const floor = noise ? { label: texts.noiseFloor, share: Math.min(1, noise.value / results.fall.largest), cells: [noise.written] } : null;
     fill(parts.fall, panels.fall(texts, { fall: { ...results.fall, floor } }, actions));
   }
 

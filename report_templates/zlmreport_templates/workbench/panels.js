@@ -12,7 +12,7 @@ const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
 const PRINTED = { um: "µm", arcsec: "″" };
 const LIKELY = 0.5;
 const CONFIRMED = { held: "held", "wrong-sign": "wrongSign", half: "half", shifted: "shifted", other: "otherTable" };
-const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
+const DOUBTS = new Set(["doubtful", "implausible"]);
 
 /** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
 export function verdict(texts, job, diagnosis, number, actions) {
@@ -141,7 +141,7 @@ function candidate(texts, each, actions) {
     h("p", {}, sentence(each.explains), "."),
     each.remedy && h("p", { class: "tell" }, h("strong", {}, named(texts.remedy)), each.remedy),
     wave(texts, each.name, actions.number, actions.wave(each.argument)),
-    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), DOUBTS[own.plausibility] || !own.expected ? " " : ", ", doubt(texts, own)))),
+    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), own.notes.length > 0 && !DOUBTS.has(own.plausibility) ? ", " : " ", notes(own)))),
   );
 }
 
@@ -156,7 +156,7 @@ export function effects(texts, job, actions) {
       h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
         h("td", { class: "number" }, own.fixed && actions.fix ? value(each, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
-        h("td", {}, own.given || own.at_bound ? h("span", { class: "given" }, own.given ? texts.given : texts.atBound) : doubt(texts, own)),
+        h("td", {}, notes(own)),
         h("td", {}, actions.fix && fixing(texts, each, own, actions)))))),
       wave(texts, each.name, actions.number, actions.wave(each.effect)),
     ))),
@@ -188,22 +188,21 @@ function fixing(texts, { effect, name }, own, actions) {
 
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
 export function fall(texts, results, actions) {
-  const { rows, floor, unit } = results.fall;
-  const leftOutIsKnown = rows.some((each) => each.left_out);
+  const { heads: [first, ...heads], rows, floor } = results.fall;
   const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
-  const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, results.fall.rows[step].name) },
-    h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), leftOutIsKnown && h("td", { class: "number" }, leftOut));
+  const row = (label, { name, share, cells }, look, step = 0) => h("tr", { class: look, ...seen(step, name) },
+    h("th", { scope: "row" }, label), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), cells.map((each) => h("td", { class: "number" }, each)));
   return [
     h("h2", {}, texts.fall),
     h("table", { class: "fall" },
-      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, explained(`${texts.error} (${unit})`, texts.errorIs)), leftOutIsKnown && h("th", { scope: "col", class: "number" }, explained(`${texts.leftOut} (${unit})`, texts.leftOutIs)))),
-      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.name || texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
-        floor && row(explained(texts.noiseFloor, texts.noiseFloorIs), floor.share, floor.rms, "", "floor"))),
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, first.text), h("td", {}), heads.map((each) => h("th", { scope: "col", class: "number" }, explained(each.text, each.meaning))))),
+      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.label, each, undefined, step)),
+        floor && row(explained(floor.label, texts.noiseFloorIs), floor, "floor"))),
   ];
 }
 
-function stepButton({ effect, name }, step, actions) {
-  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, `+ ${name}`);
+function stepButton({ effect, name, label }, step, actions) {
+  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, label);
 }
 
 /** The parameters of the standards: now, and as forecast where a control compensates; the first standard open. */
@@ -410,9 +409,10 @@ function amount(own) {
   return withUnit(`${own.value}${own.uncertainty ? ` ± ${own.uncertainty}` : ""}`, own.unit);
 }
 
-function doubt(texts, own) {
-  if (DOUBTS[own.plausibility]) return h("span", { class: `doubt ${own.plausibility}` }, texts[own.plausibility]);
-  return own.expected ? h("span", { class: "quiet" }, said(texts.expected, { value: own.expected })) : null;
+/** How a parameter is known where that is not by its U alone, and how it lies to what is usual or expected. */
+function notes(own) {
+  if (own.notes.length === 0) return null;
+  return h("span", { class: DOUBTS.has(own.plausibility) ? `doubt ${own.plausibility}` : "note" }, own.notes.join(", "));
 }
 
 /** A bar of a length from 0 to 1, with a mark at the noise floor. */

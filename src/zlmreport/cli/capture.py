@@ -80,7 +80,7 @@ def run(options: Namespace) -> int:
             return _run_live(live, options)
     if options.journal:
         job = _replace_journal(job, options.journal)
-    asked = find_assignment(job, registry)
+    asked = _find_assignment(job, registry)
     if options.end:
         _close(job, asked, options.job)
         return 0
@@ -135,7 +135,7 @@ def _replace_journal(job: Job, journal: Path) -> Job:
 
 def _close(job: Job, asked: Assignment, path: Path) -> None:
     """Close the journal of a job; its instrument is not needed for that."""
-    demand_own_journal(job, asked)
+    _demand_own_journal(job, asked)
     with Journal.resume(asked.options.journal) as journal:
         taken, visits = journal.progress.taken, len(journal.progress.visits)
         journal.append(Ended(), journal.elapsed)
@@ -143,7 +143,7 @@ def _close(job: Job, asked: Assignment, path: Path) -> None:
     print(f"next: zlmreport {show_path(path)}")
 
 
-def find_assignment(job: Job, registry: Registry) -> Assignment:
+def _find_assignment(job: Job, registry: Registry) -> Assignment:
     """Return what a job asks to be captured; raise `InputError` if it is nothing, or makes no sense."""
     return make_assignment_of(job, propose(job, pipeline.choose_standards(job, registry)).plan)
 
@@ -159,13 +159,13 @@ def awaits_capture(job: Job) -> bool:
 def demand_capturable(job: Job, registry: Registry) -> None:
     """Refuse a job whose certificate would lack something, or whose capture makes no sense."""
     demand_mandatory_items(job)
-    find_assignment(job, registry)
+    _find_assignment(job, registry)
     find_instrument_of(job)
 
 
 def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
-    plan = find_assignment(job, registry).plan
+    plan = _find_assignment(job, registry).plan
     test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     writer = Writer.of(test, Language.ENGLISH)
     yield f"{Colour.BOLD.set(str(path))}  the job is sound; its readings are still to be captured"
@@ -178,7 +178,7 @@ def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
     """Capture what a job awaits if somebody sits at the terminal; if not, its data source says what to do."""
     if not is_watched() or job.source.instrument is None or not awaits_capture(job):
         return
-    asked = find_assignment(job, registry)
+    asked = _find_assignment(job, registry)
     capture(job, asked, registry, LiveDisplay(job, asked), path, resume=_has_begun(job))
 
 
@@ -211,8 +211,8 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     with how to go on.
     """
     if resume:
-        demand_own_journal(job, assignment, words)
-        demand_answer(assignment, words.answer)
+        _demand_own_journal(job, assignment, words)
+        _demand_answer(assignment, words.answer)
     else:
         demand_nothing_captured(assignment.options.journal)
     choice = find_instrument_of(job)
@@ -234,7 +234,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
                 raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
 
 
-def demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = TypedAnswers()) -> None:
+def _demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = TypedAnswers()) -> None:
     """Refuse to go on with a journal of another job, or with a capture that is over and stays so."""
     path = assignment.options.journal
     history = read_history(path)
@@ -250,7 +250,7 @@ def demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = T
         )
 
 
-def demand_answer(assignment: Assignment, answer: str) -> None:
+def _demand_answer(assignment: Assignment, answer: str) -> None:
     """Refuse an answer where there is no question, or that names no visit."""
     if not answer:
         return

@@ -272,7 +272,7 @@ class LiveDisplay(PlainLines):
                 self._say(error.problems[0].message)
         self._due = reading.time + _BEAT
         width = shutil.get_terminal_size().columns - 1
-        lines = [*show_panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
+        lines = [*_show_panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
         shown = [make_visible(line)[:width] for line in lines]
         print(self._make_way_back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
         self._shown = len(shown)
@@ -328,7 +328,7 @@ def write_terminal_line(event: Event, assignment: Assignment, writer: AxisWriter
     return make_visible(f"{line.name:8} {line.text}" if line.name else line.text)
 
 
-def show_panel(
+def _show_panel(
     reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
 ) -> Iterator[str]:
     """Yield what is next, what the instrument reads, and how far the test has come."""

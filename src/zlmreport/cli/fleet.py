@@ -118,7 +118,7 @@ class _Watcher:
     def note_happened(self, happened: Happened) -> None:
         self.counts[happened.what] += 1
         if self._options.json:
-            self.jobs.append({"what": happened.what.value, **collect_of_job(happened)})
+            self.jobs.append({"what": happened.what.value, **_collect_of_job(happened)})
         if happened.what is What.UNCHANGED:
             return
         self._progress.hide()
@@ -175,7 +175,7 @@ def _summarise(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]
         "zlmreport": __version__,
         "fleet": fleet.name,
         "exit_code": code,
-        "counts": count_by_word(watcher.counts),
+        "counts": _count_by_word(watcher.counts),
         "jobs": watcher.jobs,
         "notices": [{"about": each.about.value, "message": each.english} for each in watcher.notices],
         "priors": watcher.priors,
@@ -266,7 +266,7 @@ class TextLog:
             self._write_line(
                 f"programs changed: {self._upgraded} made again, and none of their values changed"
             )
-        self._write_line(f"{done} {write_duration(seconds)}: {', '.join(tell_counted(counts)) or 'no jobs'}")
+        self._write_line(f"{done} {write_duration(seconds)}: {', '.join(_tell_counted(counts)) or 'no jobs'}")
 
     def _write_line(self, text: str) -> None:
         moment = dt.datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
@@ -286,7 +286,7 @@ class JsonLog:
     def write_happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was."""
         if happened.what is not What.UNCHANGED:
-            self._write_line({"event": happened.what.value, **collect_of_job(happened)})
+            self._write_line({"event": happened.what.value, **_collect_of_job(happened)})
 
     def write_notice(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
@@ -299,14 +299,14 @@ class JsonLog:
     def write_end(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         event = "interrupted" if is_interrupted else "ended"
-        self._write_line({"event": event, "seconds": round(seconds, 1), "counts": count_by_word(counts)})
+        self._write_line({"event": event, "seconds": round(seconds, 1), "counts": _count_by_word(counts)})
 
     def _write_line(self, content: Mapping[str, Any]) -> None:
         moment = dt.datetime.now(dt.UTC).isoformat(timespec="milliseconds")
         print(json.dumps({"time": moment, **content}), file=self._stream, flush=True)
 
 
-def collect_of_job(happened: Happened) -> dict[str, Any]:
+def _collect_of_job(happened: Happened) -> dict[str, Any]:
     """Return what happened to a job, for programs."""
     return {
         "job": happened.job,
@@ -318,12 +318,12 @@ def collect_of_job(happened: Happened) -> dict[str, Any]:
     }
 
 
-def count_by_word(counts: Counter[What]) -> dict[str, int]:
+def _count_by_word(counts: Counter[What]) -> dict[str, int]:
     """Return how often each thing happened, the rarest too."""
     return {what.value: counts[what] for what in What}
 
 
-def tell_counted(counts: Counter[What]) -> Iterator[str]:
+def _tell_counted(counts: Counter[What]) -> Iterator[str]:
     """Yield how often each thing happened, for people."""
     words = {What.DRAFT: "drafts"}
     for what in What:

@@ -78,8 +78,8 @@ def do_all(
     """Work on every job that has no mistake so far, and return the worst exit code."""
     results = []
     printed = False
-    for checked in refuse_shared_files(loaded):
-        result = try_step(checked, partial(work, checked, checked.job)) if checked.job else checked
+    for checked in _refuse_shared_files(loaded):
+        result = _try_step(checked, partial(work, checked, checked.job)) if checked.job else checked
         results.append(result)
         if result.error:
             print_problems(result.error)
@@ -90,7 +90,7 @@ def do_all(
             printed = True
     code = max(result.choose_exit_code(fail_on_nonconformity=fail_on_nonconformity) for result in results)
     if options.json:
-        print_json(summarise(results, code))
+        print_json(_summarise(results, code))
     return code
 
 
@@ -134,10 +134,10 @@ def load_all(paths: Sequence[Path], registry: Registry, formats: tuple[str, ...]
 
     `formats` stand instead of those that the jobs name.
     """
-    return [try_step(JobResult(path), partial(_load_job, path, registry, formats)) for path in paths]
+    return [_try_step(JobResult(path), partial(_load_job, path, registry, formats)) for path in paths]
 
 
-def try_step(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
+def _try_step(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
     """Return what a step makes of a result, or the result with the error that ended the step."""
     try:
         return step()
@@ -145,7 +145,7 @@ def try_step(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
         return replace(result, error=as_problems(result.path, error))
 
 
-def refuse_shared_files(results: Sequence[JobResult]) -> list[JobResult]:
+def _refuse_shared_files(results: Sequence[JobResult]) -> list[JobResult]:
     """Refuse jobs whose files would overwrite those of a job before them."""
     first: dict[Path, Path] = {}
     checked = []
@@ -169,7 +169,7 @@ def _load_job(path: Path, registry: Registry, formats: tuple[str, ...]) -> JobRe
     return JobResult(path, load(path, registry, formats))
 
 
-def summarise(results: Sequence[JobResult], exit_code: int) -> dict[str, Any]:
+def _summarise(results: Sequence[JobResult], exit_code: int) -> dict[str, Any]:
     """Return what became of all jobs; values in full precision, µm or ″, as in the results file."""
     return {
         "schema": SCHEMA,

@@ -24,7 +24,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
     yield f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}"
-    yield from wrap(write_staircase(built), "")
+    yield from wrap(_write_staircase(built), "")
     yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
     if edit is None:
         yield f"{path}: nothing to change"
@@ -39,7 +39,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
         yield f"next: {find_next_step(last, path)}"
 
 
-def write_staircase(built: Built) -> str:
+def _write_staircase(built: Built) -> str:
     """Return how the error fell in one line: ``offset 5.4 → + backlash 3.2 µm; noise 0.7 µm``."""
     axis = built.first.fit.design.axis
     unit = write_behind(axis.deviation_unit.symbol)

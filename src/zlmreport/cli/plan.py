@@ -72,7 +72,7 @@ def run(options: Namespace) -> int:
         motion = partial(plan_motion_of, number, job.axis, planned.proposal.plan)
         if options.run is None:
             documents = (
-                *make_plan_files(options.output, job, planned),
+                *_make_plan_files(options.output, job, planned),
                 *make_program_files(
                     options.output,
                     number,
@@ -217,7 +217,7 @@ def _tell_extensions(plan: ExtensionPlan) -> Iterator[str]:
             yield from wrap(sentence)
 
 
-def make_plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, ...]:
+def _make_plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, ...]:
     """Return the files of a plan: its targets, a form for the readings, and a picture of its sequence.
 
     The form has a row for each reading in the order in which they are to be taken, its deviation empty, and

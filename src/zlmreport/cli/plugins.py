@@ -15,13 +15,13 @@ from zlmreport.plugin.registry import DISABLE, Plugin, Registry, find_plugins
 def run(options: Namespace) -> int:
     """Print every plugin, and then what the user should mend before any job is run."""
     registry = find_plugins(files=options.plugin, lenient=True)
-    print(*list_plugins(registry), sep="\n", flush=True)
+    print(*_list_plugins(registry), sep="\n", flush=True)
     if registry.refused:
         raise registry.refused
     return 0
 
 
-def list_plugins(registry: Registry) -> Iterator[str]:
+def _list_plugins(registry: Registry) -> Iterator[str]:
     """Yield the lines on all plugins, kind by kind."""
     offers = registry.list_offers()
     for kind in KINDS:

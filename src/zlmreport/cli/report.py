@@ -43,7 +43,7 @@ def run(options: Namespace) -> int:
 def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], signer: Signer | None) -> int:
     def made(result: JobResult, job: Job) -> JobResult:
         if signer:
-            demand_something_to_sign(job, registry)
+            _demand_something_to_sign(job, registry)
         if job.source.instrument and not (options.quiet or options.json):
             from zlmreport.cli.capture import capture_if_watched  # noqa: PLC0415 - only for live readings
 
@@ -96,7 +96,7 @@ def open_signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
     )
 
 
-def demand_something_to_sign(job: Job, registry: Registry) -> None:
+def _demand_something_to_sign(job: Job, registry: Registry) -> None:
     """Refuse a job that writes no PDF, rather than leave its user to believe that it is signed."""
     if not any(registry.renderer(identifier).suffix == PDF for identifier in job.formats):
         raise InputError.at(

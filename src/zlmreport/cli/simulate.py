@@ -32,7 +32,7 @@ _USUAL_DWELL = 1.0
 def run(options: Namespace) -> int:
     """Write the readings anew, and the job unless it is there; or emulate the machine and its instrument."""
     if options.emulate is not None:
-        return run_live(options)
+        return _run_live(options)
     registry = find_plugins(files=options.plugin)
     file = load_simulation(options.specification, registry)
     measurements = simulate(read_description_of(file, registry.effect)).measurements
@@ -41,7 +41,7 @@ def run(options: Namespace) -> int:
     job = folder / file.keys.output.job
     head = list_remarks(file, "Simulated readings, not measurements.")
     print(
-        *write_table(
+        *_write_table(
             Document(readings, write_readings_table(measurements, head).encode()),
             Document(job, write_job_text(file, folder, readings.name).encode()),
         ),
@@ -51,7 +51,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def run_live(options: Namespace) -> int:
+def _run_live(options: Namespace) -> int:
     """Let a machine carry out its plan before an instrument, until the user ends it.
 
     What the axis will really do is written first, and the job that captures it unless that is there.
@@ -75,7 +75,7 @@ def run_live(options: Namespace) -> int:
         when = f"{options.start:g} s after somebody reads the port"
         head = list_remarks(file, "What a simulated axis really does; nothing here was measured.")
         return (
-            *write_table(
+            *_write_table(
                 Document(truth, write_readings_table(machine.truth, head).encode()),
                 Document(job, write_live_job_text(file, folder, description.plan, source).encode()),
             ),
@@ -114,7 +114,7 @@ def _log_program(machine: StartedMachine, *moments: float) -> Iterator[None]:
         yield
 
 
-def write_table(table: Document, job: Document) -> Iterator[str]:
+def _write_table(table: Document, job: Document) -> Iterator[str]:
     """Write a table anew, and a job unless it is there, for somebody may have worked on it.
 
     Yields

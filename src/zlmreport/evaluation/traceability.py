@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from zlmreport.job.document_keys import Capability
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
-    from zlmreport.job.measurement_keys import Instrument, SensorKeys
+    from zlmreport.job.measurement_keys import InstrumentKeys, SensorKeys
 
 #: Years after which a calibration is called old: intervals of measuring instruments are one to three.
 _OLD = 3
@@ -210,7 +210,7 @@ def _is_this_document(job: Job, certificate: str) -> bool:
 
 
 def _find_breaks_of_calibration(
-    keys: JobKeys, device: Instrument | SensorKeys, key: str, what: Words
+    keys: JobKeys, device: InstrumentKeys | SensorKeys, key: str, what: Words
 ) -> Iterator[_Break]:
     """Yield where the calibration of a device does not cover the day of the measurement."""
     first, last = keys.measurement.date, find_last_day(keys.measurement)

@@ -157,7 +157,7 @@ class Database:
         except IntegrityError:
             raise
         except SQLAlchemyError as error:
-            raise make_no_access(self.address, error) from error
+            raise _make_no_access(self.address, error) from error
 
 
 def open_database(address: str, *, create: bool) -> Database:
@@ -169,7 +169,7 @@ def open_database(address: str, *, create: bool) -> Database:
     Raises `InputError` if the address is none, or the ledger is of another version of the program;
     `AccessError` if the database cannot be opened.
     """
-    url = make_url_of(address)
+    url = _make_url_of(address)
     is_new_file = url.get_backend_name() == "sqlite" and not Path(url.database or "").exists()
     if is_new_file and not create:
         url = URL.create("sqlite")
@@ -198,7 +198,7 @@ def copy(database: Database, to: Path) -> None:
         file.replace(to)
 
 
-def make_url_of(address: str) -> URL:
+def _make_url_of(address: str) -> URL:
     """Return the URL of a ledger."""
     if "://" not in address:
         return URL.create("sqlite", database=address)
@@ -213,16 +213,16 @@ def make_url_of(address: str) -> URL:
     return url
 
 
-def show_address(address: str) -> str:
+def _show_address(address: str) -> str:
     """Return the address without its password."""
-    return make_url_of(address).render_as_string(hide_password=True) if "://" in address else address
+    return _make_url_of(address).render_as_string(hide_password=True) if "://" in address else address
 
 
-def make_no_access(address: str, error: SQLAlchemyError) -> AccessError:
+def _make_no_access(address: str, error: SQLAlchemyError) -> AccessError:
     """Return the error of a ledger that cannot be used."""
     reason = getattr(error, "orig", None) or error
     message = f"the ledger cannot be used: {' '.join(str(reason).split())[:300]}"
-    return AccessError([*AccessError.at(Place(show_address(address)), message).problems])
+    return AccessError([*AccessError.at(Place(_show_address(address)), message).problems])
 
 
 def _make_engine(url: URL, address: str) -> Engine:
@@ -241,7 +241,7 @@ def _make_engine(url: URL, address: str) -> Engine:
         return create_engine(url, pool_pre_ping=True)
     except (NoSuchModuleError, ModuleNotFoundError) as error:
         message = f"{error}; install zlmreport[cluster], and write postgresql+psycopg://…"
-        raise InputError.at(Place(show_address(address)), message) from error
+        raise InputError.at(Place(_show_address(address)), message) from error
 
 
 def _make_durable(connection: Any, _record: Any) -> None:
@@ -279,7 +279,7 @@ def _demand_format(connection: Connection, address: str) -> None:
         connection.execute(update(FORMATS).values(format=FORMAT))
     elif found != FORMAT:
         raise InputError.at(
-            Place(show_address(address)),
+            Place(_show_address(address)),
             f"is a ledger of format {found}, and this program writes format {FORMAT}; "
             "use the version of zlmreport that wrote it",
         )
@@ -329,7 +329,7 @@ def _lock_database(database: Database) -> Iterator[None]:
         try:
             has_it = connection.scalar(select(func.pg_try_advisory_lock(_KEY)))
         except SQLAlchemyError as error:
-            raise make_no_access(database.address, error) from error
+            raise _make_no_access(database.address, error) from error
         if not has_it:
             raise _raise_taken(database.address, "")
         yield
@@ -342,4 +342,4 @@ class TakenError(AccessError):
 def _raise_taken(address: str, holder: str) -> TakenError:
     by = f" ({holder})" if holder else ""
     message = f"another night is at work on this ledger{by}; this one does nothing"
-    return TakenError([*AccessError.at(Place(show_address(address)), message).problems])
+    return TakenError([*AccessError.at(Place(_show_address(address)), message).problems])

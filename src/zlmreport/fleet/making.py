@@ -43,7 +43,7 @@ MARK = ".draft"
 _TITLE = Words("Draft, not issued: {title}")
 
 
-def make_draft(certificate: Certificate) -> Certificate:
+def _make_draft(certificate: Certificate) -> Certificate:
     """Return a certificate as a draft: its number stands already for a document with another content."""
 
     def marked(title: str) -> str:
@@ -182,7 +182,7 @@ def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
     if is_draft and is_whole and task.stated is not None and _are_alike(task.stated, parameters):
         is_draft, contents = False, [there[suffix] for suffix in suffixes]
     if is_draft:
-        rendered = pipeline.render(make_draft(certificate), renderers, registry)
+        rendered = pipeline.render(_make_draft(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
     stem = certificate.number + (MARK if is_draft else "")
     files = tuple(list_files_behind(certificate, named, job, fleet, begun))

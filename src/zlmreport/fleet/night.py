@@ -67,7 +67,7 @@ class Watch(Protocol):
         """Take note of a new file of priors."""
 
 
-def prepare_evening(
+def _prepare_evening(
     fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]
 ) -> Evening:
     """Return what is known before a night."""
@@ -85,7 +85,7 @@ def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[PlannedJob, .
     """Return what a night would do; nothing is made or written."""
     jobs = list_job_files(fleet)
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
-        known = prepare_evening(fleet, jobs, ledger, plugins)
+        known = _prepare_evening(fleet, jobs, ledger, plugins)
     return plan(known, find_reasons(known))
 
 
@@ -116,7 +116,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     ways, language = find_ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
         last = ledger.find_last_night()
-        known = prepare_evening(fleet, jobs, ledger, plugins)
+        known = _prepare_evening(fleet, jobs, ledger, plugins)
         gone = find_vanished(known)
         if unmatched and not gone:
             raise InputError(unmatched)
@@ -261,7 +261,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         desk = Desk(known, night)
         for happened in (
             *map(desk.note_vanished, work.gone),
-            *find_overdue(known, night.list_subjects(NewsKind.OVERDUE), night.began),
+            *_find_overdue(known, night.list_subjects(NewsKind.OVERDUE), night.began),
         ):
             witness.note_happened(happened)
         for each in planned:
@@ -304,7 +304,7 @@ def _record_not_made(planned: PlannedJob, desk: Desk) -> Happened:
     return desk.note_failure(planned, Failed(planned.problems))
 
 
-def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
+def _find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
     """Yield the axes that should have been measured again, and of which no night told that."""
     latest: dict[tuple[str, str], tuple[str, Standing]] = {}
     for job, standing in sorted(known.standings.items()):

@@ -126,7 +126,7 @@ def _make_tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
 
 
 def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSectionContext]:
-    needed = tuple(map(render, list_needs(state, cells)))
+    needed = tuple(map(render, _list_needs(state, cells)))
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
     if state.terms:
@@ -139,9 +139,9 @@ def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSec
         found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
         tables = (render(_SHARED.lay_out(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
-    shown = (render(make_tools(state, cells)), render(list_machines(state, cells))) if state.trends else ()
+    shown = (render(_make_tools(state, cells)), render(_list_machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
-    reading = (render(make_legend(cells)),)
+    reading = (render(_make_legend(cells)),)
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
 
 
@@ -269,7 +269,7 @@ _SHARED: _Table[Shared] = _Table(
 )
 
 
-def list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext]:
+def _list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext]:
     """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
     noticed = [(OverviewCellContext(cells.say(words.ABOUTS[each.about])), [each]) for each in state.notices]
     failed = [
@@ -312,7 +312,7 @@ def _list_drifts(
         yield replace(head, note=note), shown
 
 
-def list_machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
+def _list_machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
     """Return all axes, machine by machine: of each its parameters, a row each."""
     marks, due = _list_marks(state), {term.entry.axis_key: term.due for term in state.terms}
     axes = group_by_axis(state.trends)
@@ -367,7 +367,7 @@ def _choose_shown_in_full(state: FleetState) -> tuple[Trend, ...]:
     return tuple(each for each in state.trends if make_key_of(each.series) in keys)
 
 
-def make_tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
+def _make_tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
     """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
     choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _list_marks(state) if axes]
     orders = (
@@ -438,7 +438,7 @@ _SAMPLE = (8.4, 9.9, 11.2, 13.5, 14.6, 17.0, 18.4, 20.6)
 _UNCERTAINTY, _LIMIT = 1.5, 20.0
 
 
-def make_legend(cells: CellWriter) -> OverviewLegendContext:
+def _make_legend(cells: CellWriter) -> OverviewLegendContext:
     """Return the legend."""
     terms = (
         (words.TERM_VALUE, words.MEANING_VALUE),

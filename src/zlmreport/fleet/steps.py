@@ -90,7 +90,7 @@ def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float
     first, base = 0, [0]
     for index in range(1, len(values)):
         before = [values[each] for each in base]
-        if not is_standing_out(before, values[index], fleet, share):
+        if not _is_standing_out(before, values[index], fleet, share):
             base.append(index)
             continue
         is_latest = index + 1 == len(values)
@@ -110,7 +110,7 @@ def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float
     return ParameterCourse(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
-def is_standing_out(
+def _is_standing_out(
     before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float = 1.0
 ) -> bool:
     """Whether a test differs from those before it, and from a drift that these show.

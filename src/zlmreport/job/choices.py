@@ -39,7 +39,7 @@ class SourceChoice(Choice):
     instrument: Choice | None = None
 
 
-def choose_in(
+def _choose_in(
     group: Node | None,
     key: str,
     find: Callable[[str, Place], WithKeys],
@@ -78,12 +78,12 @@ def choose_source(
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
     keys, within = find_at(tree, path), ".".join(path)
     plugin = find_at(tree, (*path, "plugin"))
-    choice = choose_in(keys, "plugin", registry.source, problems, within=within)
+    choice = _choose_in(keys, "plugin", registry.source, problems, within=within)
     instrument = None
     with suppress(InputError):  # a source that there is not was refused above
         if isinstance(keys, Keys) and isinstance(plugin, Scalar):
             known = registry.source(plugin.text).options
-            instrument = choose_instrument(known, keys, registry, problems, within=within)
+            instrument = _choose_instrument(known, keys, registry, problems, within=within)
     return SourceChoice(choice.identifier, choice.options, choice.place, instrument) if choice else None
 
 
@@ -104,7 +104,7 @@ def choose_sources_of_tests(
     return found
 
 
-def choose_instrument(
+def _choose_instrument(
     source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
 ) -> Choice | None:
     """Return the live instrument that the keys of a data source name; None if they name none."""
@@ -112,7 +112,7 @@ def choose_instrument(
     for key, entry in keys.entries.items():
         is_group = isinstance(entry.value, Keys) and key in known
         if is_group and find_model_in(known[key].annotation) is LiveInstrumentKeys:
-            return choose_in(entry.value, "plugin", registry.instrument, problems, within=f"{within}.{key}")
+            return _choose_in(entry.value, "plugin", registry.instrument, problems, within=f"{within}.{key}")
     return None
 
 
@@ -354,7 +354,7 @@ def _choose_programs(
     items: Sequence[Node], find: Find, problems: list[Problem], within: str
 ) -> Iterator[Choice]:
     for item in items:
-        choice = choose_in(group_naming("program", item), "program", find, problems, within=within)
+        choice = _choose_in(group_naming("program", item), "program", find, problems, within=within)
         if choice:
             yield choice
 
@@ -408,7 +408,7 @@ def choose_controller_of(
     stated: Node | None, registry: Installed, problems: list[Problem]
 ) -> ControllerChoice | None:
     """Return the control that a group of keys names; None if it names none, or a wrong one."""
-    choice = choose_in(stated, "controller", registry.controller, problems, within="compensation")
+    choice = _choose_in(stated, "controller", registry.controller, problems, within="compensation")
     if choice is None or not isinstance(stated, Keys):
         return None
     own = replace(stated.without("controller"), place=choice.place)

@@ -14,7 +14,7 @@ from zlmreport.errors import Problem, did_you_mean, quoted
 from zlmreport.job.document_keys import Amends, OpinionKeys
 from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, find_wrong_positions
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Instrument, Measurement, SensorKeys
+from zlmreport.job.measurement_keys import InstrumentKeys, Measurement, SensorKeys
 from zlmreport.job.sentences import (
     GROUP_EXPECTED,
     MISSING,
@@ -130,7 +130,7 @@ def find_all_contradictions(
         named = ".".join(step for step in path if isinstance(step, str))
         yield Problem(place_of(tree, path), f"{named}: {message}")
     if keys.provided_by_customer or keys.external:
-        yield from find_supplied_problems(keys, tree)
+        yield from _find_supplied_problems(keys, tree)
 
 
 def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
@@ -165,7 +165,7 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield from _find_per_metre(keys.instrument)
 
 
-def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], Instrument | SensorKeys]]:
+def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], InstrumentKeys | SensorKeys]]:
     """Yield the instrument and the thermometers, each with the path of its keys."""
     if keys.instrument:
         yield ("instrument",), keys.instrument
@@ -186,7 +186,7 @@ def _find_turned_ranges(keys: JobKeys) -> Iterator[Contradiction]:
             )
 
 
-def _find_per_metre(instrument: Instrument) -> Iterator[Contradiction]:
+def _find_per_metre(instrument: InstrumentKeys) -> Iterator[Contradiction]:
     """Yield an uncertainty that grows with the length of an axis that has none."""
     stated = instrument.stated_uncertainty
     if stated and stated[1]:
@@ -312,7 +312,7 @@ def list_markable_keys() -> tuple[str, ...]:
     )
 
 
-def find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
+def _find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
     """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
     named: list[tuple[str, Path]] = [
         (key, ("provided_by_customer", index)) for index, key in enumerate(keys.provided_by_customer)

@@ -139,7 +139,7 @@ def edit_list(
     is_own = find_own_list(Written.of(text), where) is not None
     try:
         edited = mark + (_edit_list(text, change) if is_own else add_list(text, where, nodes)).encode()
-        after = load_content(path, registry, edited)
+        after = _load_content(path, registry, edited)
     except UneditableError:
         after = None
     is_alike = (
@@ -147,7 +147,7 @@ def edit_list(
         and is_meant(after)
         and after.axis == job.axis
         and (where == EFFECTS or state_meaning(after.effects) == state_meaning(job.effects))
-        and is_alike_elsewhere(job, after, where.group, where.key)
+        and _is_alike_elsewhere(job, after, where.group, where.key)
     )
     if after is None or not is_alike:
         written = ", ".join(write_as_text(node) for node in nodes)
@@ -192,7 +192,7 @@ def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
         )
 
 
-def load_content(path: Path, registry: Installed, content: bytes) -> Job | None:
+def _load_content(path: Path, registry: Installed, content: bytes) -> Job | None:
     """Return the job that a file would be with another content; None for one that makes no sense."""
     try:
         return load(path, registry, content=content)
@@ -200,7 +200,7 @@ def load_content(path: Path, registry: Installed, content: bytes) -> Job | None:
         return None
 
 
-def is_alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
+def _is_alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
     """Return whether two jobs mean the same but for a key; effects and axis are for the caller to hold."""
     return (
         _drop_key(before.keys, group, key) == _drop_key(after.keys, group, key)

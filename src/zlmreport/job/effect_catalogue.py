@@ -183,7 +183,7 @@ def write_as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
     entries |= {name: entry for name, entry in lacking.items() if name not in entries}
     parameters = entries["parameters"].value
     if isinstance(parameters, Keys):
-        elsewhere = find_parameters_of_job(formula)
+        elsewhere = _find_parameters_of_job(formula)
         kept = tuple(
             replace(each, value=each.value.without("value", "equals"))
             if each.key in elsewhere and isinstance(each.value, Keys)
@@ -195,7 +195,7 @@ def write_as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
     return "\n".join(("schema: zlmreport/effects/1", "effects:", f"  - {first.lstrip()}", *rest, ""))
 
 
-def find_parameters_of_job(formula: Formula) -> dict[str, FormulaParameter]:
+def _find_parameters_of_job(formula: Formula) -> dict[str, FormulaParameter]:
     """Return the parameters of which a job says what they are, and which are estimated elsewhere."""
     return {
         name: each
@@ -209,6 +209,6 @@ def write_in_job(formula: Formula) -> str:
     """Return how a job names an effect instead of its formula, with what it states of parameters."""
     stated = [
         f"{name}: {each.value!r}" if each.equals is None else f"{name}: {{equals: {each.equals}}}"
-        for name, each in find_parameters_of_job(formula).items()
+        for name, each in _find_parameters_of_job(formula).items()
     ]
     return f"{formula.keys.name}: {{{', '.join(stated)}}}" if stated else formula.keys.name

@@ -23,7 +23,7 @@ def find_stated_in(tree: Keys) -> str:
     return stated.text.strip() if isinstance(stated, Scalar) else ""
 
 
-def find_error_in(tree: Keys) -> ErrorSymbol | None:
+def _find_error_in(tree: Keys) -> ErrorSymbol | None:
     """Return the error that a job names; None where it names none, or one that there is not."""
     with suppress(ValueError):
         return find_error_named(find_stated_in(tree))
@@ -63,7 +63,7 @@ def add_shared_source(tree: Keys) -> Keys:
 
 def add_axis(tree: Keys, registry: Installed) -> Keys:
     """Return the keys of a job without an axis, with the one that a circle, an extension or an error has."""
-    error = find_error_in(tree)
+    error = _find_error_in(tree)
     name = next((key for key in registry.axis_keys if key in tree.entries), "")
     place = tree.entries[name].place if name else place_of(tree, ("measurement",))
     if "circle" in tree.entries:

@@ -15,7 +15,7 @@ from zlmreport.measurement.units import Unit
 
 
 class Named(Protocol):
-    """A plugin, by what jobs call it."""
+    """A plugin, by what jobs call it: a file format."""
 
     identifier: str  #: As jobs name it.
 
@@ -61,12 +61,6 @@ class InstalledStandard(WithKeys, Protocol):
 def list_adoptions_of(standard: InstalledStandard) -> tuple[str, ...]:
     """Return the names under which other bodies publish a standard's text; none for most."""
     return getattr(standard, "adoptions", ())
-
-
-class InstalledRenderer(Named, Protocol):
-    """A file format."""
-
-    suffix: str  #: Of its files.
 
 
 class InstalledProgram(WithKeys, Protocol):
@@ -122,9 +116,6 @@ class InstalledEffect(WithKeys, Protocol):
     def with_settings(self, settings: Any) -> InstalledEffect:
         """Return the form of it that its own keys ask for."""
 
-    def repeated(self, number: int) -> InstalledEffect:
-        """Return it as it stands in a model for the second time, or the third."""
-
 
 class Installed(Protocol):
     """All plugins, by kind, and by what jobs call them.
@@ -137,11 +128,9 @@ class Installed(Protocol):
     @property
     def standards(self) -> Sequence[InstalledStandard]: ...
     @property
-    def renderers(self) -> Sequence[InstalledRenderer]: ...
+    def renderers(self) -> Sequence[Named]: ...
     @property
     def effects(self) -> Sequence[InstalledEffect]: ...
-    @property
-    def part_programs(self) -> Sequence[InstalledProgram]: ...
     @property
     def controllers(self) -> Sequence[WithKeys]: ...
     @property
@@ -158,7 +147,7 @@ class Installed(Protocol):
 
     def source(self, identifier: str, named_at: Place | None = None) -> WithKeys: ...
     def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard: ...
-    def renderer(self, identifier: str, named_at: Place | None = None) -> InstalledRenderer: ...
+    def renderer(self, identifier: str, named_at: Place | None = None) -> Named: ...
     def effect(self, identifier: str, named_at: Place | None = None) -> InstalledEffect: ...
     def list_programs_for(self, takes: type | None = None) -> Sequence[InstalledProgram]:
         """Return the writers of part programs that take this; without it, the motion of a planned test."""

@@ -35,7 +35,7 @@ from zlmreport.job.measurement_keys import (
     AxisKeys,
     CorrectionKeys,
     Environment,
-    Instrument,
+    InstrumentKeys,
     MachineUnderTest,
     Measurement,
 )
@@ -99,7 +99,7 @@ class JobKeys(JobPart):
     as_found: AsFound | None = Field(
         None, description="The axis before it was adjusted or repaired, compared with measurement."
     )
-    instrument: Instrument | None = Field(None, description="The measuring instrument.")
+    instrument: InstrumentKeys | None = Field(None, description="The measuring instrument.")
     environment: Environment | None = Field(None, description="Conditions during the measurement.")
     corrections: CorrectionKeys | None = Field(
         None,

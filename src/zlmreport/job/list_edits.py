@@ -15,9 +15,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from zlmreport.job.extents import ValueForm, Written, WrittenValue
 from zlmreport.job.tree import Items, Node, Scalar
@@ -64,7 +64,7 @@ def add_member(written: Written, outer: WrittenValue, listed: Sequence[ListMembe
     return insert(text, line_end, f"{own_line},")
 
 
-def drop_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
+def _drop_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
     """Return the text without one of the members in the brackets or braces of `outer`.
 
     A comment in the line of a member goes with it, if that line holds nothing else.
@@ -111,7 +111,8 @@ def insert(text: str, index: int, piece: str) -> str:
 
 _INDENT = 2
 #: Text that means nothing but itself without quotes, wherever it stands.
-_PLAIN = re.compile(r"[A-Za-z][\w./-]*(:[\w./-]+)*", re.ASCII)
+_PLAIN = re.compile(r"[^\W\d_]((?:[\w ./()+-]|:(?=[\w./-]))*[\w).])?")
+_WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
 _END_OF_DOCUMENT = re.compile(r"^\.\.\.", re.MULTILINE)
 
 
@@ -173,7 +174,7 @@ def drop_item(text: str, where: ListKey, index: int) -> str:
     written = Written.of(text)
     listed = _take_own_list(written, where)
     if listed.form is ValueForm.BRACKETS:
-        return drop_member(written, listed, find_members(listed.parts), index)
+        return _drop_member(written, listed, find_members(listed.parts), index)
     item = listed.parts[index]
     dash = written.find_dash_of(item)
     start = written.line_start(dash)
@@ -260,9 +261,20 @@ def write_as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str
 def _quote(text: str, quote: str) -> str:
     if quote == "'" and "'" not in text and "\n" not in text:
         return f"'{text}'"
-    if not quote and _PLAIN.fullmatch(text) and text != "null":
-        return text
-    return json.dumps(text, ensure_ascii=False)
+    is_plain = _PLAIN.fullmatch(text) and text.casefold() not in _WORDS_OF_YAML
+    return text if is_plain and not quote else json.dumps(text, ensure_ascii=False)
+
+
+def write_in_a_line(value: Any) -> str:
+    """Return a value of Python in YAML, on one line: text without quotation marks where that is safe."""
+    if isinstance(value, Mapping):
+        pairs = (f"{write_in_a_line(name)}: {write_in_a_line(each)}" for name, each in value.items())
+        return f"{{{', '.join(pairs)}}}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(write_in_a_line, value))}]"
+    if isinstance(value, str):
+        return _quote(value, "")
+    return json.dumps(int(value) if isinstance(value, float) and value.is_integer() else value)
 
 
 def _quote_of(text: str, neighbour: WrittenValue) -> str:

@@ -288,7 +288,7 @@ class SensorKeys(JobPart):
     )
 
 
-class Instrument(JobPart):
+class InstrumentKeys(JobPart):
     """The measuring instrument: the link to the national standard."""
 
     name: Text = Field(description="Type designation.", examples=["Laser interferometer LM 10"])
@@ -376,7 +376,7 @@ class NamedTest(LineKeys):
         description="The axis that moves; without it that of the error's symbol, or the job's.",
         examples=[{"name": "X"}],
     )
-    instrument: Instrument | None = Field(None, description="Its instrument; without it that of the job.")
+    instrument: InstrumentKeys | None = Field(None, description="Its instrument; without it that of the job.")
     environment: Environment | None = Field(
         None, description="Conditions during it; without them those of the job."
     )

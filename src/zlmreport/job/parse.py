@@ -158,7 +158,7 @@ def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
     try:
         root = reader.read_document()
     except yaml.MarkedYAMLError as error:
-        raise InputError([*reader.problems, make_complaint(error, file)]) from error
+        raise InputError([*reader.problems, _make_complaint(error, file)]) from error
     except (ValueError, OverflowError) as error:  # of an escape or a version beyond all bounds
         raise InputError([*reader.problems, reader.find_stuck()]) from error
     if not isinstance(root, Keys):
@@ -332,7 +332,7 @@ _COMPLAINTS = (
 )
 
 
-def make_complaint(error: MarkedYAMLError, file: str) -> Problem:
+def _make_complaint(error: MarkedYAMLError, file: str) -> Problem:
     """Return the problem that a parser's error stands for."""
     problem = str(error.problem)
     line = error.context_mark.line + 1 if error.context_mark else 0

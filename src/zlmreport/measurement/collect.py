@@ -117,7 +117,7 @@ def collect(
             sound.append(reading)
     if sound:
         measurements = _arrange_readings(sound, axis, provenance)
-        found.extend(find_problems_of(measurements, [reading.place for reading in sound]))
+        found.extend(_find_problems_of(measurements, [reading.place for reading in sound]))
         if not found:
             return measurements
     elif not found:
@@ -221,7 +221,7 @@ def cap_problems(problems: Sequence[Problem]) -> list[Problem]:
     return named
 
 
-def find_problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
+def _find_problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
     """Return everything that is wrong with the readings together.
 
     `measurements`: The readings, arranged but not checked.

@@ -37,7 +37,7 @@ from zlmreport.job.keys import (
 )
 from zlmreport.job.keys_file import KeysFile, read_keys_file
 from zlmreport.job.measurement_keys import (
-    Instrument as JobInstrument,
+    InstrumentKeys as JobInstrument,
 )
 from zlmreport.job.tree import (
     Step as KeyStep,

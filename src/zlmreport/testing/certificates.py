@@ -60,7 +60,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import (
     AxisKeys,
     Environment,
-    Instrument,
+    InstrumentKeys,
     MachineUnderTest,
     Measurement,
     SourceKeys,
@@ -197,7 +197,7 @@ def _make_job(measurements: MeasurementSet, text: str) -> Job:
         machine=MachineUnderTest(manufacturer=text, model=text, serial=text),
         axis=AxisKeys(name=text),
         measurement=Measurement(source=SourceKeys(plugin="kit"), date=day),
-        instrument=Instrument(name=text, serial=text, certificate=text, expanded_uncertainty=0.5),
+        instrument=InstrumentKeys(name=text, serial=text, certificate=text, expanded_uncertainty=0.5),
         environment=Environment(air_temperature=20.1, remarks=text),
         evaluate=[StandardKeys(standard="kit:1")],
     )

@@ -86,7 +86,7 @@ def check_table(content: bytes, *, is_signed: bool) -> CheckedStatement:
         scanned = scan(content, is_signed=is_signed)
     except OddError as error:
         return CheckedStatement(_SUBJECT, VerificationVerdict.DIFFERS, str(error))
-    lost = [f"nothing leads to object {number}" for number in find_orphans(scanned)]
+    lost = [f"nothing leads to object {number}" for number in _find_orphans(scanned)]
     return CheckedStatement.of(_SUBJECT, name_first_of(lost, _MOST_TOLD))
 
 
@@ -346,7 +346,7 @@ def _undo_prediction(data: bytes, parameters: Value, number: int) -> bytes:
     return bytes(rows)
 
 
-def find_orphans(scanned: Scanned) -> Iterator[int]:
+def _find_orphans(scanned: Scanned) -> Iterator[int]:
     """Yield the numbers of objects that say something and to which nothing leads.
 
     A viewer that puts a file together anew may take such an object for its beginning, or for a page.

@@ -26,7 +26,7 @@ from zlmreport.web.naming import Naming
 from zlmreport.web.panels import split_symbol
 
 
-def collect_section(section: Section, names: Naming) -> dict[str, Any]:
+def _collect_section(section: Section, names: Naming) -> dict[str, Any]:
     """Return a section in the language of its names, which stand in place of identifiers of effects."""
     return {
         "key": section.key,
@@ -114,4 +114,4 @@ def _make_drawing(element: ET.Element) -> list[Any]:
 
 def list_all_sections(sections: Iterable[Section | None], names: Naming) -> list[dict[str, Any]]:
     """Return the sections that there are."""
-    return [collect_section(each, names) for each in sections if each]
+    return [_collect_section(each, names) for each in sections if each]

@@ -22,6 +22,7 @@ from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.effect import Effect
@@ -126,13 +127,28 @@ class ComparedTests:
 
 
 def _demand_same_axis(own: Job, other: Job) -> None:
-    """Refuse a test of another kind of axis; what people call the axis may differ from test to test."""
+    """Refuse a test of another kind of axis, or of another error of it.
+
+    What people call the axis may differ from test to test, and so may the symbol of its positioning.
+    """
     if own.axis.kind is not other.axis.kind:
         raise InputError.at(
             Place(str(other.files[0].path)),
             f"the axis is {other.axis.kind.value}, that of {own.files[0].path} {own.axis.kind.value}: "
             "these are no tests of one axis",
         )
+    if _name_error(own.axis) != _name_error(other.axis):
+        theirs, ours = (job.axis.subject.in_language(Language.ENGLISH) for job in (other, own))
+        raise InputError.at(
+            Place(str(other.files[0].path)),
+            f"it measured the {theirs[:1].lower()}{theirs[1:]}, and {own.files[0].path} the "
+            f"{ours[:1].lower()}{ours[1:]}: these are no tests of one error",
+        )
+
+
+def _name_error(axis: Axis) -> tuple[str, str]:
+    """Return what was measured, and of an error beside positioning its symbol."""
+    return axis.measurand.identifier, "" if axis.measurand.is_position else axis.error
 
 
 def _list_test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:

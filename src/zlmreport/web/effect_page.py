@@ -62,7 +62,7 @@ def make_effect_page(
             for name, field in list_keys_in(effect.options).items()
         ],
         "estimates": [
-            collect_parameter(each)
+            collect_parameter(each, language)
             for each in make_parameter_rows(fit, language)
             if each.effect == identifier
         ],

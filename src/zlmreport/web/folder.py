@@ -46,7 +46,7 @@ class JobState(IntEnum):
     UNDECIDED = 3
     SOON = 4
     FINE = 5
-    EARLIER = 6  #: A later job tests the same axis.
+    EARLIER = 6  #: A later job tests the same error of the same axis.
     WAITS = 7  #: It is being looked at.
 
 
@@ -74,6 +74,8 @@ class JobRow:
     number: str = ""  #: Of its certificate.
     machine: str = ""
     axis: Words = _NO_AXIS  #: With its name, as pages head it.
+    #: The name of the axis, and the symbol of what was measured of it, or what that is called without one.
+    tested: tuple[str, str] = ("", "")
     measured: dt.date | None = None
     due: dt.date | None = None  #: By when the axis is to be measured again; None where no interval is stated.
     problems: tuple[str, ...] = ()  #: Why it fails, each with its place.
@@ -246,6 +248,7 @@ def _describe_row(row: JobRow, job: Job) -> JobRow:
         number=keys.certificate.number,
         machine=" ".join(filter(None, (keys.machine.type, keys.machine.serial))),
         axis=job.axis.heading,
+        tested=(job.axis.name, job.axis.symbol or job.axis.measurand.identifier),
         measured=measured,
         due=measured + dt.timedelta(days=interval) if measured and interval else None,
     )
@@ -259,13 +262,13 @@ def _find_state(evaluated: Sequence[Evaluated]) -> JobState:
 
 
 def _date_rows(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
-    latest: dict[tuple[str, str], dt.date] = {}
+    latest: dict[tuple[str, tuple[str, str]], dt.date] = {}
     for each in rows:
         if each.measured:
-            axis = each.machine, each.axis.en
-            latest[axis] = max(each.measured, latest.get(axis, dt.date.min))
+            subject = each.machine, each.tested
+            latest[subject] = max(each.measured, latest.get(subject, dt.date.min))
     for each in rows:
-        is_latest = each.measured is None or latest[each.machine, each.axis.en] == each.measured
+        is_latest = each.measured is None or latest[each.machine, each.tested] == each.measured
         yield each.date(today, is_latest=is_latest)
 
 

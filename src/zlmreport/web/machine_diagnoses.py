@@ -49,12 +49,14 @@ def answer(bench: MachineBench) -> dict[str, Any]:
     return {
         "content": loaded.content,
         "diagnosis": {
-            language.value: collect_diagnosis_of(diagnosis, planned, language) for language in Language
+            language.value: _collect_diagnosis_of(diagnosis, planned, language) for language in Language
         },
     }
 
 
-def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language: Language) -> dict[str, Any]:
+def _collect_diagnosis_of(
+    diagnosis: MachineDiagnosis, planned: NextRun, language: Language
+) -> dict[str, Any]:
     """Return a diagnosis in one language, what to do next first."""
     say = Sayer(language)
     names = name_effects(diagnosis.catalogue, language)

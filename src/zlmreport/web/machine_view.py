@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from zlmreport.document.blocks import Section
+from zlmreport.document.subjects.fit import OUTSIDE
+from zlmreport.document.subjects.forecast import EFFECT
 from zlmreport.document.writer import NOTHING
 from zlmreport.errors import InputError
 from zlmreport.language import Language, Words
@@ -211,14 +213,17 @@ class MachineView:
         names = self.names
         called = [self.say(_MEASURED), self.say(_BY_AXES), *(names.name_in(each.effect) for each in rows[2:])]
         return {
-            "unit": MICROMETRE.symbol,
+            "heads": [
+                {"text": self.say(EFFECT), "meaning": ""},
+                {"text": f"{self.say(_ERROR)} ({MICROMETRE.symbol})", "meaning": self.say(_ERROR_IS)},
+            ],
             "rows": [
                 {
                     "effect": each.effect,
                     "name": name,
-                    "rms": self.say.write_micrometres(each.rms),
+                    "label": f"+ {name}" if each.effect else name,
                     "share": each.rms / largest,
-                    "left_out": "",
+                    "cells": [self.say.write_micrometres(each.rms)],
                 }
                 for name, each in zip(called, rows, strict=True)
             ],
@@ -243,9 +248,8 @@ def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]
         "uncertainty": "" if uncertainty == NOTHING else uncertainty,
         "unit": term.unit.symbol,
         "given": False,
-        "at_bound": False,
         "plausibility": "plausible" if term.is_possible else "implausible",
-        "expected": "",
+        "notes": [] if term.is_possible else [say(OUTSIDE)],
     }
 
 

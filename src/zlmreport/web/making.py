@@ -126,7 +126,7 @@ class Making:
             return {
                 "state": "failed" if made.problems else "made",
                 "files": sorted(each.name for each in made.files),
-                "pages": {name: count_pages(path) for name, path in made.list_pages().items()},
+                "pages": {name: _count_pages(path) for name, path in made.list_pages().items()},
                 "problems": list(made.problems),
                 "values": made.values,
                 "stamp": self._stamp,
@@ -165,7 +165,7 @@ def draw_page(path: Path, number: int) -> bytes | None:
         return content.getvalue()
 
 
-def count_pages(path: Path) -> int:
+def _count_pages(path: Path) -> int:
     """Return how many pages a PDF has."""
     with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
         return len(document)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
+from itertools import zip_longest
 from typing import Any
 
-import numpy as np
-
 from zlmreport import pipeline
-from zlmreport.document.blocks import Facts
+from zlmreport.document.blocks import ColumnKind, Facts
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.document.certificate.values import limit
@@ -20,16 +19,16 @@ from zlmreport.document.subjects.fit import (
     ParameterRow,
     list_error_facts,
     make_parameter_rows,
-    write_deviation,
+    say_notes,
 )
+from zlmreport.document.subjects.forecast import make_fall_table, make_forecasts
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import EvaluatedParameter
-from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import with_unit
-from zlmreport.model.compensation.basis import FittedModel, compensate_readings
-from zlmreport.model.diagnosis.study import Fitted, correct_by_model
+from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.registry import Registry
@@ -37,6 +36,12 @@ from zlmreport.web.bench import Loaded
 from zlmreport.web.naming import Naming
 from zlmreport.web.texts import TEXTS
 
+_RMS_IS = Words("Root mean square of the residuals: what the model does not explain.")
+_LEFT_OUT_IS = Words(
+    "Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
+    " of what is wrong with these predictions. If it is much larger than the error, the model "
+    "follows noise."
+)
 _CHI2_IS = Words(
     "Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "
     "where the model leaves only noise, larger where something is missing."
@@ -73,10 +78,8 @@ class Panels:
 
     def list_error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        meanings = {
-            self.say(name): self.say(TEXTS[key])
-            for name, key in ((RMS, "errorIs"), (FLOOR, "noiseFloorIs"), (LEFT_OUT, "leftOutIs"))
-        }
+        said = ((RMS, _RMS_IS), (FLOOR, TEXTS["noiseFloorIs"]), (LEFT_OUT, _LEFT_OUT_IS))
+        meanings = {self.say(name): self.say(meaning) for name, meaning in said}
         chi2 = self.say(_CHI2_IS)
         facts = list_error_facts(self.whole.error, self.design.axis, self.language)
         return [each | {"meaning": meanings.get(each["name"], chi2)} for each in collect_errors(facts)]
@@ -91,7 +94,7 @@ class Panels:
                 "title": self.say(term.effect.title),
                 "equation": split_symbol(term.effect.equation),
                 "parameters": [
-                    collect_parameter(each) | {"fixed": each.name in term.fixed}
+                    collect_parameter(each, self.language) | {"fixed": each.name in term.fixed}
                     for each in make_parameter_rows(fit, self.language)
                     if each.effect == term.effect.identifier
                 ],
@@ -114,25 +117,31 @@ class Panels:
 
     def list_fall(self, history: Sequence[Fitted]) -> dict[str, Any]:
         """Return how the error fell, effect by effect, down to the noise floor."""
-        unit = self.design.axis.deviation_unit
-        largest = max(each.error.rms for each in history) or 1.0
-        names = ["", *self.whole.fit.model.identifiers]
-        floor, called = self.whole.error.noise_rms, self.naming
+        table = make_fall_table(history, None, self.writer).without("chi2")
+        called, effects = self.naming, self.whole.fit.model.identifiers
+        of_rows = ("", *effects, "")  # the readings as they are; the noise floor
+        rows = [
+            {
+                "effect": effect,
+                "name": called.name_in(effect),
+                "label": called.name_in(str(label)),
+                "share": float(str(share)) / 100,
+                "cells": cells,
+            }
+            for effect, (label, share, *cells) in zip(of_rows, table.groups[0].rows, strict=False)
+        ]
+        meanings = {"rms": _RMS_IS, "cross_validated": _LEFT_OUT_IS}
         return {
-            "unit": unit.symbol,
-            "rows": [
+            "heads": [
                 {
-                    "effect": name,
-                    "name": called.name_in(name),
-                    "rms": self._write_deviation(each.error.rms),
-                    "share": each.error.rms / largest,
-                    "left_out": self._write_deviation(each.error.cross_validated_rms),
+                    "text": f"{column.heading} ({column.unit})" if column.unit else column.heading,
+                    "meaning": self.say(meanings[column.key]) if column.key in meanings else "",
                 }
-                for name, each in zip(names, history, strict=True)
+                for column in table.columns
+                if column.kind is not ColumnKind.BARS
             ],
-            "floor": None
-            if floor is None
-            else {"rms": self._write_deviation(floor), "share": min(1.0, floor / largest)},
+            "rows": rows[: 1 + len(effects)],
+            "floor": next(iter(rows[1 + len(effects) :]), None),
         }
 
     def list_standards(self, results: Sequence[Evaluated]) -> list[dict[str, Any]]:
@@ -140,35 +149,26 @@ class Panels:
 
         `results`: Of the job's standards, in their order.
         """
-        study, whole = self.loaded.study, self.whole.fit
-        is_position = self.design.axis.measurand.is_position  # else no control corrects it
-        tests = [
-            compensate_readings(FittedModel(study.measurements, study.observed, whole)),
-            correct_by_model(study.measurements, study.observed, whole),
+        standards = pipeline.choose_standards(self.loaded.job, self.registry)
+        forecasts = make_forecasts(standards, self.loaded.study, [self.whole])
+        return [
+            {
+                "designation": each.evaluation.designation,
+                "unit": self.writer.deviation_unit.symbol,
+                "rows": [
+                    self._make_row(
+                        parameter, forecast.parameters[parameter.quantity.symbol] if forecast else None
+                    )
+                    for parameter in each.evaluation.parameters
+                ],
+                "unmet": [
+                    self.say(named(finding.requirement, finding.found))
+                    for finding in each.evaluation.findings
+                    if finding.met is False
+                ],
+            }
+            for each, forecast in zip_longest(results, forecasts)
         ]
-        statistics = position_statistics(np.stack([test.deviations() for test in tests]))
-        found = []
-        for (standard, options), evaluated in zip(
-            pipeline.choose_standards(self.loaded.job, self.registry), results, strict=True
-        ):
-            forecast = standard.arithmetic(statistics, options).parameters
-            parameters = evaluated.evaluation.parameters
-            found.append(
-                {
-                    "designation": evaluated.evaluation.designation,
-                    "unit": self.writer.deviation_unit.symbol,
-                    "rows": [
-                        self._make_row(each, forecast[each.quantity.symbol] if is_position else None)
-                        for each in parameters
-                    ],
-                    "unmet": [
-                        self.say(named(finding.requirement, finding.found))
-                        for finding in evaluated.evaluation.findings
-                        if finding.met is False
-                    ],
-                }
-            )
-        return found
 
     def list_excluded(self) -> list[dict[str, str]]:
         """Return the readings that the job sets aside, each with its value and the reason."""
@@ -183,14 +183,11 @@ class Panels:
             for each in self.loaded.measurements.provenance.exclusions
         ]
 
-    def _write_deviation(self, value: float | None) -> str:
-        return write_deviation(value, self.design.axis, self.language)
-
-    def _make_row(self, parameter: EvaluatedParameter, forecast: Any | None) -> dict[str, Any]:
+    def _make_row(self, parameter: EvaluatedParameter, forecast: FloatArray | None) -> dict[str, Any]:
         quantity, decision = parameter.quantity, parameter.decision
         writer = self.writer.of_quantity(quantity)
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
-        by_table, by_model = (
+        by_model, by_table = (
             (None, None) if forecast is None else (quantity.printed_sign * float(value) for value in forecast)
         )
 
@@ -224,7 +221,7 @@ def collect_errors(facts: Facts) -> list[dict[str, str]]:
     return [{"name": name, "value": value} for name, value in facts.pairs]
 
 
-def collect_parameter(row: ParameterRow) -> dict[str, Any]:
+def collect_parameter(row: ParameterRow, language: Language) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     return {
         "name": row.name,
@@ -235,9 +232,8 @@ def collect_parameter(row: ParameterRow) -> dict[str, Any]:
         "uncertainty": row.uncertainty,
         "unit": row.unit,
         "given": row.is_given,
-        "at_bound": row.at_bound,
         "plausibility": row.plausibility.name.lower(),
-        "expected": row.expected,
+        "notes": list(say_notes(row, language)),
     }
 
 

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from zlmreport.document.subjects.compensation import CONFIRMED
 from zlmreport.document.subjects.diagnosis import CANDIDATES, VERDICT
-from zlmreport.document.subjects.fit import EFFECTS
+from zlmreport.document.subjects.fit import EFFECTS, FLOOR
 from zlmreport.document.subjects.forecast import FALL
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
@@ -133,8 +133,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "fixParameter": Words("Fix {parameter} at this value"),
         "free": Words("Free"),
         "freeParameter": Words("Estimate {parameter} from the readings"),
-        "given": Words("given"),
-        "atBound": Words("held at bound"),
         "probability": Words("Probability"),
         "errorAfter": Words("Error after it"),
         "alike": Words("These readings cannot tell them apart."),
@@ -154,17 +152,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "setAllAside": Words("Set these readings aside"),
         "reason": Words("Reason, as the certificate will state it"),
         "bringBack": Words("Bring back"),
-        "effect": Words("Effect"),
-        "error": Words("Error"),
-        "noiseFloor": Words("Noise floor"),
-        "withoutModel": Words("without model"),
-        "leftOut": Words("Runs left out"),
-        "leftOutIs": Words(
-            "Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
-            " of what is wrong with these predictions. If it is much larger than the error, the model "
-            "follows noise."
-        ),
-        "errorIs": Words("Root mean square of the residuals: what the model does not explain."),
+        "noiseFloor": FLOOR,
         "noiseFloorIs": Words(
             "The scatter of readings repeated at one target in one direction: no model gets below it, and"
             " a good one nearly down to it."
@@ -218,9 +206,6 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "confusions": Words("What it is taken for"),
         "contains": Words("It contains {effects}, which cannot stand beside it in a model."),
         "language": Words("Language"),
-        "implausible": Words("implausible"),
-        "doubtful": Words("doubtful"),
-        "expected": Words("expected {value}"),
     }
 )
 
@@ -252,9 +237,6 @@ MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
         "noiseFloorIs": Words(
             "Scatter, and irregular shape without a name: what is left once all that was found is in the "
             "model. No effect takes it away."
-        ),
-        "errorIs": Words(
-            "Root mean square of all circles together, without where the bar stands and how long it is."
         ),
         "compensation": TABLES,
         "writeTable": Words("Write the tables"),

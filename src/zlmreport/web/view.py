@@ -224,7 +224,7 @@ def _make_candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) 
         "rmsBefore": diagnosed.error.pairs[0][1],
         "rmsAfter": row.error.pairs[0][1],
         "error": collect_errors(row.error),
-        "parameters": [collect_parameter(each) for each in row.parameters],
+        "parameters": [collect_parameter(each, names.language) for each in row.parameters],
         "explains": names.name_in(row.explains),
         "equals": list(row.equals),
         "equalNames": [names.name_in(each) for each in row.equals],

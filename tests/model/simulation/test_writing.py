@@ -77,5 +77,5 @@ def test_tables_of_the_axis_are_named_from_the_folder_of_the_job(tmp_path: Path)
         tmp_path,
     )
     text = write_job_text(file, tmp_path / "deep" / "below", "x.csv")
-    assert 'name: "X 1"' in text
+    assert "name: X 1," in text
     assert 'compensation_table: "../../comp.csv"' in text

@@ -3,8 +3,8 @@
 The numbers are those of the results file, digit by digit; cells of the workbook hold them whole and show them
 with the digits that a document prints. Readings are what the file says that they were read from, without the
 rounding of a unit's conversion. In the workbook every text is a text, also one that begins as a formula does;
-and the same certificate gives the same bytes: what openpyxl writes of the clock is
-taken out again.
+and the same certificate gives the same bytes: what openpyxl writes of the clock is taken out again, and its
+XML, which lxml writes where it is installed and the standard library where not, is brought into one form.
 """
 
 from __future__ import annotations
@@ -16,6 +16,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime, time
 from typing import Any, NamedTuple, TypeAlias
+from xml.etree.ElementTree import iterparse
+from xml.sax import make_parser
+from xml.sax.handler import feature_namespaces
+from xml.sax.saxutils import XMLGenerator
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
@@ -216,7 +220,7 @@ class XlsxRenderer:
         book.properties.creator = certificate.generator
         file = io.BytesIO()
         book.save(file)
-        return _remove_clock(file.getvalue(), moment)
+        return _pack_alike(file.getvalue(), moment)
 
 
 def _fill(cell: Any, value: float | str | _Shown) -> int:
@@ -416,12 +420,38 @@ def _clean(text: str) -> str:
     return _NOT_IN_CELLS.sub("\N{REPLACEMENT CHARACTER}", text)[:_LONGEST_TEXT]
 
 
-def _remove_clock(workbook: bytes, moment: datetime) -> bytes:
-    """Return a workbook whose archive and properties tell of no other time than this."""
+def _pack_alike(workbook: bytes, moment: datetime) -> bytes:
+    """Return a workbook that tells of no other time than this, its XML as the standard library writes it."""
     stated = moment.isoformat().encode() + b"Z"
     file = io.BytesIO()
     with ZipFile(io.BytesIO(workbook)) as source, ZipFile(file, "w") as target:
         for name in source.namelist():
-            content = _CLOCK.sub(rb"\g<1>" + stated, source.read(name))
+            content = _write_alike(_CLOCK.sub(rb"\g<1>" + stated, source.read(name)))
             target.writestr(ZipInfo(name, _NO_DATE), content, ZIP_DEFLATED)
     return file.getvalue()
+
+
+def _write_alike(content: bytes) -> str:
+    """Write XML in one form, whichever library has written it."""
+    written = io.StringIO()
+    names = {found for _, found in iterparse(io.BytesIO(content), ["start-ns"])}  # noqa: S314 - openpyxl's own
+    parser = make_parser()  # noqa: S317 - the same
+    parser.setFeature(feature_namespaces, True)  # noqa: FBT003 - it has no name
+    parser.setContentHandler(_NamesAtRoot(written, sorted(names)))
+    parser.parse(io.BytesIO(content))
+    return written.getvalue()
+
+
+class _NamesAtRoot(XMLGenerator):
+    """Declares all namespaces at the root: lxml leaves each where it is used."""
+
+    def __init__(self, written: io.StringIO, names: Iterable[tuple[str, str]]) -> None:
+        super().__init__(written, "utf-8", short_empty_elements=True)
+        for prefix, address in names:
+            super().startPrefixMapping(prefix, address)
+
+    def startPrefixMapping(self, prefix: str | None, uri: str) -> None:  # noqa: N802 - the library's name
+        """Leave it: it stands at the root."""
+
+    def endPrefixMapping(self, prefix: str | None) -> None:  # noqa: N802 - the same
+        """Leave it."""

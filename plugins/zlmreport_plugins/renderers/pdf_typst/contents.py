@@ -142,7 +142,7 @@ def _make_block(numbered: NumberedBlock, certificate: Certificate) -> Data:
     language, is_compact = certificate.language, certificate.is_compact
     match numbered.block:
         case Table(caption=caption, symbols=symbols) as table:
-            data = collect_table(table, is_compact=is_compact)
+            data = _collect_table(table, is_compact=is_compact)
             return {"kind": "table", **_make_captioned(numbered, caption, symbols), **data}
         case Formulas(caption=caption) as formulas:
             data = _collect_formulas(formulas, is_compact=is_compact)
@@ -237,7 +237,7 @@ _GROUP = 50.0
 _LONG_CELL = 400
 
 
-def collect_table(table: Table, *, is_compact: bool) -> dict[str, Any]:
+def _collect_table(table: Table, *, is_compact: bool) -> dict[str, Any]:
     """Return the columns and rows of a table."""
     rows = [row for group in table.groups for row in group.rows]
     columns, rooms = _share_columns(

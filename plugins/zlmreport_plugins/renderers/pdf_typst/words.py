@@ -51,7 +51,7 @@ def fit_text(
     """
     text = held_together(text)
     longest = max(map(len, text.split()), default=0)
-    if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
+    if _WIDEST_LETTER * longest <= room and _JOINER not in text and not _has_marks(text):
         return text
     most = room / _SMALLER if may_be_smaller else room
     ways = [
@@ -81,7 +81,7 @@ def fit_text_with_symbols(text: str, notations: Iterable[str], room: float) -> T
 
 def _measure_way(word: str, room: float, face: FontFace, most: float) -> str:
     """Return the way of a word in a place of a width; `most`: Em that a number may have, in smaller type."""
-    if has_marks(word):
+    if _has_marks(word):
         return MARKED
     if _JOINER in word:  # whole, and without the sign: a reader of the document would find it in the text
         width = text_advance(word.replace(_JOINER, ""), face)
@@ -124,7 +124,7 @@ def part_text(text: str, face: FontFace) -> tuple[Stretch, ...]:
         return ((whole,),)
 
 
-def has_marks(text: str) -> bool:
+def _has_marks(text: str) -> bool:
     """Return whether a letter of a text carries a mark with which it is no letter of its own."""
     return not text.isascii() and any(map(combining, normalize("NFC", text)))
 

@@ -82,7 +82,7 @@ def read_entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEn
         if key in found:
             first = found[key].place.line
             problems.append(
-                Problem(begin, f"{write_key(key)} stands in line {first} already; keep one of them")
+                Problem(begin, f"{_write_key(key)} stands in line {first} already; keep one of them")
             )
         elif key[0] not in _NOT_READ:
             column = len(name) + 1 + len(value) - len(value.lstrip()) + 1
@@ -90,10 +90,10 @@ def read_entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEn
     return found
 
 
-def write_key(key: Key) -> str:
+def _write_key(key: Key) -> str:
     """Return a key as logs write it.
 
-    >>> write_key((FORWARD, (3, 1)))
+    >>> _write_key((FORWARD, (3, 1)))
     'REF_DATA_FWD[3,1]'
     """
     name, indices = key
@@ -173,7 +173,7 @@ class Log:
     def _list_targets(self, positions: int) -> Iterator[tuple[int, float]]:
         """Yield the targets by number; say what is missing, unless it may be in a line that is wrong."""
         keys = [(TARGET, (index,)) for index in range(1, positions + 1)]
-        absent = [write_key(key) for key in keys if key not in self.entries]
+        absent = [_write_key(key) for key in keys if key not in self.entries]
         if absent and not self.problems:
             stated = self.entries.get((POSITIONS, ()))
             some = f"{', '.join(absent[:5])}{' …' if absent[5:] else ''}"
@@ -191,7 +191,7 @@ class Log:
         for key, entry in self.entries.items():
             for (name, limit), index in zip(limits, key[1], strict=False):
                 if index > limit:
-                    message = f"{write_key(key)} is one too many: {self._find_stated(name)}"
+                    message = f"{_write_key(key)} is one too many: {self._find_stated(name)}"
                     self.problems.append(Problem(entry.place, message))
 
     def _read_count(self, name: str) -> int:
@@ -214,7 +214,7 @@ class Log:
         try:
             return parse_number(entry.value)
         except ValueError as error:
-            self.problems.append(Problem(entry.place, f"{write_key(key)}: {error}"))
+            self.problems.append(Problem(entry.place, f"{_write_key(key)}: {error}"))
             return math.nan
 
 

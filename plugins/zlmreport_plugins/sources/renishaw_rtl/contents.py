@@ -51,7 +51,7 @@ class RtlSection:
     def list_entries(self) -> Iterator[RtlEntry]:
         """Yield the lines of the form ``key : value``."""
         for line in self.lines:
-            entry = read_as_entry(line)
+            entry = _read_as_entry(line)
             if entry:
                 yield entry
 
@@ -60,7 +60,7 @@ class RtlSection:
         return next((entry for entry in self.list_entries() if entry.key == key), None)
 
 
-def read_as_entry(line: RtlLine) -> RtlEntry | None:
+def _read_as_entry(line: RtlLine) -> RtlEntry | None:
     """Return a line of the form ``key : value`` taken apart; None if it is of another form."""
     name, colon, value = line.text.partition(":")
     if not colon:
@@ -113,7 +113,7 @@ def read_target_positions(section: RtlSection) -> tuple[float, ...]:
     file states.
     """
     lines = iter(section.lines)
-    begin = next((line for line in lines if (entry := read_as_entry(line)) and entry.key == "targets"), None)
+    begin = next((line for line in lines if (entry := _read_as_entry(line)) and entry.key == "targets"), None)
     if begin is None:
         raise InputError.at(section.head.place, "this section has no key 'Targets :', so no target positions")
     colon = begin.text.index(":") + 1

@@ -136,7 +136,7 @@ def _cover(
     yield from statements.make_amendment_notice(keys.certificate, writer)
     facts = select_stated_facts(_list_identity(job, evaluations, digest, writer), writer)
     yield Facts(facts, writer.say(statements.WORK[keys.certificate.kind]))
-    yield lay_out_summary(parts, writer)
+    yield _lay_out_summary(parts, writer)
     if budget.is_complete:
         yield from uncertainty.say_uncertainty(budget, (), writer)  # the summary has no interval of the axis
     yield from conformity.say_rule(keys.decision_rule, evaluations, writer)
@@ -151,7 +151,7 @@ def _cover(
     yield from statements.lay_out_paragraphs(job, writer, *measured)
 
 
-def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
+def _lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
     """Return each measurement with what has a limit, or else its first parameter by each standard."""
     evaluations = [each for part in parts.values() for each in part.evaluations]
     values = replace(Values.of(evaluations, writer), is_mixed=True)

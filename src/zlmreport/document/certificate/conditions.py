@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
-    from zlmreport.job.measurement_keys import CompensatesKeys, Instrument
+    from zlmreport.job.measurement_keys import CompensatesKeys, InstrumentKeys
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 TITLE = Words("Item, method and conditions")
@@ -245,7 +245,7 @@ def _list_measurement_facts(keys: JobKeys, measurements: MeasurementSet, writer:
 
 
 def _list_instrument_facts(
-    instrument: Instrument | None, measurements: MeasurementSet, writer: Writer
+    instrument: InstrumentKeys | None, measurements: MeasurementSet, writer: Writer
 ) -> Iterator[Fact]:
     """Yield what is stated of the instrument; its U of several lines with each of them, in their units."""
     if instrument is None:
@@ -282,7 +282,7 @@ def _list_instrument_facts(
     )
 
 
-def _write_range(instrument: Instrument, measurements: MeasurementSet, writer: Writer) -> str | None:
+def _write_range(instrument: InstrumentKeys, measurements: MeasurementSet, writer: Writer) -> str | None:
     """Write from where to where an instrument is calibrated; None where the job does not tell."""
     extent = instrument.calibrated_range
     axis = measurements.lines[0].axis
@@ -305,7 +305,7 @@ def _write_compensates(keys: CompensatesKeys | None, writer: Writer) -> str | No
     return join_parts(map(writer.say, parts), writer.language) or writer.say(_NOTHING)
 
 
-def _write_uncertainty(instrument: Instrument, writer: Writer) -> str | None:
+def _write_uncertainty(instrument: InstrumentKeys, writer: Writer) -> str | None:
     """Write the instrument's expanded uncertainty, with its part that grows with the length."""
     stated, unit = instrument.stated_uncertainty, writer.deviation_unit.symbol
     if stated is None:

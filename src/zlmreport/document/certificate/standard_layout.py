@@ -90,13 +90,13 @@ def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:
     return columns.estimate_head_height(of.letterhead, of.title, subject, number, head)
 
 
-def lay_out_one(each: Evaluated, writer: Writer) -> Section:
+def _lay_out_one(each: Evaluated, writer: Writer) -> Section:
     """Return the results by one standard."""
     return _lay_out_page((each,), writer)
 
 
 def lay_out_results_by_line(
-    of: Material, section_of: Callable[[Evaluated, Writer], Section] = lay_out_one
+    of: Material, section_of: Callable[[Evaluated, Writer], Section] = _lay_out_one
 ) -> Iterator[Section]:
     """Yield what is said of each of several measured lines, on a page if it fits on one.
 
@@ -131,7 +131,7 @@ def _lay_out_results(of: Material, pages: Pages, room_of_page: float | None) -> 
     if keys:
         from zlmreport.document.certificate.as_found import lay_out_beside_as_found  # noqa: PLC0415 - of the few that need it
 
-        sections = lay_out_beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, lay_out_one)
+        sections = lay_out_beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, _lay_out_one)
         comparison = fit_on_a_page(
             set_in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper]
         )

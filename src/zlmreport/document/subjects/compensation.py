@@ -171,7 +171,7 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
         Column(say(Words("With the table")), unit.symbol, Align.RIGHT),
         Column(say(Words("A second test, 95 %")), unit.symbol, Align.RIGHT),
     )
-    sentences = (*list_table_remarks(made, writer), _NO_MEASUREMENT)
+    sentences = (*_list_table_remarks(made, writer), _NO_MEASUREMENT)
     return Section(
         "forecast",
         say(_FORECAST),
@@ -247,7 +247,7 @@ def _write_with_u(value: float, expanded: float | None, writer: Writer) -> str:
     return text if expanded is None else f"{text} ± {_number(expanded, writer)}"
 
 
-def list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
+def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
     """Yield what is to be known of a table: between its rows, left out, constants, play that is left."""
     found, unit = made.forecast, writer.deviation_unit
 

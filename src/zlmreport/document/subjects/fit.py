@@ -59,9 +59,11 @@ _PLAUSIBLE = {
     Plausibility.IMPLAUSIBLE: Words("no"),
     Plausibility.UNKNOWN: same(NOTHING),
 }
+#: What is said of a value that physics or machines do not have.
+OUTSIDE = Words("outside the plausible range")
 _DOUBTS = {
     Plausibility.DOUBTFUL: Words("within its uncertainty of the plausible range"),
-    Plausibility.IMPLAUSIBLE: Words("outside the plausible range"),
+    Plausibility.IMPLAUSIBLE: OUTSIDE,
 }
 _WEIGHTED = Words("Readings are weighted, for they scatter unequally: a single one by {least} to {largest}")
 _SCOPE = Words("Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself")
@@ -249,19 +251,23 @@ def _say_how_it_is_known(row: ParameterRow) -> Words:
 
 def write_in_a_sentence(row: ParameterRow, language: Language) -> str:
     """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
-    notes: list[Words | str] = []
-    if row.uncertainty:
-        notes += [_GRID] if row.is_on_grid else []
-        amount = with_unit(f"{row.value} ± {row.uncertainty}", row.unit)
-    else:
+    number = f"{row.value} ± {row.uncertainty}" if row.uncertainty else row.value
+    notes = (f"({each})" for each in say_notes(row, language))
+    return " ".join((row.name, with_unit(number, row.unit).rstrip(), *notes))
+
+
+def say_notes(row: ParameterRow, language: Language) -> tuple[str, ...]:
+    """Return how a parameter is known if not by its U alone, and how it lies to what is usual or expected."""
+    notes: list[Words] = []
+    if not row.uncertainty:
         notes.append(_say_how_it_is_known(row))
-        amount = with_unit(row.value, row.unit)
+    elif row.is_on_grid:
+        notes.append(_GRID)
     if row.plausibility in _DOUBTS:
         notes.append(_DOUBTS[row.plausibility])
     elif row.expected and not row.is_given:
         notes.append(_EXPECTED.given(value=with_unit(row.expected, row.unit)))
-    said = (each if isinstance(each, str) else each.in_language(language) for each in notes)
-    return " ".join((row.name, amount.rstrip(), *(f"({each})" for each in said)))
+    return tuple(each.in_language(language) for each in notes)
 
 
 def _say_one_way(fit: Fit, language: Language) -> Iterator[Paragraph]:

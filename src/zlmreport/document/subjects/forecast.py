@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -24,9 +24,8 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluate import EvaluatingStandard
     from zlmreport.measurement.units import Unit
 
-#: Title of the fall of the error.
-FALL = Words("How the error falls")
-_EFFECT = Words("Effect")
+#: Title of the fall of the error, and the heading of its first column.
+FALL, EFFECT = Words("How the error falls"), Words("Effect")
 _FALL = Words(
     "How the error falls, effect by effect; the parameters of {designation} are predicted for an "
     "axis whose control corrects all effects down to the row"
@@ -39,17 +38,30 @@ _ORDER = (QuantityGroup.COMPOSITE, QuantityGroup.SYSTEMATIC, QuantityGroup.RANDO
 
 @dataclass(frozen=True, slots=True)
 class StandardForecast:
-    """The leading parameters of a standard, predicted for a corrected axis."""
+    """The parameters of a standard, predicted for a corrected axis."""
 
     #: standard and designation: Identifier and as printed.
     standard: str
     designation: str
     unit: Unit  #: In which deviations are printed.
     quantities: tuple[Quantity, ...]  #: The first parameter of each group: composite, systematic, random.
-    #: (steps, quantities): After each step of the model's history, m or rad; the first row is of the readings
-    #: as they are. NaN for what the test does not define.
-    by_step: FloatArray
-    by_table: FloatArray  #: (quantities,): With a table of the model, its rows at the targets, m or rad.
+    #: (steps + 1,) of each parameter, by its symbol: after each step of the model's history, and with a table
+    #: of the model, its rows at the targets; m or rad. NaN for what the test does not define.
+    parameters: Mapping[str, FloatArray]
+
+    @property
+    def by_step(self) -> FloatArray:
+        """(steps, quantities): Of the quantities; the first row is of the readings as they are."""
+        return read_only_floats(self._leading[:-1])
+
+    @property
+    def by_table(self) -> FloatArray:
+        """(quantities,): Of the quantities, with a table."""
+        return read_only_floats(self._leading[-1])
+
+    @property
+    def _leading(self) -> FloatArray:
+        return np.stack([self.parameters[quantity.symbol] for quantity in self.quantities], axis=1)
 
 
 def make_forecasts(
@@ -63,22 +75,16 @@ def make_forecasts(
     statistics = position_statistics(
         np.stack([test.deviations() for test in tests]), study.measurements.target_positions
     )
-    found = []
-    for standard, options in standards:
-        values = standard.arithmetic(statistics, options).parameters
-        quantities = _select_leading(standard.quantities)
-        table = np.stack([values[quantity.symbol] for quantity in quantities], axis=1)
-        found.append(
-            StandardForecast(
-                standard.identifier,
-                standard.designation,
-                study.measurements.axis.deviation_unit,
-                quantities,
-                read_only_floats(table[:-1]),
-                read_only_floats(table[-1]),
-            )
+    return tuple(
+        StandardForecast(
+            standard.identifier,
+            standard.designation,
+            study.measurements.axis.deviation_unit,
+            _select_leading(standard.quantities),
+            standard.arithmetic(statistics, options).parameters,
         )
-    return tuple(found)
+        for standard, options in standards
+    )
 
 
 def _select_leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
@@ -93,9 +99,17 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
     """Return how the error fell, effect by effect, and what a standard would say after each.
 
     `forecast`: None of an error that no control corrects, such as a straightness.
+    """
+    left = say_no_table_takes_away(history[-1].fit, writer.language)
+    said = [Paragraph(left)] if left else []
+    return Section("fall", writer.say(FALL), (make_fall_table(history, forecast, writer), *said))
 
-    Its table has the columns ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``,
-    ``cross_validated`` and one for each quantity, by its symbol.
+
+def make_fall_table(history: Sequence[Fitted], forecast: StandardForecast | None, writer: Writer) -> Table:
+    """Return a row for the readings as they are, one for each effect, and the noise floor where it is known.
+
+    Its columns are ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``, ``cross_validated`` and
+    one for each quantity of the forecast, by its symbol.
     """
     say, language, whole = writer.say, writer.language, history[-1]
     axis, unit = whole.fit.design.axis, writer.deviation_unit.symbol
@@ -113,11 +127,11 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
         )
 
     columns = (
-        Column(say(_EFFECT), key="effect"),
+        Column(say(EFFECT), key="effect"),
         Column("", "%", Align.LEFT, "share", ColumnKind.BARS),
         Column(say(Words("RMS error")), unit, Align.RIGHT, "rms"),
         Column("χ²/ν", "", Align.RIGHT, "chi2"),
-        Column(say(Words("Cross-validated")), unit, Align.RIGHT, "cross_validated"),
+        Column(say(Words("Runs left out")), unit, Align.RIGHT, "cross_validated"),
         *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in quantities),
     )
     names = [say(_WITHOUT), *(f"+ {name}" for name in whole.fit.model.identifiers)]
@@ -130,12 +144,7 @@ def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast | None, w
         blank = ("",) * (2 + len(quantities))
         rows.append((say(_FLOOR), _share(floor, largest), write_deviation(floor, axis, language), *blank))
     caption = say(_FALL.given(designation=forecast.designation) if forecast else FALL)
-    left = say_no_table_takes_away(whole.fit, language)
-    return Section(
-        "fall",
-        say(FALL),
-        (Table(caption, columns, (RowGroup(tuple(rows)),)), *([Paragraph(left)] if left else [])),
-    )
+    return Table(caption, columns, (RowGroup(tuple(rows)),))
 
 
 def _share(value: float, largest: float) -> str:

@@ -60,7 +60,7 @@ def is_blind_to_air(job: Job) -> bool:
     if instrument.compensates is not None and instrument.compensates.air is not None:
         return not instrument.compensates.air
     said = instrument.compensation
-    return bool(said and counts_wavelengths(instrument.name) and says_air_is_left(said))
+    return bool(said and counts_wavelengths(instrument.name) and _says_air_is_left(said))
 
 
 def counts_wavelengths(name: str) -> bool:
@@ -80,17 +80,17 @@ def speaks_of_air(said: str) -> bool:
     >>> speaks_of_air("automatic"), speaks_of_air("on"), speaks_of_air("")
     (False, False, False)
     """
-    return bool(_THE_AIR.search(said)) or says_air_is_left(said)
+    return bool(_THE_AIR.search(said)) or _says_air_is_left(said)
 
 
-def says_air_is_left(said: str) -> bool:
+def _says_air_is_left(said: str) -> bool:
     """Return whether words on an instrument's compensation say that it did not look at the air.
 
     They do where they deny compensation, or name another one only, and do not say that the air was looked at.
 
-    >>> says_air_is_left("not compensated"), says_air_is_left("material only")
+    >>> _says_air_is_left("not compensated"), _says_air_is_left("material only")
     (True, True)
-    >>> says_air_is_left("refractive index of the air; no material temperature")
+    >>> _says_air_is_left("refractive index of the air; no material temperature")
     False
     """
     parts = [part for part in _PART.split(said) if part.strip()]

@@ -281,7 +281,7 @@ def _tell_out_of_sight(event: Event, writer: AxisWriter) -> CaptureLine | None:
         case Elsewhere(position=position, factor=None):
             line = CaptureLine("", writer.say(_NO_TARGET.given(position=writer.write_position(position))))
         case Elsewhere(position=position, factor=float(factor)):
-            said = _MISREAD.given(position=writer.write_position(position), why=say_misread(factor, writer))
+            said = _MISREAD.given(position=writer.write_position(position), why=_say_misread(factor, writer))
             line = _tell_line(_DISPLAY, said, writer)
         case _:
             line = _tell_asked_and_told(event, writer)
@@ -296,7 +296,7 @@ def _tell_asked_and_told(event: Event, writer: AxisWriter) -> CaptureLine | None
             line = _tell_line(_DOUBT, named(writer.name_visit(visit), why), writer)
         case Unclear(target=target, approach=approach):
             said = _MAY_BE.given(
-                target=target, arrow=approach.arrow, candidates=write_candidates(event, writer)
+                target=target, arrow=approach.arrow, candidates=_write_candidates(event, writer)
             )
             line = _tell_line(_WHERE, said, writer)
         case Presumed(visit=visit, share=share):
@@ -350,7 +350,7 @@ def _write_short(seconds: float, writer: AxisWriter) -> str:
 def _say_failure(event: ZeroLost | ScaleChanged, writer: AxisWriter) -> Words:
     if isinstance(event, ZeroLost):
         return _ZERO_LOST.given(message=event.message or _LOST_ITS_ZERO, void=_say_void(event.void, writer))
-    switched_to = say_switched(event.factor, writer)
+    switched_to = _say_switched(event.factor, writer)
     if event.visit:
         return _SWITCHED_AGAIN.given(switched=switched_to, number=event.visit.number)
     return _SWITCHED.given(switched=switched_to)
@@ -365,11 +365,11 @@ def _say_question(event: Unclear, writer: AxisWriter) -> Words:
         target=event.target,
         arrow=event.approach.arrow,
         position=writer.write_position(event.position),
-        candidates=write_candidates(event, writer),
+        candidates=_write_candidates(event, writer),
     )
 
 
-def say_misread(factor: float, writer: AxisWriter) -> Words:
+def _say_misread(factor: float, writer: AxisWriter) -> Words:
     """Say what a display does wrong whose readings come right by a factor, and the cure."""
     match factor:
         case -1.0:
@@ -384,7 +384,7 @@ def say_misread(factor: float, writer: AxisWriter) -> Words:
             return _OTHER_PATH.given(factor=writer.write_general(factor))
 
 
-def say_switched(factor: float, writer: AxisWriter) -> Words:
+def _say_switched(factor: float, writer: AxisWriter) -> Words:
     """Say to which unit a display was switched, if its readings come right by a factor."""
     if isclose(factor, _INCH):
         return _TO_INCHES
@@ -397,7 +397,7 @@ def _say_departure(difference: float, writer: AxisWriter) -> Words:
     return _DEPARTS.given(difference=writer.write_deviation(difference))
 
 
-def write_candidates(event: Unclear, writer: AxisWriter) -> str:
+def _write_candidates(event: Unclear, writer: AxisWriter) -> str:
     """Write what an unclear stop may be: ``visit 12 (run 2) 60 %, visit 2 (run 1) 39 %, no visit 1 %``."""
     return ", ".join(
         writer.say(write_candidate(visit, writer.write_number(100 * share, 0)))

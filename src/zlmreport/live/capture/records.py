@@ -44,10 +44,10 @@ _UNSTATED: Mapping[str, Any] = MappingProxyType(
 def to_record(event: Event) -> Record:
     """Return the keys of an event: visits by their numbers, the mean's values beside the others, SI."""
     record: Record = {"record": _NAMES[type(event)]}
-    for name in list_fields(type(event)):
+    for name in _list_fields(type(event)):
         value = getattr(event, name)
         if isinstance(value, Mean):
-            record |= {each: _make_plain(getattr(value, each)) for each in list_fields(Mean)}
+            record |= {each: _make_plain(getattr(value, each)) for each in _list_fields(Mean)}
         elif name in _UNSTATED and value == _UNSTATED[name]:
             continue
         else:
@@ -61,12 +61,12 @@ def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Eve
     """Return the event of a record; raise KeyError, TypeError, ValueError or IndexError for any other."""
     kind = _KINDS[record["record"]]
     unstated = {name for name in _UNSTATED if ("value" if name == "mean" else name) not in record}
-    stated = (name for name in list_fields(kind) if name not in unstated)
+    stated = (name for name in _list_fields(kind) if name not in unstated)
     event: Event = kind(**{name: _READERS[name](record, visits) for name in stated})
     return event
 
 
-def list_fields(kind: type) -> tuple[str, ...]:
+def _list_fields(kind: type) -> tuple[str, ...]:
     """Return the names of a dataclass's fields."""
     return tuple(each.name for each in dataclasses.fields(kind))
 
@@ -204,7 +204,7 @@ class Header:
             "axis": {"name": self.axis, "kind": str(self.kind)},
             "instrument": dict(self.instrument),
             "method": self.method,
-            "settings": {name: getattr(self.settings, name) for name in list_fields(Settings)},
+            "settings": {name: getattr(self.settings, name) for name in _list_fields(Settings)},
             "datum": self.datum,
             "visits": [
                 [visit.target, visit.position, int(visit.approach), visit.run, visit.part, visit.travelled]

@@ -119,7 +119,7 @@ STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(
 )
 
 
-def give_standard_conditions(_time: float) -> Mapping[str, float]:
+def _give_standard_conditions(_time: float) -> Mapping[str, float]:
     """Return `STANDARD_CONDITIONS`, at any time."""
     return STANDARD_CONDITIONS
 
@@ -142,7 +142,7 @@ class Scene:
 
     axis: EmulatedAxis = field(default_factory=MovingAxis)
     troubles: Troubles = field(default_factory=Troubles)
-    conditions: Callable[[float], Mapping[str, float]] = give_standard_conditions
+    conditions: Callable[[float], Mapping[str, float]] = _give_standard_conditions
 
     def condition(self, name: str, time: float) -> float:
         """Return a condition at a time in s from the start, SI."""

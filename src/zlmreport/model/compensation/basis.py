@@ -175,7 +175,7 @@ def make_basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
     left = correct_by_model(measurements, fitted.observed, fitted.fit).deviations()
     scatter = _estimate_scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
     beyond, imitated = (
-        part_directions(values, is_bidirectional=curve.is_bidirectional)
+        _part_directions(values, is_bidirectional=curve.is_bidirectional)
         for values in (fitted.sign * _fill_in_both(_compute_means(left)), _compute_imitated(fitted))
     )
     own = scatter.single**2 / curve.runs
@@ -235,7 +235,7 @@ def _estimate_scatter(deviations: FloatArray) -> ReadingScatter | None:
     )
 
 
-def part_directions(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
+def _part_directions(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
     """Return values of shape (…, 2, m) as what both directions share and what parts them, (e↑ ± e↓)/√2.
 
     A test of one direction has the first part only, and that is the values themselves.
@@ -250,7 +250,7 @@ def join_directions(parts: FloatArray) -> FloatArray:
     """Return parts of shape (…, 1 or 2, m) as values of both directions, shape (…, 2, m)."""
     if parts.shape[-2] == 1:
         return np.repeat(parts, 2, axis=-2)
-    return part_directions(parts, is_bidirectional=True)  # its own inverse
+    return _part_directions(parts, is_bidirectional=True)  # its own inverse
 
 
 def _make_part(rest: FloatArray, columns: FloatArray, own: float) -> DeviationPart:

@@ -141,7 +141,7 @@ def _simulate_second_tests(
     common = common * random.standard_normal((_DRAWS, 1, 1, curve.runs))
     noise = random.standard_normal((*shown.shape, curve.runs)) * single[..., np.newaxis, np.newaxis]
     tests = shown[..., np.newaxis] + common + noise
-    drawn = compute_drawn_figures(tests)
+    drawn = _compute_drawn_figures(tests)
     return {
         symbol: ExpectedFigure(float(values.mean()), *map(float, np.quantile(values, [_LOW, _HIGH])))
         for symbol, values in drawn.items()
@@ -188,7 +188,7 @@ def _sample_deviation(estimate: float, degrees: int, random: np.random.Generator
     return np.asarray(estimate * np.sqrt(max(1, degrees) / drawn))
 
 
-def compute_drawn_figures(tests: FloatArray) -> dict[str, FloatArray]:
+def _compute_drawn_figures(tests: FloatArray) -> dict[str, FloatArray]:
     """Return E, M, B and A of a stack of tests, shape (N, directions, targets, runs), m or rad."""
     statistics = position_statistics(tests)
     means, spread = statistics.mean, statistics.standard_deviation

@@ -94,7 +94,7 @@ def join_side_by_side(lines: Sequence[SurfaceLine], approach: Approach, second: 
     return SurfaceReadings(second, design, deviation, _pool_floors(kept))
 
 
-def make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> Design:
+def _make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> Design:
     """Return a design that asks for points of the plane, each (M,), m."""
     design = readings.design
     none = np.zeros(len(along))
@@ -246,7 +246,7 @@ class Surface:
         ]
         if sentences:
             raise ModelError(sentences)
-        return self.fit.predict(make_points(self.readings, along, across))
+        return self.fit.predict(_make_points(self.readings, along, across))
 
     def compute_coefficients(self) -> Coefficients:
         """Return the polynomial in powers of P and R themselves."""

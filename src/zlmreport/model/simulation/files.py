@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import os
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
+from zlmreport.job.list_edits import write_in_a_line
 from zlmreport.job.simulation import CourseKeys, SimulatedNoiseKeys, SimulationFile
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
@@ -36,7 +35,6 @@ POSITION_DIGITS, _DEVIATION_DIGITS, _TIME_DIGITS = 4, 3, 1
 _CONDITION_DIGITS = 4
 #: More digits of mm or ° than anybody types, and fewer than a double rounds at.
 _MEANT_DIGITS = 9
-_PLAIN = re.compile(r"[A-Za-z]([A-Za-z0-9._-]*[A-Za-z0-9])?")
 #: Of the keys of the noise; all others are deviations.
 _NO_DEVIATIONS = frozenset({"unequal", "drift_time", "outlier_share", "missing_share"})
 _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
@@ -233,9 +231,9 @@ def write_live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: 
     lines = [
         *_write_job_lines(file, folder, source, dwell=file.keys.dwell),
         "plan:",
-        f"  targets: {_write_flow({'positions': targets})}",
+        f"  targets: {write_in_a_line({'positions': targets})}",
         f"  runs: {plan.runs}",
-        f"  overrun: {_write_flow(file.keys.overrun)} # {unit.symbol}",
+        f"  overrun: {write_in_a_line(file.keys.overrun)} # {unit.symbol}",
         _OUTPUT,
     ]
     return "\n".join(lines) + "\n"
@@ -256,31 +254,18 @@ def _write_job_lines(
     yield "# A measuring report of simulated readings: nothing here was measured."
     yield "schema: zlmreport/job/1"
     yield "certificate:"
-    yield f"  number: {_write_flow(keys.output.number)}"
+    yield f"  number: {write_in_a_line(keys.output.number)}"
     yield "  kind: report"
-    yield f"axis: {_write_flow(axis)} # {file.axis.position_unit.symbol}"
+    yield f"axis: {write_in_a_line(axis)} # {file.axis.position_unit.symbol}"
     yield "measurement:"
     yield f"  method: {keys.method}"
-    yield f"  feed: {_write_flow(keys.feed)} # {file.axis.position_unit.symbol}/min"
+    yield f"  feed: {write_in_a_line(keys.feed)} # {file.axis.position_unit.symbol}/min"
     if dwell is not None:
-        yield f"  dwell: {_write_flow(dwell)} # s"
-    yield f"  source: {_write_flow(source)}"
+        yield f"  dwell: {write_in_a_line(dwell)} # s"
+    yield f"  source: {write_in_a_line(source)}"
     yield "  remarks: Simulated readings, not measurements."
     yield "evaluate:"
     yield "  - iso230-2:2014"
     yield "model:"
     yield "  effects:"
-    yield from (f"    - {_write_flow(effect)}" for effect in effects)
-
-
-def _write_flow(value: Any) -> str:
-    """Write a value in one line of YAML; a text that is no plain word stands in quotes."""
-    if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{key}: {_write_flow(item)}' for key, item in value.items())}}}"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_write_flow, value))}]"
-    if isinstance(value, float) and value.is_integer():
-        return str(int(value))
-    if isinstance(value, str) and _PLAIN.fullmatch(value) and value != "null":
-        return value
-    return json.dumps(value, ensure_ascii=False)
+    yield from (f"    - {write_in_a_line(effect)}" for effect in effects)

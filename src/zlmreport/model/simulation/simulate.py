@@ -47,7 +47,7 @@ def simulate(description: Description) -> Simulation:
     Raises `ValueError` if a searched parameter of an effect has no value.
     """
     design = make_design_of(description)
-    systematic = compute_deviation_by_all(description, design)
+    systematic = _compute_deviation_by_all(description, design)
     return Simulation(observe(description, design, systematic), design, read_only_floats(systematic))
 
 
@@ -63,7 +63,7 @@ def make_design_of(description: Description) -> Design:
     return replace(design, conditions=conditions)
 
 
-def compute_deviation_by_all(description: Description, design: Design) -> FloatArray:
+def _compute_deviation_by_all(description: Description, design: Design) -> FloatArray:
     """Return the deviation that all effects of a description make, shape (N,), m or rad.
 
     Raises `ValueError` if a searched parameter of an effect has no value.
@@ -205,7 +205,7 @@ def make_emulated_machine(description: Description, lead: float) -> EmulatedMach
     """
     seen = _drop_instrument(description)
     design = make_design_of(seen)
-    truth = observe(seen, design, compute_deviation_by_all(seen, design))
+    truth = observe(seen, design, _compute_deviation_by_all(seen, design))
     moments, nominal, visited = _make_course(description.plan, lead)
     arrives, leaves = moments[visited], moments[visited + 1]
     at_rest = np.column_stack([arrives, leaves]).ravel()
