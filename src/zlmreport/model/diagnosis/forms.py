@@ -23,8 +23,10 @@ from zlmreport.model.effects.formula import FormulaEffect
 
 #: Widths of bumps, shares of the travel or the duration.
 _WIDTHS = (0.04, 0.08, 0.15, 0.3, 0.5)
-#: Periods within travel or duration, and phases of a saw.
-_FEWEST, _PER_PERIOD, _PHASES = 1.25, 4, 8
+#: Periods within travel or duration.
+_FEWEST, _PER_PERIOD = 1.25, 4
+#: Phases of a saw that are tried.
+PHASES = 8
 _MOST_PERIODS, _PLACES = 12.0, 24
 #: Of the places in time, the first at which a late beginning may lie: what begins with the test warms up,
 #: and that has a name.
@@ -196,6 +198,10 @@ class UnnamedForm(FormulaEffect):
             None if marked is None else marked * scale,
         )
 
+    def count_periods(self, theta: FloatArray) -> float:
+        """Return how many periods what was measured has."""
+        return float(np.ptp(self.along)) / self.list_values(theta)["L"]
+
     def list_gaps(self) -> FloatArray:
         """Return the middles between neighbours along it, rising, SI: a jump is the same between two."""
         return np.asarray((self.along[:-1] + self.along[1:]) / 2)
@@ -248,7 +254,7 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
     # Of targets at equal steps a wave that is shorter than two of them looks like one that is longer.
     most = min(_MOST_PERIODS, (count - 1) / _LEAST_IN_PERIOD)
     periods = extent / np.arange(_FEWEST, most + 1e-9, 1 / _PER_PERIOD)
-    phases = np.arange(_PHASES) / _PHASES
+    phases = np.arange(PHASES) / PHASES
     rows: Sequence[tuple[float, ...]]
     match form.searched:
         case ("c", "w"):

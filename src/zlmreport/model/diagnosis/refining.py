@@ -12,7 +12,7 @@ from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
 from zlmreport.model.diagnosis.families import make_orthonormal
-from zlmreport.model.diagnosis.forms import JUMPING, UnnamedForm
+from zlmreport.model.diagnosis.forms import JUMPING, PHASES, SAW, UnnamedForm
 from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.effects.effect import Effect
 
@@ -25,6 +25,8 @@ _BETWEEN, _ROUNDS, _CLOSER = (0.2, 0.4, 0.6, 0.8), 3, 0.22
 _EQUAL = 1e-9
 #: Share of the gaps that a grid of jumps has, but for the outermost ones, where it has all.
 _MOST_OF_GAPS = 2 / 3
+#: Gaps from one phase of a saw that is tried to the next, beyond which it is not seen where it jumps.
+_GAPS_IN_PHASE = 2
 
 
 def jump_along_grids(
@@ -67,9 +69,12 @@ def jump_along_grids(
 def hides_jumps(member: SetMember) -> bool:
     """Return whether a member jumps at more places than its grid has: beside them it explains far less."""
     effect = member.effect
-    if not isinstance(effect, UnnamedForm) or effect.form not in JUMPING:
+    if not isinstance(effect, UnnamedForm):
         return False
-    return len(np.unique(member.family.thetas)) < _MOST_OF_GAPS * len(effect.list_gaps())
+    if effect.form is SAW:
+        return len(effect.along) > _GAPS_IN_PHASE * PHASES * effect.count_periods(member.theta)
+    gaps = effect.list_gaps()
+    return effect.form in JUMPING and len(np.unique(member.family.thetas)) < _MOST_OF_GAPS * len(gaps)
 
 
 def refine_member(
