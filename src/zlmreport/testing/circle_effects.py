@@ -96,6 +96,8 @@ def is_described(effect: CircleEffect, _: Designs) -> None:
             isinstance(each, SearchedParameter),
             f"{effect.identifier}: searched must hold SearchedParameter(name, unit), not {each!r}",
         )
+        if each.title is not None:
+            expect_words(each.title, f"{effect.identifier}: title of {each.name}")
 
 
 @check
@@ -118,6 +120,8 @@ def _expect_term(term: CircleTerm, design: CircleDesign, where: str) -> None:
         np.shape(term.column) == (design.count,) and np.isfinite(term.column).all(),
         f"{where}: column must be {design.count} finite numbers",
     )
+    if term.title is not None:
+        expect_words(term.title, f"{where}: title")
     expect(term.low < term.high, f"{where}: low must be below high")
     if term.usual:
         largest = abs(term.usual) * float(np.abs(term.column).max())

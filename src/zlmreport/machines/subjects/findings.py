@@ -197,7 +197,7 @@ def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
             if u is None
             else say.write_pair(each.value, u, each.unit)
         )
-        rows.append((each.effect, each.name, value, each.unit.symbol))
+        rows.append((each.effect, say(each.title), value, each.unit.symbol))
     columns = (
         Column(say(_EFFECT)),
         Column(say(_PARAMETER)),

@@ -32,7 +32,7 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
     sizes: list[tuple[Cell, ...]] = [
         (
             each.effect,
-            each.name,
+            say(each.title),
             say.write_general(float(f"{each.unit.from_si(each.size):.2g}")),
             each.unit.symbol,
         )
