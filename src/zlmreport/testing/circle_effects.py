@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from zlmreport.errors import count_in_words
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.effects.circle_design import CircleDesign, CircleTest, find_axes_of
@@ -218,8 +219,8 @@ def _make_grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
     for each in grid:
         expect(
             len(each) == len(effect.searched) and all(map(isfinite, each)),
-            f"{effect.identifier}: a row of its grid has {len(each)} values for {len(effect.searched)} "
-            "searched parameters",
+            f"{effect.identifier}: a row of its grid has {count_in_words(len(each), 'value')} for "
+            f"{count_in_words(len(effect.searched), 'searched parameter')}",
         )
     return grid
 

@@ -62,7 +62,7 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
         blocks.append(Paragraph(say(_NOT_MEASURED.given(errors=", ".join(named)))))
     assumed = sum(each.is_assumed for each in machine.unmeasured)
     if assumed:
-        blocks.append(Paragraph(say(_ASSUMED.given(count=assumed))))
+        blocks.append(Paragraph(say(_ASSUMED.given(number=assumed))))
     return Section("errors", title, tuple(blocks))
 
 
@@ -144,7 +144,7 @@ def _draw_maps(found: VolumeMap, moving: list[int], say: Sayer) -> Figure:
         panels.append(
             Panel(heading=same(f"{AXES[still]} = {place} mm"), tiles=Tiles(across, upwards, values, darkest))
         )
-    largest = _SEEN.given(count=len(panels), largest=float(np.round(darkest, 2)))
+    largest = _SEEN.given(number=len(panels), largest=float(np.round(darkest, 2)))
     return Figure(
         "work-space", _SLICES, largest, same(AXES[first]), same(AXES[second]), "mm", "mm", tuple(panels),
         height=_MAP_HEIGHT, is_wide=True,
@@ -167,7 +167,9 @@ _EXACT = Words(
 _STATED = Words("stated")
 _NOT_MEASURED = Words("Not measured, taken as bounded: {errors}")
 _ASSUMED = Words(
-    "{count} of these bounds are assumptions of this program; the machine file (bounds) states your own."
+    "{number} of these bounds is an assumption of this program; the machine file (bounds) states your own.",
+    plural="{number} of these bounds are assumptions of this program; the machine file (bounds) states your "
+    "own.",
 )
 _ERROR, _SIZE = Words("Error"), Words("Size")
 _UNIT, _RANGE = Words("Unit"), Words("Range")
@@ -190,6 +192,9 @@ _DIAGONALS_NOTE = Words(
     "small diagonal error does not mean a small volumetric error: opposite scales cancel."
 )
 _SLICES = Words("Length of the error in slices of the work space, in µm: the darker, the larger")
-_SEEN = Words("Maps of {count} slices, values written on them; the largest value is {largest} µm.")
+_SEEN = Words(
+    "Map of {number} slice, values written on it; the largest value is {largest} µm.",
+    plural="Maps of {number} slices, values written on them; the largest value is {largest} µm.",
+)
 _SEEN_ON_A_LINE = Words("A curve over the axis; the largest value is {largest} µm.")
 _LENGTH_OF = Words("Length of the error")
