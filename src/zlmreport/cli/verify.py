@@ -9,7 +9,15 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport.cli.terminal import Colour, lay_out_table, make_visible, print_json, say as said, show_path
+from zlmreport.cli.terminal import (
+    Colour,
+    lay_out_table,
+    make_visible,
+    print_json,
+    say as said,
+    show_path,
+    wrap,
+)
 from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates
 from zlmreport.errors import NOT_MET, UNDECIDED, Place
 from zlmreport.language import Words, list_in_words, named
@@ -101,7 +109,7 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
         issued = Words(", issued {date}").given(date=identity.issued)
         made_by = Words("made by {program}").given(program=identity.generator)
         date = say(issued) if identity.issued else ""
-        yield make_visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
+        yield from wrap(make_visible(f"{identity.title} {identity.number}{date}, {say(made_by)}"))
     yield ""
     stated = Words(
         "{of} attached file as the certificate states", plural="{of} attached files as the certificate states"
