@@ -171,12 +171,11 @@ def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tupl
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
-    of_table, serial = (each.keys.machine.serial for each in (before, after))
-    if of_table and serial and of_table != serial:
-        raise InputError.at(
-            after.place_of("machine.serial"),
-            f"it is a test of machine {quoted(serial)}, and the table is of machine {quoted(of_table)}",
-        )
+    of_table, machine = (each.keys.machine for each in (before, after))
+    if machine.is_other_than(of_table):
+        serials = (quoted(each.serial or "") for each in (machine, of_table))
+        said = "it is a test of machine {}, and the table is of machine {}".format(*serials)
+        raise InputError.at(after.place_of("machine.serial"), said)
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)
