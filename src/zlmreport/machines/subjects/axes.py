@@ -8,7 +8,7 @@ import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
-from zlmreport.language import Words, same
+from zlmreport.language import Words, list_alternatives, list_in_words, same
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import Machine, find_unit_of
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
@@ -55,7 +55,7 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     blocks: list[Block] = [replace(table, dense=is_full)] if known or is_full else []
     exact = [each.name for each in machine.curves if not each.largest_uncertainty]
     if exact:
-        blocks.append(Paragraph(say(_EXACT.given(errors=", ".join(exact)))))
+        blocks.append(Paragraph(say(_EXACT.given(errors=list_in_words(exact)))))
     if is_full:
         return Section("errors", say(_ERRORS), (Paragraph(say(_NOTE)), *blocks))
     if named:
@@ -75,8 +75,8 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
     """Return the largest error of the work space, slices of it, and the body diagonals."""
     space = find_measured_space(machine)
     if space is None:
-        parted = ", ".join(axis for axis in AXES if is_parted(machine, axis))
-        said = _PARTED.given(axes=parted) if parted else _NO_SPACE
+        parted = [axis for axis in AXES if is_parted(machine, axis)]
+        said = _PARTED.given(axes=list_alternatives(parted)) if parted else _NO_SPACE
         return Section("work-space", say(_SPACE), (Paragraph(say(said)),))
     found = map_volume(machine, space)
     place = found.largest

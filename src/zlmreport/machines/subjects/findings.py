@@ -219,7 +219,7 @@ def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Secti
     sizes = [
         write_significant(MICROMETRE.from_si(each), 2) for each in (before.rms, after.rms, after.noise.rms)
     ]
-    names = ", ".join(after.names) or say(_NONE)
+    names = list_in_words(after.names or [_NONE])
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
 
