@@ -24,6 +24,7 @@ from zlmreport.plugin import (
     Positive,
     Problem,
     TextLine,
+    counted,
 )
 from zlmreport.plugin.extension import FileFormat, JobInstrument, JobKeys, KeysFile, read_keys_file
 from zlmreport.plugin.source import SourceFile
@@ -241,8 +242,8 @@ def _check_faces(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
         problems.append(
             Problem(
                 end,
-                f"the calibration ends after {len(listed)} faces; a gauge has two blocks at least, and each "
-                "block a front and a back face",
+                f"the calibration ends after {counted(len(listed), 'face')}; a gauge has two blocks at "
+                "least, and each block a front and a back face",
             )
         )
     if not problems and not any(each.face.expanded_uncertainty for each in listed):

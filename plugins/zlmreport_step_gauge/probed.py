@@ -15,6 +15,7 @@ from zlmreport.plugin import (
     InputError,
     Place,
     Problem,
+    counted,
     did_you_mean,
     read_only_floats,
 )
@@ -250,8 +251,8 @@ def number_by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: 
     if not points or len(points) % size:
         raise InputError.at(
             place,
-            f"holds {len(points)} points, and a cycle over this section has {size}: a face was missed, or "
-            "the section is another one (step_gauge.first_block, last_block)",
+            f"holds {counted(len(points), 'point')}, and a cycle over this section has {size}: a face was "
+            "missed, or the section is another one (step_gauge.first_block, last_block)",
         )
     found = []
     for cycle in range(len(points) // size):

@@ -141,6 +141,16 @@ def count_in_words(number: int, thing: str) -> str:
     return f"{number:,} {thing}{'' if number == 1 else 's'}"
 
 
+def list_names(names: Iterable[str], last: str = "and") -> str:
+    """Return names in a row: commas between them, and a word before the last; nothing where there is none.
+
+    >>> list_names(["X"]), list_names(["X", "Y"], "or"), list_names(["X", "Y", "Z"])
+    ('X', 'X or Y', 'X, Y and Z')
+    """
+    *others, final = [*names] or [""]
+    return f"{', '.join(others)} {last} {final}" if others else final
+
+
 def quoted(text: str) -> str:
     """Return what a file or a user says as a message shows it: in quotation marks, on one line, not too long.
 

@@ -181,9 +181,11 @@ def test_numbers_have_units_and_digits_as_on_paper(window: Window) -> None:
     said = window("about:blank").evaluate(
         """async ([address, numbers]) => {
             document.documentElement.lang = "de";
-            const { ALL_DIGITS, withUnit, written } = await import(address);
-            return [written(2543.175, ALL_DIGITS), ...numbers.map((each) => withUnit(...each))];
+            const { ALL_DIGITS, shortened, withUnit, written } = await import(address);
+            const few = [12.3456, 0.12345, -0.00123456, 1e-12].map((each) => written(shortened(each)));
+            return [written(2543.175, ALL_DIGITS), ...few, ...numbers.map((each) => withUnit(...each))];
         }""",
         [f"data:text/javascript;base64,{b64encode(module).decode()}", numbers],
     )
-    assert said == ["2543,175", *(with_unit(*each) for each in numbers)]
+    deviations = ["12,35", "0,123", "−0,00123", "0"]
+    assert said == ["2543,175", *deviations, *(with_unit(*each) for each in numbers)]

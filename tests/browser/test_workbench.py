@@ -192,6 +192,22 @@ def test_the_deviation_is_rescaled_where_one_looks_closer(address: str, window: 
     assert scale() == whole
 
 
+def test_however_close_one_looks_no_two_marks_of_an_axis_are_written_alike(
+    address: str, window: Window
+) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    box = find_plot(page, 0)
+    plot = page.locator(".plot").first
+    plot.focus()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + 100)
+    for _ in range(60):
+        page.mouse.wheel(0, -200)
+    marks = plot.locator("text.tick[text-anchor=middle]").all_text_contents()
+    assert len(set(marks)) == len(marks) > 2
+    assert max(map(len, marks)) > len("300.000")
+
+
 def test_what_is_seen_can_be_saved_and_read_as_a_table(address: str, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")

@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from zlmreport.cli.layout import lay_out_blocks, lay_out_sections
+from zlmreport.cli.terminal import lay_out_heading
 from zlmreport.document.blocks import (
     Align,
     Block,
@@ -59,8 +60,9 @@ def test_a_name_is_not_parted_from_its_value() -> None:
 def test_a_name_that_is_longer_than_a_line_keeps_both_ends() -> None:
     table = _table(Column("Test"), Column("RMS"), rows=((f"ballbar-{'x' * 100}-cw", "4.7"),))
     *_, line = _lines(table)
-    assert line.split()[0] == f"ballbar-{'x' * 22}…{'x' * 27}-cw"
+    assert line.split()[0] == f"ballbar-{'x' * 18}…{'x' * 23}-cw"
     assert line.endswith("4.7")
+    assert len(line) <= 60
 
 
 def test_columns_that_hold_nothing_are_left_out() -> None:
@@ -82,6 +84,49 @@ def test_sentences_stand_below_their_row_and_none_where_there_is_none() -> None:
 
 def test_formulas_are_written_plainly() -> None:
     assert _lines(Formulas("", ((Symbol("E_{i}"), Symbol("a·P"), "slope"),))) == ["  Ei  a·P  slope"]
+
+
+FALL = (
+    Column("Effect"), Column("", kind=ColumnKind.BARS), Column("RMS error", "µm", Align.RIGHT),
+    Column("Cross-validated", "µm", Align.RIGHT),
+)  # fmt: skip
+
+
+def test_headings_take_two_lines_and_bars_shrink_where_a_line_has_no_room() -> None:
+    table = _table(
+        *FALL, rows=(("without model", "100.0", "5.77", "5.76"), ("+ offset", "50.0", "3.1", "3.1"))
+    )
+    assert _lines(table) == [
+        "                                           RMS        Cross-",
+        "  Effect                              error µm  validated µm",
+        f"  without model  {'█' * 19}      5.77          5.76",
+        f"  + offset       {'█' * 9}▌                3.1           3.1",
+    ]
+
+
+def test_a_text_for_which_a_line_has_no_room_stands_below_its_row() -> None:
+    columns = (Column("Effect"), Column("Probability", "%", Align.RIGHT), Column("Evidence"))
+    table = _table(
+        *columns, rows=(("a-long-name-of-an-effect", "100", "p < 0.000001 (extrapolated from far)"),)
+    )
+    assert _lines(table) == [
+        "  Effect                    Probability %",
+        "  a-long-name-of-an-effect            100",
+        "    Evidence: p < 0.000001 (extrapolated from far)",
+    ]
+
+
+@pytest.mark.parametrize("length", [1, 30, 80])
+def test_every_line_of_a_table_fits_whatever_the_name_of_a_row(length: int) -> None:
+    table = _table(*FALL, Column("p"), rows=(("n" * length, "100.0", "5.77", "5.76", "p < 0.001"),))
+    assert max(map(len, _lines(table))) <= 60
+
+
+def test_a_heading_goes_on_further_in_where_a_line_has_no_room() -> None:
+    assert list(lay_out_heading("CAL-7", "axis X: " + " + ".join(["backlash"] * 6))) == [
+        "CAL-7  axis X: backlash + backlash + backlash + backlash +",
+        "  backlash + backlash",
+    ]
 
 
 @pytest.mark.parametrize(("encoding", "sign"), [("utf-8", "█"), ("ascii", "#")])

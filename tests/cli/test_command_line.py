@@ -26,7 +26,7 @@ def test_help_names_every_command_and_the_exit_codes(shop: Shop) -> None:
     assert run.code == 0
     for word in [*COMMANDS, "--output", "--format", "--quiet", "--json", "--fail-on-nonconformity"]:
         assert word in run.output
-    assert "3 a file could not be read or written" in run.output
+    assert "3 a file could not be read or written" in " ".join(run.output.split())
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -40,7 +40,7 @@ def test_help_fits_a_terminal(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> No
     monkeypatch.setenv("COLUMNS", "80")
     for command in [[], *([command] for command in COMMANDS)]:
         lines = shop.run(*command, "--help").output.splitlines()
-        assert max(map(len, lines)) <= 92
+        assert max(map(len, lines)) <= 80, command
 
 
 def test_without_a_word_it_says_what_one_can_do_and_every_line_of_it_is_a_command(shop: Shop) -> None:

@@ -104,6 +104,16 @@ def test_what_is_no_file_is_named_and_waited_for_by_nobody(shop: Shop) -> None:
     assert "earlier/folder.yaml: left out: it cannot be read: it is a folder" in run.messages
 
 
+def test_a_job_is_looked_at_however_its_ending_is_written(shop: Shop) -> None:
+    bare = (shop.folder / "earlier" / "bare.yaml").read_text(encoding="utf-8")
+    for name in ("a.yml", "b.YAML", "c.Yml", "d.txt"):
+        shop.write(f"endings/{name}", bare)
+    run = shop.run("model", "learn", "endings")
+    assert run.code == 2
+    told = [line.split() for line in run.messages.splitlines()[1:]]
+    assert [name for name, *_ in told] == ["endings/a.yml:", "endings/b.YAML:", "endings/c.Yml:"]
+
+
 def test_a_folder_that_teaches_nothing_writes_nothing(shop: Shop) -> None:
     shop.write("empty/laboratory.yaml", "laboratory: {name: Sample}\n")
     run = shop.run("model", "learn", "empty", "-o", "new.yaml")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from cli.commands import Run
+from environments import ROOT
 from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 
@@ -40,6 +41,16 @@ def test_the_effect_in_the_file_is_listed_with_the_file(run: Callable[..., Run])
     (line,) = [line.split() for line in done.output.splitlines() if "exemplary-wave" in line]
     assert line[0] == "exemplary-wave"
     assert line[-1] == "mine.py"
+
+
+def test_a_catalogue_of_effects_may_be_named_in_capitals(folder: Path, run: Callable[..., Run]) -> None:
+    catalogue = (ROOT / "src/zlmreport/skeletons/effect.yaml.txt").read_text(encoding="utf-8")
+    (folder / "MINE.YAML").write_text(
+        catalogue.replace("{{identifier}}", "my-wave").replace("{{words}}", "My wave"), encoding="utf-8"
+    )
+    done = run("plugins", "--plugin", "MINE.YAML")
+    assert (done.code, done.messages) == (0, "")
+    assert "my-wave" in done.output
 
 
 def test_the_environment_names_it_too(

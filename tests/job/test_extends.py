@@ -59,6 +59,12 @@ def test_value_can_be_taken_away(tmp_path: Path) -> None:
     assert job.keys.customer is None
 
 
+def test_an_extended_file_may_end_in_capitals(tmp_path: Path) -> None:
+    (tmp_path / "Shared.YML").write_text("customer: {name: B}\n", encoding="utf-8")
+    job = _loaded(tmp_path, job=f"extends: Shared.YML\n{SOUND}")
+    assert job.keys.customer.name == "B"
+
+
 def test_paths_are_relative_to_the_file_that_names_them(tmp_path: Path) -> None:
     shared = "laboratory: {name: L, logo: logo.png}\noutput: {directory: results}\n"
     text = SOUND.replace("output: {directory: out, formats: [exemplary]}", "output: {formats: [exemplary]}")

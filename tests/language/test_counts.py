@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
+from environments import ROOT
 from language.test_catalogues import OTHERS, tool
 from zlmreport.cli import verify
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
@@ -16,10 +21,11 @@ from zlmreport.verification.findings import CheckedStatement, VerificationVerdic
 
 #: Names of what is counted.
 _THINGS = (
-    "axes|calibrations|certificates|files|intervals|jobs|lines|machines|measurements|moments|pages|parts|"
-    "points|positions|readings|runs|targets|tests|turns|values|visits"
+    "axes|calibrations|certificates|cycles|faces|files|intervals|jobs|lines|machines|measurements|minutes|"
+    "moments|pages|parts|points|positions|readings|runs|slices|targets|tests|turns|values|visits"
 )
 _COUNTED = re.compile(r"\{\w+\} (?:\w+ )?(?:" + _THINGS + r")\b")
+_MESSAGE_COUNTS = re.compile(r"\{.+\} (?:" + _THINGS + r")\b")
 #: How phrases begin that are never said of one, or have another for one.
 _NEVER_OF_ONE = (
     "At least {number} positions on each line",
@@ -54,6 +60,27 @@ _NEVER_OF_ONE = (
     "{duration} {unit}, read at {count} moments",
     "{duration} {unit}, as averages over {count} intervals",
     "{count}, averages of {readings} readings",
+)
+#: How messages begin that are never said of one, have another for one, or count nothing.
+_MESSAGES_NEVER_OF_ONE = (
+    "{axis} runs beside",
+    "{axis} turns",
+    "{count} readings",
+    "{count} targets with fractions",
+    "{count} values from",
+    "{found.keys.kind} axes",
+    "{full} readings, and there are",
+    "{jobs} jobs are",
+    "{len(exclusions)} readings",
+    "{len(lines)} lines",
+    "{len(path.probings)} points",
+    "{len(plane.lines)} lines",
+    "{len(readings.deviation)} readings do not determine",
+    "{motion.runs} runs",
+    "{path.suffix} files",
+    "{runs} runs would be",
+    "{runs} runs; is the target",
+    "{suffix} files",
 )
 
 
@@ -112,6 +139,32 @@ def test_a_page_has_words_for_a_single_reading() -> None:
 def test_every_phrase_that_counts_has_words_for_one() -> None:
     counted = {each.english for each in tool().phrases() if not each.plural and _COUNTED.search(each.english)}
     assert {each for each in counted if not each.startswith(_NEVER_OF_ONE)} == set()
+
+
+def _messages(path: Path) -> Iterator[str]:
+    """Yield what stands in the f-strings of a module from each computed number on."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.JoinedStr):
+            for value, behind in pairwise(node.values):
+                if not isinstance(value, ast.FormattedValue) or not isinstance(behind, ast.Constant):
+                    continue
+                said = ast.unparse(value.value)
+                if not said.rpartition(".")[2].isupper():
+                    yield f"{{{said}}}{behind.value}"
+
+
+@pytest.mark.parametrize(
+    "folder", ["src/zlmreport", "plugins/zlmreport_plugins", "plugins/zlmreport_step_gauge"]
+)
+def test_every_message_that_counts_has_words_for_one(folder: str) -> None:
+    """A message is English alone: `count_in_words`, at the door `counted`, says one thing and two things."""
+    found = {
+        message
+        for path in (ROOT / folder).rglob("*.py")
+        for message in _messages(path)
+        if _MESSAGE_COUNTS.match(message)
+    }
+    assert {each for each in found if not each.startswith(_MESSAGES_NEVER_OF_ONE)} == set()
 
 
 @pytest.mark.parametrize("language", OTHERS)

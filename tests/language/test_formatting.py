@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from zlmreport.language import Language
 from zlmreport.language.formatting import (
     DecimalSign,
     split_spans,
@@ -12,6 +13,7 @@ from zlmreport.language.formatting import (
     write_percentage,
     write_plain,
 )
+from zlmreport.language.numbers import write_part
 
 
 def test_a_number_too_large_for_its_decimals_is_written_all_the_same() -> None:
@@ -59,3 +61,19 @@ def test_only_quantities_and_running_indices_are_italic(notation: str, italic: l
 @pytest.mark.parametrize("notation", ["A·sin(2π·P/p_{0} + φ)", "P_{s max}", "½·B·d"])
 def test_nothing_is_lost_in_spans(notation: str) -> None:
     assert "".join(span.text for span in split_spans(notation)) == write_plain(notation)
+
+
+@pytest.mark.parametrize(
+    ("value", "whole", "written"),
+    [
+        (0.25, 0.5, "0.25"),
+        (0.00011, 0.5, "0.00011"),
+        (2.5e-8, 0.5, "< 0.0001"),
+        (2.5e-8, 3e-5, "0.000000025"),
+        (0.0, 0.5, "0"),
+    ],
+)
+def test_a_part_of_an_uncertainty_far_below_a_thousandth_is_small_and_not_nothing(
+    value: float, whole: float, written: str
+) -> None:
+    assert write_part(value, whole).in_language(Language.ENGLISH) == written

@@ -195,7 +195,7 @@ def test_what_linuxcnc_holds_is_squareness_alone_and_its_sign_needs_no_trial(tmp
     path.write_text(STATED, encoding="utf-8")
     command = ["machine", "compensate", str(path), "--controller"]
     assert main([*command, "siemens-840d-cec", "--moves", "plus"]) == 0
-    assert "They hold EYX, C0Y." in capsys.readouterr().out
+    assert "They hold EYX and C0Y." in capsys.readouterr().out
     assert main([*command, "linuxcnc"]) == 0
     assert "They hold C0Y." in capsys.readouterr().out
     assert values(capsys, *command, "linuxcnc")["taken"] == ["C0Y"]

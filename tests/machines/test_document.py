@@ -88,6 +88,31 @@ def test_a_sheet_is_one_page_and_german_is_german(folder):
     assert words.index("Es fehlt") < words.index("Bild 1") < words.index("Seriennummer")
 
 
+def test_a_page_calls_parameters_in_its_language_and_a_results_file_by_their_names(folder):
+    made(folder, language="fr")
+    assert (
+        main(
+            [
+                "machine",
+                "certificate",
+                str(folder / "machine.yaml"),
+                "--format",
+                "html,json",
+                "-o",
+                str(folder),
+            ]
+        )
+        == 0
+    )
+    page = (folder / "M-7.html").read_text(encoding="utf-8")
+    assert [name in page for name in ("X de circle-xy, tour 1", "X of circle-xy, turn 1")] == [True, False]
+    names = {
+        each["name"]
+        for each in json.loads((folder / "M-7.json").read_text("utf-8"))["diagnosis"]["model"]["parameters"]
+    }
+    assert "X of circle-xy, turn 1" in names
+
+
 @pytest.mark.parametrize("name", ["csv", "xlsx", "dcc"])
 def test_a_format_of_what_a_job_measured_is_refused(name, folder, capsys):
     """A table of nothing but its header says that there is nothing."""

@@ -66,6 +66,8 @@ def test_ranges_that_do_not_overlap_are_no_lack_of_measurements(run):
     apart = MACHINE + "  - {EYX: {600: 0, 700: 1, 800: 9}, expanded_uncertainty: 0.6}\n"
     said = "No work space: no place of X lies within the ranges of all errors that were measured of it."
     assert said in run(apart, "predict")[1]
+    both = apart + "  - {EXY: {600: 0, 700: 1, 800: 9}, expanded_uncertainty: 0.6}\n"
+    assert said.replace("of X", "of X or Y") in run(both, "predict")[1]
     none = "schema: zlmreport/machine/1\nchain: XYFZ\n"
     assert "the errors of no axis were measured over a range" in run(none, "predict")[1]
 

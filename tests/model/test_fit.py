@@ -21,6 +21,7 @@ from model.axis_tests import (
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, Plausibility
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.noise import list_noise_parts
@@ -278,3 +279,15 @@ def test_pooled_scatter_of_a_clean_test_is_its_noise() -> None:
     even = Assumptions(parts=(), weights=np.ones(len(design.position)))
     fitted = fit(USUAL, design, known(design) + noise(design), even)
     assert fitted.noise.sigma == pytest.approx(SIGMA, rel=0.15)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.1])
+def test_a_test_of_one_target_is_fitted(place: float) -> None:
+    """Nothing grows along an axis that stood at one place; its readings scatter there, and may stand off."""
+    design = linear_test(1, 10, places=np.array([place]))
+    readings = 3e-6 + noise(design)
+    readings[7] += 30 * SIGMA
+    assert find_outliers(design, readings).readings.tolist() == [7]
+    found = fit(model_of("offset"), design, 3e-6 + noise(design))
+    (offset,) = found.estimates
+    assert offset.value == pytest.approx(3e-6, abs=SIGMA)

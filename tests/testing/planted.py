@@ -232,7 +232,7 @@ _SOURCES = (
         "source",
         "a bad number becomes a missing reading",
         "no_number_is_guessed",
-        "1 readings fewer without a word; a number that is none is an InputError with its place",
+        "1 reading fewer without a word; a number that is none is an InputError with its place",
         ((_NAN, "                number = math.nan\n"), (" as error:", ":")),
     ),
     Planted(

@@ -209,7 +209,7 @@ SINS = [
     (
         sources.no_number_is_guessed,
         {"read": _lenient(_as_missing)},
-        "line 1 of 'file' holds '1x', and that makes 1 readings fewer without a word",
+        "line 1 of 'file' holds '1x', and that makes 1 reading fewer without a word",
     ),
     (sources.no_number_is_guessed, {"read": _lenient(_up_to_the_letter)}, "other readings without a word"),
     (

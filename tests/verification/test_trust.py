@@ -106,7 +106,7 @@ def test_what_a_trusted_authority_issued_is_trusted(issued: bytes, tmp_path: Pat
     folder.mkdir()
     pem(folder / "other.crt", certificate_of(ec.generate_private_key(ec.SECP256R1())))
     assert not state(pdf, folder)
-    pem(folder / "authority.pem", authority)
+    pem(folder / "AUTHORITY.PEM", authority)
     assert state(pdf, folder)
 
 

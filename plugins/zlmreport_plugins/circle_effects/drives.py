@@ -20,7 +20,7 @@ from zlmreport.plugin.circle_effect import (
     Searched,
     pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences
+from zlmreport_plugins.circle_effects.shared import find_differences, title_difference
 
 
 class ServoLag(CircleEffect):
@@ -59,7 +59,15 @@ class ServoMismatch(CircleEffect):
             column = 0.5 * design.sense * design.feed * lag * np.sin(2 * design.angle)
             one, other = name.split("-")
             terms.append(
-                CircleTerm(f"T_{one}-T_{other}", MILLISECOND, column, low=-0.05, high=0.05, usual=1e-3)
+                CircleTerm(
+                    f"T_{one}-T_{other}",
+                    MILLISECOND,
+                    column,
+                    low=-0.05,
+                    high=0.05,
+                    usual=1e-3,
+                    title=_LAG.given(one=one, other=other),
+                )
             )
         return terms
 
@@ -87,6 +95,7 @@ def _write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     return pair_words(estimate.unit.from_si(value), estimate.unit.from_si(estimate.expanded_uncertainty))
 
 
+_LAG = Words("lag {one} − {other}")
 _LAGS = Words("{late} lags behind {early} by {time} ± {u} ms")
 _ALIKE = Words("{one} and {other} follow alike: their lags differ by {time} ± {u} ms")
 
@@ -127,7 +136,7 @@ class DriveCompliance(CircleEffect):
             CircleTerm(
                 name, PER_ACCELERATION,
                 design.centripetal * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
-                low=-1e-4, high=1e-4, usual=1e-5,
+                low=-1e-4, high=1e-4, usual=1e-5, title=title_difference(name),
             )
             for name, share in find_differences(design)
         ]  # fmt: skip

@@ -20,7 +20,7 @@ from zlmreport.plugin.circle_effect import (
     SearchedParameter,
     pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences
+from zlmreport_plugins.circle_effects.shared import find_differences, title_difference
 
 
 class ScaleMismatch(CircleEffect):
@@ -39,7 +39,7 @@ class ScaleMismatch(CircleEffect):
             CircleTerm(
                 name, MICROMETRE_PER_METRE,
                 design.radius * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
-                low=-1e-3, high=1e-3, usual=20e-6,
+                low=-1e-3, high=1e-3, usual=20e-6, title=title_difference(name),
             )
             for name, share in find_differences(design)
         ]  # fmt: skip
@@ -131,7 +131,7 @@ class Bow(CircleEffect):
     equation = "k·(x/R₀)^n·sinθ; k·(y/R₀)^n·cosθ; n = 2, 3, 4"
     explains = Words("a guide is bent, or the other axis' scale is, which is one thing on a circle")
     law = Law(Parity.EVEN, radius=None)
-    searched = (SearchedParameter("power", ONE),)
+    searched = (SearchedParameter("power", ONE, title=Words("power", context="exponent")),)
     is_single = True
 
     def grid(self, _: CircleDesign) -> list[Searched]:
@@ -145,11 +145,13 @@ class Bow(CircleEffect):
             CircleTerm(
                 f"guide of {AXES[axis]}", MICROMETRE,
                 (share * design.wave(axis)) ** searched[0] * design.other_wave(axis),
-                low=-3e-4, high=3e-4, usual=5e-6,
+                low=-3e-4, high=3e-4, usual=5e-6, title=_GUIDE.given(axis=AXES[axis]),
             )
             for axis in design.axes
         ]  # fmt: skip
 
+
+_GUIDE = Words("guide of {axis}")
 
 #: Periods of a cyclic error over the diameter of the circle: from few to as many as the readings resolve.
 _FEWEST_PERIODS, _STEP_OF_PERIODS, _MOST_PERIODS = 3.0, 0.4, 40.0
@@ -163,7 +165,9 @@ class CyclicError(CircleEffect):
     equation = "cosθ·(p·sin + q·cos)(2π·x/P); Y likewise"
     explains = Words("an error that repeats with the position of an axis: screw pitch, scale")
     law = Law(Parity.EVEN, radius=None)
-    searched = (SearchedParameter("pitch", MILLIMETRE, is_refined=True),)
+    searched = (
+        SearchedParameter("pitch", MILLIMETRE, is_refined=True, title=Words("period", context="parameter")),
+    )
 
     def grid(self, design: CircleDesign) -> list[Searched]:
         """Return pitches that the readings resolve: 4πR/P readings a turn at least."""

@@ -25,6 +25,7 @@ from zlmreport.plugin.circle_effect import (
 _LARGEST_LOST_MOTION = 5e-4  # m
 #: Whether both ends of the travel lose alike, or each has its own.
 _ALIKE, _EACH_END = 0.0, 1.0
+_ENDS = SearchedParameter("each end", ONE, title=Words("both ends alike: 0, each its own: 1"))
 
 
 def _make_lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> Iterator[CircleTerm]:
@@ -51,7 +52,7 @@ class CircleBacklash(CircleEffect):
     equation = "−½·B₁·d₁·cosθ − ½·B₂·d₂·sinθ, B > 0; both ends alike, or each its own"
     explains = Words("an axis loses motion where it turns")
     law = Law(Parity.ODD)
-    searched = (SearchedParameter("each end", ONE),)
+    searched = (_ENDS,)
     is_asked_for = True
 
     def grid(self, design: CircleDesign) -> list[Searched]:
@@ -102,7 +103,7 @@ class OverCompensation(CircleEffect):
     equation = "as backlash, B < 0"
     explains = Words("the control's backlash compensation takes off more than there is")
     law = Law(Parity.ODD)
-    searched = (SearchedParameter("each end", ONE),)
+    searched = (_ENDS,)
 
     def grid(self, design: CircleDesign) -> list[Searched]:
         """Return both ends alike, and each its own."""
@@ -218,9 +219,9 @@ class ReversalSpikes(CircleEffect):
     explains = Words("an axis stands still for a moment where it turns: friction")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
-        SearchedParameter("shape", ONE),
-        SearchedParameter("width", DEGREE, is_refined=True),
-        SearchedParameter("grows", ONE),
+        SearchedParameter("shape", ONE, title=Words("shape, 0 to 4")),
+        SearchedParameter("width", DEGREE, is_refined=True, title=Words("width")),
+        SearchedParameter("grows", ONE, title=Words("size constant: 0, as F²/R: 1")),
     )
 
     def grid(self, design: CircleDesign) -> list[Searched]:
@@ -255,8 +256,8 @@ class StickSlip(CircleEffect):
     explains = Words("an axis oscillates after it has turned")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
-        SearchedParameter("decay", DEGREE, is_refined=True),
-        SearchedParameter("length", DEGREE, is_refined=True),
+        SearchedParameter("decay", DEGREE, is_refined=True, title=Words("decay")),
+        SearchedParameter("length", DEGREE, is_refined=True, title=Words("length of the wave")),
     )
 
     def grid(self, _: CircleDesign) -> list[Searched]:

@@ -40,7 +40,13 @@ def _make_centres(design: CircleDesign) -> Iterator[CircleTerm]:
         test = design.tests[int(design.test[own][0])]
         for axis, wave in zip(test.axes, (np.cos, np.sin), strict=True):
             name = f"{AXES[axis]} of {test.name}, turn {turn + 1}"
-            yield CircleTerm(name, MICROMETRE, own * wave(design.angle), "centre", usual=20e-6)
+            yield CircleTerm(
+                name, MICROMETRE, own * wave(design.angle), "centre", usual=20e-6,
+                title=_OF_TURN.given(axis=AXES[axis], test=test.name, turn=turn + 1),
+            )  # fmt: skip
+
+
+_OF_TURN = Words("{axis} of {test}, turn {turn}")
 
 
 class Radius(CircleEffect):
@@ -59,10 +65,13 @@ class Radius(CircleEffect):
         return [
             CircleTerm(
                 f"R {length * 1e3:g}", MICROMETRE, (design.radius == length).astype(float), "radius",
-                usual=5e-6,
+                usual=5e-6, title=_RADIUS.given(length=length * 1e3),
             )
             for length in np.unique(design.radius).tolist()
         ]  # fmt: skip
+
+
+_RADIUS = Words("R {length}")
 
 
 class RadiusDrift(CircleEffect):
@@ -80,13 +89,19 @@ class RadiusDrift(CircleEffect):
         for index, test in enumerate(design.tests):
             own = design.test == index
             time = np.where(own, design.time - design.time[own].mean(), 0.0)
-            waves = [("radius", "radius", np.ones(design.count))]
-            waves += [(AXES[axis], "centre", design.wave(axis)) for axis in test.axes]
+            waves = [("radius", _RADIUS_OF, "radius", np.ones(design.count))]
+            waves += [
+                (AXES[axis], _AXIS_OF.given(axis=AXES[axis]), "centre", design.wave(axis))
+                for axis in test.axes
+            ]
             terms += [
                 CircleTerm(
                     f"{name} of {test.name}", MICROMETRE_PER_MINUTE, time * wave, group,
-                    low=-1e-6, high=1e-6, usual=0.5e-6 / 60,
+                    low=-1e-6, high=1e-6, usual=0.5e-6 / 60, title=title.given(test=test.name),
                 )
-                for name, group, wave in waves
+                for name, title, group, wave in waves
             ]  # fmt: skip
         return terms
+
+
+_RADIUS_OF, _AXIS_OF = Words("radius of {test}"), Words("{axis} of {test}")

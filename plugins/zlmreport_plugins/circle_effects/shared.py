@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from zlmreport.plugin import FloatArray
+from zlmreport.plugin import MINUS_SIGN, FloatArray, Words, same_in_all_languages
 from zlmreport.plugin.circle_effect import AXES, CircleDesign
 
 
@@ -23,3 +23,8 @@ def find_differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
         share[list(axes[: place + 1])] = (count - place - 1) / count
         share[list(axes[place + 1 :])] = -(place + 1) / count
         yield f"{AXES[one]}-{AXES[other]}", share
+
+
+def title_difference(name: str) -> Words:
+    """Return how pages write the name of a difference between axes."""
+    return same_in_all_languages(name.replace("-", f" {MINUS_SIGN} "))

@@ -30,7 +30,7 @@ class Vibration(CircleEffect):
     equation = "A·sin(2πf·t + ψ), each turn its own"
     explains = Words("an oscillation of a fixed frequency")
     law = Law(Parity.IN_TIME, feed=None, radius=None)
-    searched = (SearchedParameter("frequency", HERTZ, is_refined=True),)
+    searched = (SearchedParameter("frequency", HERTZ, is_refined=True, title=Words("frequency")),)
 
     def grid(self, design: CircleDesign) -> list[Searched]:
         """Return frequencies that the readings of every turn resolve."""
@@ -47,8 +47,11 @@ class Vibration(CircleEffect):
         return [
             CircleTerm(
                 f"{name} of turn {turn + 1}", MICROMETRE, (design.turn == turn) * wave(phase), "all",
-                low=-1e-4, high=1e-4, usual=2e-6,
+                low=-1e-4, high=1e-4, usual=2e-6, title=_OF_TURN.given(wave=name, turn=turn + 1),
             )
             for turn in design.turns.tolist()
             for name, wave in (("sin", np.sin), ("cos", np.cos))
         ]  # fmt: skip
+
+
+_OF_TURN = Words("{wave} of turn {turn}")

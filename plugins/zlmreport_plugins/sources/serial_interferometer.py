@@ -7,7 +7,17 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from zlmreport.plugin import AccessError, Axis, InputError, MeasurementSet, Options, Place, Words, hookimpl
+from zlmreport.plugin import (
+    AccessError,
+    Axis,
+    InputError,
+    MeasurementSet,
+    Options,
+    Place,
+    Words,
+    counted,
+    hookimpl,
+)
 from zlmreport.plugin.instrument import (
     BeamHeld,
     CaptureEnded,
@@ -256,7 +266,7 @@ def _say_unfinished(history: JournalHistory | None) -> str:
         return f"holds nothing yet; '{_COMMAND}' begins the capture"
     progress = history.progress
     return (
-        f"the capture is not finished: {progress.taken} of {len(progress.visits)} visits; "
+        f"the capture is not finished: {progress.taken} of {counted(len(progress.visits), 'visit')}; "
         f"'{_COMMAND} --resume' goes on, '{_COMMAND} --end' closes it without the rest"
     )
 

@@ -13,6 +13,7 @@ from zlmreport.plugin import (
     MILLIMETRE,
     InputError,
     Place,
+    counted,
     did_you_mean,
     fixed_number,
     general_number,
@@ -52,7 +53,7 @@ class _Told:
 
     def note_begin(self, done: int, points: int) -> None:
         self._points = points
-        line = f"{points} points, {done} of them probed already" if done else f"{points} points"
+        line = f"{counted(points, 'point')}{f', {done} of them probed already' if done else ''}"
         self._tell(Happening({"event": "begun", "done": done, "points": points}, line))
 
     def note_probed(self, probing: Probing, centre: Point, done: int) -> None:

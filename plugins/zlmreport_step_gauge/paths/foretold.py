@@ -11,7 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Language, Words, fixed_number, general_number
+from zlmreport.plugin import (
+    MILLIMETRE,
+    FloatArray,
+    InputError,
+    Language,
+    Words,
+    counted,
+    fixed_number,
+    general_number,
+)
 from zlmreport.plugin.extension import ExtensionPlan, Job
 from zlmreport.plugin.page import (
     GRAPH_TEXT_SIZE,
@@ -56,9 +65,10 @@ def foretell(job: Job, keys: StepGaugeKeys) -> ExtensionPlan:
     planned = plan_path_of_job(job, keys)
     path = planned.path
     faces = {probing.face for probing in path.probings}
-    cycles = "1 cycle" if planned.settings.cycles == 1 else f"{planned.settings.cycles} cycles"
+    sizes = ((len(faces), "face"), (planned.settings.cycles, "cycle"), (len(path.probings), "point"))
+    size = ", ".join(counted(number, thing) for number, thing in sizes)
     return ExtensionPlan(
-        heading=(path.number, f"{path.gauge}: {len(faces)} faces, {cycles}, {len(path.probings)} points"),
+        heading=(path.number, f"{path.gauge}: {size}"),
         parts=(
             ("gauge", f"faces {min(faces)} to {max(faces)}, mm", tuple(_say_of_gauge(planned))),
             (

@@ -1,7 +1,7 @@
 // Several tests of one axis: their means over the readings, what differs, parameters over the days, models.
 
 import { fill, h, named, s, symbol } from "./dom.js";
-import { ALL_DIGITS, withUnit } from "./number.js";
+import { ALL_DIGITS, shortened, withUnit } from "./number.js";
 import { Plot } from "./plot.js";
 import { extent, scale } from "./scale.js";
 
@@ -77,7 +77,7 @@ export class Comparison {
   #say(index) {
     const point = index === null ? null : this.points[index];
     fill(this.place, point
-      ? named(titled(this.numbered[Number(point.name) - 1]), named(`${withUnit(this.number(point.x, ALL_DIGITS), this.graphs.axes[0].unit)} ${ARROWS.get(point.direction)}`, withUnit(this.number(Math.round(100 * point.y) / 100), this.graphs.unit)))
+      ? named(titled(this.numbered[Number(point.name) - 1]), named(`${withUnit(this.number(point.x, ALL_DIGITS), this.graphs.axes[0].unit)} ${ARROWS.get(point.direction)}`, withUnit(this.number(shortened(point.y)), this.graphs.unit)))
       : this.texts.differenceIs);
   }
 

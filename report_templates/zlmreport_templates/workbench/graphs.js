@@ -1,9 +1,10 @@
 // The two graphs and what is said of the reading that is pointed at: one reading is marked in both.
 
 import { fill, h, named, said } from "./dom.js";
-import { ALL_DIGITS, withUnit } from "./number.js";
+import { ALL_DIGITS, shortened, withUnit } from "./number.js";
 import { Plot, passes } from "./plot.js";
 import { saveCsv, savePng, saveSvg } from "./saving.js";
+import { extent } from "./scale.js";
 
 const ARROWS = ["↓", "↑"];
 const GOLDEN = 0.618034;
@@ -203,8 +204,7 @@ export class Graphs {
   #shades() {
     if (this.shade === "direction") return null;
     const { values } = this.axes.get(this.shade);
-    const known = values.filter((value) => value !== null);
-    const [low, high] = [Math.min(...known), Math.max(...known)];
+    const [low, high] = extent(values);
     return values.map((value) => `shade-${value === null ? 0 : Math.min(SHADES - 1, Math.floor((SHADES * (value - low)) / (high - low || 1)))}`);
   }
 
@@ -299,7 +299,7 @@ export class Graphs {
     const { texts, number, graphs } = this;
     const { readings } = graphs;
     const value = (axis, digits) => withUnit(number(axis.values[index], digits), axis.unit);
-    const deviation = (amount) => withUnit(number(Math.round(100 * amount) / 100), graphs.unit);
+    const deviation = (amount) => withUnit(number(shortened(amount)), graphs.unit);
     const [position, ...others] = graphs.axes.filter((axis) => axis.key !== "direction" && axis.values[index] !== null);
     const pass = this.passes.find(({ run, direction }) => run === readings.run[index] && direction === readings.direction[index]);
     return [

@@ -13,6 +13,11 @@ export function written(value, digits = DIGITS) {
   return format.format(Math.abs(value) < SMALLEST ? 0 : value).replace("-", "−");
 }
 
+/** Return a deviation in few digits: two decimals, and of one below 1 three digits. */
+export function shortened(value) {
+  return Math.abs(value) < 1 ? Number(value.toPrecision(3)) : Math.round(100 * value) / 100;
+}
+
 /** Return a number with so many decimals. */
 export function fixed(value, decimals) {
   const format = new Intl.NumberFormat(document.documentElement.lang, { minimumFractionDigits: decimals, maximumFractionDigits: decimals, useGrouping: false });

@@ -2,6 +2,7 @@
 // the look stands in the style sheet. What is done with mouse, finger and keys stands in pointing.js.
 
 import { fill, h, s } from "./dom.js";
+import { ALL_DIGITS } from "./number.js";
 import { pointing } from "./pointing.js";
 import { extent, scale, ticks } from "./scale.js";
 
@@ -142,12 +143,12 @@ export class Plot {
     const bottom = inside.y + inside.height;
     const across = data.labels
       ? [...data.labels].map(([value, label]) => [value, label])
-      : ticks(x.low, x.high, inside.width / WIDTH_OF_TICK).map((value) => [value, this.number(value)]);
+      : ticks(x.low, x.high, inside.width / WIDTH_OF_TICK).map((value) => [value, this.number(value, ALL_DIGITS)]);
     return s("g", { class: "axes" },
       s("rect", { class: "frame", ...inside }),
       ticks(y.low, y.high, Math.max(FEWEST_TICKS, inside.height / HEIGHT_OF_TICK)).map((value) => [
         s("line", { class: value === 0 ? "zero" : "grid", x1: inside.x, x2: inside.x + inside.width, y1: y(value), y2: y(value) }),
-        s("text", { class: "tick", x: inside.x - 7, y: y(value) + 4, "text-anchor": "end" }, this.number(value)),
+        s("text", { class: "tick", x: inside.x - 7, y: y(value) + 4, "text-anchor": "end" }, this.number(value, ALL_DIGITS)),
       ]),
       across.map(([value, label]) => [
         s("line", { class: "grid", x1: x(value), x2: x(value), y1: inside.y, y2: bottom }),

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.cli.terminal import Colour, make_visible, write_duration
+from zlmreport.cli.terminal import Colour, lay_out_heading, make_visible, write_duration
 from zlmreport.errors import AccessError, InputError, Place, count_in_words
 from zlmreport.job.job import Job
 from zlmreport.live.capture.events import (
@@ -179,7 +179,8 @@ class PlainLines:
         visits = count_in_words(len(self._assignment.visits), "visit")
         method = self._assignment.plan.method
         rest = f"about {write_duration(self._assignment.estimate_remaining_time(0))}"
-        self._write_line(f"{Colour.BOLD.set(number)}  axis {axis}, {method}, {visits}, {rest}")
+        for line in lay_out_heading(number, f"axis {axis}, {method}, {visits}, {rest}"):
+            self._write_line(line)
 
     def begin(self, follower: Follower) -> None:
         """Say what is to be done."""

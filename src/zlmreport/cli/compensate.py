@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.terminal import Colour, print_json, say, show_path
+from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.subjects.compensation import (
     Uncertainties,
     forecast,
@@ -76,18 +76,19 @@ def run(options: Namespace) -> int:
         print_json(_collect_values(job, made, uncertainties, written))
         return 0
     section = forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
-    print(_write_heading(job, made), *lay_out_sections([section]), "", sep="\n")
+    print(*_lay_out_heading(job, made), *lay_out_sections([section]), "", sep="\n")
     for path in written:
         print(show_path(path))
     if not options.output:
         print("the table and its sheet: state a folder, --output DIR")
-    print("next: load the table, measure again, then zlmreport compensate --confirm BEFORE.yaml AFTER.yaml")
+    following = "load the table, measure again, then zlmreport compensate --confirm BEFORE.yaml AFTER.yaml"
+    print(*wrap(f"next: {following}", ""), sep="\n")
     return 0
 
 
-def _write_heading(job: Job, made: Made) -> str:
+def _lay_out_heading(job: Job, made: Made) -> Iterator[str]:
     control = f"{say(made.controller.title)}, {made.controller.confidence}"
-    return f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
+    return lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}: {control}")
 
 
 def _make_tables(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:
@@ -170,12 +171,11 @@ def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tupl
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
-    of_table, serial = (each.keys.machine.serial for each in (before, after))
-    if of_table and serial and of_table != serial:
-        raise InputError.at(
-            after.place_of("machine.serial"),
-            f"it is a test of machine {quoted(serial)}, and the table is of machine {quoted(of_table)}",
-        )
+    of_table, machine = (each.keys.machine for each in (before, after))
+    if machine.is_other_than(of_table):
+        serials = (quoted(each.serial or "") for each in (machine, of_table))
+        said = "it is a test of machine {}, and the table is of machine {}".format(*serials)
+        raise InputError.at(after.place_of("machine.serial"), said)
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)
@@ -205,14 +205,14 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     else:
         writer = Writer.of(measurements, Language.ENGLISH)
         print(
-            _write_heading(before, made),
+            *_lay_out_heading(before, made),
             *lay_out_sections([lay_out_confirmation(found, made, shown, writer)]),
             "",
             sep="\n",
         )
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
         how = f"zlmreport {show_path(both)}" if both else "--output DIR writes the job"
-        print(f"the certificate of both tests, as found and as left: {how}")
+        print(*wrap(f"the certificate of both tests, as found and as left: {how}", ""), sep="\n")
     return 0 if found.verdict is ConfirmationVerdict.HELD else NOT_MET
 
 

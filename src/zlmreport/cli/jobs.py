@@ -14,6 +14,7 @@ from zlmreport.cli.terminal import (
     Colour,
     collect_problem,
     lay_out_beside,
+    lay_out_heading,
     lay_out_table,
     measure_line,
     measure_width,
@@ -244,7 +245,7 @@ def report(result: JobResult) -> Iterator[str]:
     if job is None or not result.evaluations:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
-    yield f"{Colour.BOLD.set(job.keys.certificate.number)}  {_name_subject(job)}"
+    yield from lay_out_heading(job.keys.certificate.number, _name_subject(job))
     for path in result.files:
         yield f"  {show_path(path)}"
     for evaluation in result.evaluations:

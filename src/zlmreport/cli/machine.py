@@ -8,7 +8,7 @@ from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.machine_compensate import compensate, find_exit_code
-from zlmreport.cli.terminal import Colour, print_json, show_path
+from zlmreport.cli.terminal import lay_out_heading, print_json, show_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document, write
@@ -47,7 +47,8 @@ def run(options: Namespace) -> int:
 
 
 def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
-    yield f"{Colour.BOLD.set(machine.number)}  chain {machine.machine.chain.letters} (workpiece to tool)"
+    chain = machine.machine.chain.letters
+    yield from lay_out_heading(machine.number, f"chain {chain} (workpiece to tool)")
     yield from lay_out_sections(each for each in sections if each)
     yield from more
 

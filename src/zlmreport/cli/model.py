@@ -36,7 +36,7 @@ from zlmreport.job.edit import Edit, WrittenEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import LARGEST, is_named_as_job
+from zlmreport.job.parse import LARGEST, is_named_as_yaml
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.build_report import build_values
@@ -246,7 +246,7 @@ def learn(options: Namespace) -> int:
     registry, folder = find_plugins(files=options.plugin), options.job
     if not folder.is_dir():
         raise AccessError.at(_LEARN, f"{show_path(folder)} is no folder of jobs")
-    lessons, told = _collect_lessons(sorted(filter(is_named_as_job, folder.rglob("*"))), registry)
+    lessons, told = _collect_lessons(sorted(filter(is_named_as_yaml, folder.rglob("*"))), registry)
     if not lessons:
         reasons = "".join(f"\n  {name}: {why}" for name, why in told)
         raise InputError.at(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from zlmreport.cli.model_lines import find_next_step, measure_lines
-from zlmreport.cli.terminal import Colour, wrap
+from zlmreport.cli.terminal import lay_out_heading, wrap
 from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
@@ -23,7 +23,7 @@ _LEFT = Words("Beside that something is left without a name: {shape}, {where}; r
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
-    yield f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}"
+    yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap(_write_staircase(built), "")
     yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
     if edit is None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from zlmreport.cli.layout import lay_out_sections, write_in_a_line
 from zlmreport.cli.model_values import ModelChange, PredictedPoints
-from zlmreport.cli.terminal import Colour, lay_out_table, show_path, wrap
+from zlmreport.cli.terminal import Colour, lay_out_heading, lay_out_table, show_path, wrap
 from zlmreport.document.blocks import Section, Table
 from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, write_effect_argument
 from zlmreport.document.subjects.fit import (
@@ -36,7 +36,7 @@ _ENGLISH = Language.ENGLISH
 
 def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     """Yield the lines on a fitted model."""
-    yield _write_heading(job, fitted.fit)
+    yield from _lay_out_heading(job, fitted.fit)
     yield from lay_out_sections(map(_drop_unused_columns, fit_sections(fitted, _ENGLISH)))
 
 
@@ -69,7 +69,7 @@ def tell_diagnosis(
     diagnosis: Diagnosis, study: Study, path: str, experiment: Experiment | None, titles: Mapping[str, Words]
 ) -> Iterator[str]:
     """Yield the lines on a diagnosis; `path` is the job as the user types it."""
-    yield _write_heading(study.job, diagnosis.fit)
+    yield from _lay_out_heading(study.job, diagnosis.fit)
     sections = lay_out_diagnosis(diagnosis, _ENGLISH, titles, experiment)
     following = f"next: {find_next_step(diagnosis, path, experiment)}"
     for each in sections:
@@ -136,7 +136,7 @@ def tell_history(
     history: Sequence[Fitted], forecasts: Sequence[StandardForecast], job: Job, writer: Writer
 ) -> Iterator[str]:
     """Yield how the error fell, effect by effect."""
-    yield _write_heading(job, history[-1].fit)
+    yield from _lay_out_heading(job, history[-1].fit)
     yield from _draw_fall(history, forecasts, writer)
 
 
@@ -176,17 +176,17 @@ def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[st
     yield f"next: zlmreport model diagnose {shown}"
 
 
-def _write_heading(job: Job, fit: Fit) -> str:
-    """Return the first line: which job, which axis, which model."""
+def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
+    """Yield the first lines: which job, which axis, which model, and what it is held together with."""
     model = " + ".join(fit.model.identifiers) or "no effects yet"
-    heading = f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
+    yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}: {model}")
     others = [each.files[0].name for each in job.sessions]
     runs = [fit.design.cycle[fit.design.session == number] for number in range(1, len(others) + 1)]
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
-    more = [f"held together with {', '.join(held)}"] if held else []
+    if held:
+        yield from wrap(f"held together with {', '.join(held)}")
     if job.priors:
-        more.append(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
-    return "\n  ".join([heading, *more])
+        yield from wrap(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
 
 
 def _is_outstanding(identifier: str, fit: Fit) -> bool:

@@ -19,7 +19,7 @@ from zlmreport.cli.part_programs import (
     write_program_of,
 )
 from zlmreport.cli.plan_circle import plan_circle
-from zlmreport.cli.terminal import Colour, print_json, say, show_path, wrap
+from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
 from zlmreport.document.subjects.plan_values import plan_values
@@ -96,7 +96,7 @@ def run(options: Namespace) -> int:
         print_json(plan_values(job, planned, written))
         return 0
     number, size = job.keys.certificate.number, say(say_size_of_plan(planned))
-    print(f"{Colour.BOLD.set(number)}  axis {job.axis.name}: {size}")
+    print(*lay_out_heading(number, f"axis {job.axis.name}: {size}"), sep="\n")
     print(*lay_out_sections(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
     tell_written(options, programs, written)
@@ -209,10 +209,10 @@ def _show_plan(
 
 def _tell_extensions(plan: ExtensionPlan) -> Iterator[str]:
     name, rest = plan.heading
-    yield f"{Colour.BOLD.set(name)}  {rest}"
+    yield from lay_out_heading(name, rest)
     for word, beside, sentences in plan.parts:
         yield ""
-        yield f"{Colour.BOLD.set(word)}  {beside}"
+        yield from lay_out_heading(word, beside)
         for sentence in sentences:
             yield from wrap(sentence)
 

@@ -8,7 +8,7 @@ from functools import partial
 
 from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.part_programs import RUN, choose_programs, demand_file, make_program_files, tell_written
-from zlmreport.cli.terminal import Colour, print_json, say, show_path
+from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path
 from zlmreport.document.subjects.circle_plan import (
     collect_circle_plan,
     lay_out_circle_plan,
@@ -51,7 +51,8 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     if options.json:
         print_json(collect_circle_plan(job, paths, written))
         return 0
-    print(f"{Colour.BOLD.set(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
+    size = say(say_size_of_circle(paths[0]))
+    print(*lay_out_heading(number, f"plane {job.axis.name}: {size}"), sep="\n")
     print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
     print()
     tell_written(options, programs, written)

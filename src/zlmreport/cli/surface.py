@@ -77,7 +77,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     unit = plane.axis.position_unit
     where = ", ".join(write_stated_number(unit.from_si(line.across)) for line in plane.lines)
     yield Colour.BOLD.set(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
-    yield f"  {len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}"
+    yield from wrap(f"{len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}")
     yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
     for line in plane.lines:
         design = line.observed.design

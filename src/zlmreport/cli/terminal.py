@@ -64,6 +64,13 @@ def fill(text: str, indent: str = "  ") -> list[str]:
     )
 
 
+def lay_out_heading(name: str, rest: str) -> Iterator[str]:
+    """Yield a name in bold and what is said of it, in lines that fit."""
+    first, *further = wrap(f"{name}  {rest}", "")
+    yield Colour.BOLD.set(name) + first.removeprefix(name) if first.startswith(name) else first
+    yield from further
+
+
 def measure_line() -> int:
     """Return how many letters a line may have: those of the terminal; of a pipe, always as many."""
     return max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)

@@ -9,10 +9,18 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport.cli.terminal import Colour, lay_out_table, make_visible, print_json, say as said, show_path
+from zlmreport.cli.terminal import (
+    Colour,
+    lay_out_table,
+    make_visible,
+    print_json,
+    say as said,
+    show_path,
+    wrap,
+)
 from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates
 from zlmreport.errors import NOT_MET, UNDECIDED, Place
-from zlmreport.language import Words, named
+from zlmreport.language import Words, list_in_words, named
 from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.findings import (
@@ -101,7 +109,7 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
         issued = Words(", issued {date}").given(date=identity.issued)
         made_by = Words("made by {program}").given(program=identity.generator)
         date = say(issued) if identity.issued else ""
-        yield make_visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
+        yield from wrap(make_visible(f"{identity.title} {identity.number}{date}, {say(made_by)}"))
     yield ""
     stated = Words(
         "{of} attached file as the certificate states", plural="{of} attached files as the certificate states"
@@ -138,7 +146,7 @@ def _tell_verdict(found: Verification, say: _Say) -> str:
             unknown = Words("consistent, origin unknown")
             return say(named(Colour.GREEN.set(outcome), unknown))
         case VerificationOutcome.UNDECIDED:
-            names = say(Words(" and ")).join(say(_PARTS[each]) for each in found.undecided)
+            names = list_in_words([_PARTS[each] for each in found.undecided])
             open_parts = Words("{names} could not be compared whole")
             return say(named(Colour.YELLOW.set(outcome), open_parts.given(names=names)))
     differences = Words("{number} difference", plural="{number} differences").given(number=count)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 from zlmreport.cli.terminal import show_path
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
-from zlmreport.job.parse import SUFFIXES, is_named_as_job
+from zlmreport.job.parse import SUFFIXES, is_named_as_yaml
 from zlmreport.looking import look_at, write_job_of
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -70,7 +70,7 @@ def _open_workbench(options: Namespace) -> Served:
 
 def _find_job_of(path: Path, registry: Registry) -> Path:
     """Return the job of what is opened: for a file of readings that beside it, written if there is none."""
-    if is_named_as_job(path) or not path.is_file():
+    if is_named_as_yaml(path) or not path.is_file():
         return path
     job = path.with_suffix(SUFFIXES[0])
     if not job.exists():

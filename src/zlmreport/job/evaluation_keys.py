@@ -5,6 +5,7 @@ from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from zlmreport.errors import list_names
 from zlmreport.job.circle_keys import CirclePlanKeys
 from zlmreport.job.types import (
     Finite,
@@ -223,7 +224,7 @@ def find_uncertainty_contradictions(
     for index, each in enumerate(keys.contributions):
         stated = [size for size in _SIZES if getattr(each, size) is not None]
         if len(stated) != 1:
-            found = " and ".join(stated) or "none"
+            found = list_names(stated) or "none"
             yield ("contributions", index), f"state one of {', '.join(_SIZES)} (found: {found})"
         elif stated == ["range"] and each.distribution == "normal":
             yield (

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.files import demand
-from zlmreport.job.parse import LARGEST, parse
+from zlmreport.job.parse import LARGEST, SUFFIXES, parse
 from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of, merge
 from zlmreport.job.types import resolve_path_named
 from zlmreport.measurement.provenance import SourceFile
@@ -110,7 +110,7 @@ def _write_scalar(value: Scalar) -> str:
 
 
 #: How the name of a file ends that holds shared keys.
-_ENDINGS = (".yaml", ".yml", ".json")
+_ENDINGS = (*SUFFIXES, ".json")
 #: Files that extend one another in a row.
 LONGEST_CHAIN = 16
 
@@ -198,7 +198,7 @@ def _list_extended(keys: Keys) -> tuple[Scalar, ...]:
 
 def _find_base(name: Scalar, naming_file: Path) -> Path:
     """Return the path of a file that another extends: no other than YAML is read, and shown in messages."""
-    if not name.text.lower().endswith(_ENDINGS):
+    if not name.text.casefold().endswith(_ENDINGS):
         raise InputError.at(
             name.place,
             f"extends: {quoted(name.text)} is no YAML file; its name ends in {', '.join(_ENDINGS)}",

@@ -277,11 +277,11 @@ def _read_sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]
             raise InputError.at(place, "this test is in the model already; name each further test once")
         named.append(stated.resolve())
         other = _check_job(compose(stated), stated.parent, registry)
-        serial = other.keys.machine.serial
         same = _list_measured(other.axis) == _list_measured(job.axis)
-        if not same or len({serial, keys.machine.serial} - {None, ""}) > 1:
+        if not same or other.keys.machine.is_other_than(keys.machine):
             name, kind, what = _list_measured(other.axis)
-            of = f"axis {name} ({kind}) of {serial or 'a machine without a serial number'}, on {what}"
+            serial = other.keys.machine.serial or "a machine without a serial number"
+            of = f"axis {name} ({kind}) of {serial}, on {what}"
             said = "sessions of a model are tests of one error of one axis of one machine"
             raise InputError.at(place, f"it is a test of {of}; {said}")
         found.append(other)

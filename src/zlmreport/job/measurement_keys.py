@@ -1,6 +1,6 @@
 """Keys of a job on the measurement: machine, axis, source, instrument, environment, corrections."""
 
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 
@@ -120,6 +120,10 @@ class MachineUnderTest(JobPart):
     def type(self) -> str:
         """Who built it, and what: as far as it is stated."""
         return " ".join(filter(None, (self.manufacturer, self.model)))
+
+    def is_other_than(self, machine: Self) -> bool:
+        """Whether serial numbers are stated of both, and tell them apart."""
+        return bool(self.serial and machine.serial and self.serial != machine.serial)
 
 
 class AxisKeys(JobPart):

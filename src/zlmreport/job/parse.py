@@ -22,7 +22,7 @@ from yaml import MarkedYAMLError
 from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar
 
-#: How the name of a job file ends.
+#: How the name of a YAML file ends, in small letters.
 SUFFIXES = (".yaml", ".yml")
 #: Of a job file, in bytes.
 LARGEST = 1024 * 1024
@@ -59,10 +59,10 @@ _ADVICE = (
 )
 
 
-def is_named_as_job(path: Path) -> bool:
-    """Whether a file is called as job files are: in small letters or capitals.
+def is_named_as_yaml(path: Path) -> bool:
+    """Whether a file is called as jobs and other files of keys are: in small letters or capitals.
 
-    >>> is_named_as_job(Path("x-axis.YAML")), is_named_as_job(Path("x-axis.csv"))
+    >>> is_named_as_yaml(Path("x-axis.YAML")), is_named_as_yaml(Path("x-axis.csv"))
     (True, False)
     """
     return path.suffix.casefold() in SUFFIXES

@@ -6,7 +6,7 @@ other languages stands in a catalogue of translations, a file for each language 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
@@ -106,6 +106,22 @@ class PhraseRow:
 def same(phrase: str | Said) -> Words:
     """Return a phrase that is alike in every language, or is written by itself: a name, a text."""
     return Words("{phrase}", values={"phrase": phrase})
+
+
+_AND, _OR = Words("{one} and {other}"), Words("{one} or {other}")
+
+
+def list_in_words(names: Sequence[str | Said], last: Words = _AND) -> Words:
+    """Return names in a row: commas between them, and a word before the last."""
+    *others, final = names
+    if not others:
+        return same(final)
+    return last.given(one=PhraseRow(tuple(map(same, others))), other=final)
+
+
+def list_alternatives(names: Sequence[str | Said]) -> Words:
+    """Return names of which one is meant: the last after an "or"."""
+    return list_in_words(names, _OR)
 
 
 #: In French a space stands before colon and semicolon.

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
+from math import floor, isfinite, log10
 
 from zlmreport.language import Language, Words, same
 from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number, write_stated_number
 
 _SIGNIFICANT_DIGITS = 3
-_NUMBER = Words("{number}")
+_NUMBER, _BELOW = Words("{number}"), Words("< {least}")
+#: Of an uncertainty: a smaller part of it says no more than that it is small.
+_LEAST_PART = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +41,17 @@ def write_significant(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
     # The exponent of the rounded value: 9.9999 is 10.0 with three digits.
     exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])
     return number_words(value, max(0, digits - 1 - exponent))
+
+
+def write_part(value: float, whole: float) -> Words:
+    """Return a part of an uncertainty with two significant digits.
+
+    One below a thousandth of the whole says so: it is small, and not nothing.
+    """
+    if value == 0:
+        return same("0")
+    least = 10.0 ** floor(log10(_LEAST_PART * whole)) if whole else 0.0
+    return _BELOW.given(least=write_significant(least, 1)) if value < least else write_pair(value, value)[1]
 
 
 def write_pair(value: float, expanded_uncertainty: float) -> tuple[Words, Words]:

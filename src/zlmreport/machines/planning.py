@@ -25,7 +25,7 @@ from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.circle import PLANES
 from zlmreport.measurement.units import Unit
-from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.model.effects.circle_effect import CircleEffect, title_parameter
 
 SCHEMA = "zlmreport/machine-plan/1"
 #: Lengths of bars that are usual, m.
@@ -58,6 +58,7 @@ class VisibleSize:
 
     effect: str
     name: str
+    title: Words  #: What pages call it.
     size: float  #: SI.
     unit: Unit
     share: float  #: Of the length of its curve that the model leaves.
@@ -199,7 +200,9 @@ def find_visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) ->
             left, full = float(whitened.multiply(own, own)[0, 0]), float(np.sum(own**2))
             if left > _LEAST_SHARE * full:
                 size = study.noise.sigma * math.sqrt(_FOUND / left)
-                yield VisibleSize(effect.identifier, term.name, size, term.unit, left / full)
+                yield VisibleSize(
+                    effect.identifier, term.name, title_parameter(term), size, term.unit, left / full
+                )
 
 
 def plan_values(found: NextRun, language: Language = Language.ENGLISH) -> dict[str, Any]:

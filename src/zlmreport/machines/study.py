@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from zlmreport.language import Words
 from zlmreport.machines.course import CircularTest, ToolCourse
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.forms import CircleForm
@@ -15,7 +16,13 @@ from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, Whitened, find_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
-from zlmreport.model.effects.circle_effect import CircleEffect, CircleTerm, Estimate, SearchedParameter
+from zlmreport.model.effects.circle_effect import (
+    CircleEffect,
+    CircleTerm,
+    Estimate,
+    SearchedParameter,
+    title_parameter,
+)
 
 #: Standard uncertainty of the angle at which a turn begins, rad: a ballbar reckons its angle from time.
 _START = float(np.radians(1.0))
@@ -45,6 +52,7 @@ class EstimatedTerm:
 
     effect: str
     name: str
+    title: Words  #: What pages call it.
     unit: Unit
     value: float
     expanded_uncertainty: float | None  #: k = 2; None where only values of a grid were tried.
@@ -189,12 +197,29 @@ class CircleStudy:
         for each in self.effects:
             name, terms = each.effect.identifier, each.form.terms
             for term in terms:
-                found.append(EstimatedTerm(name, term.name, term.unit, float(values[place]), u[place], term))
+                found.append(
+                    EstimatedTerm(
+                        name,
+                        term.name,
+                        title_parameter(term),
+                        term.unit,
+                        float(values[place]),
+                        u[place],
+                        term,
+                    )
+                )
                 place += 1
             refined = {parameter.name: u[place + step] for step, (parameter, _) in enumerate(each.tangents)}
             place += len(each.tangents)
             found += [
-                EstimatedTerm(name, parameter.name, parameter.unit, value, refined.get(parameter.name))
+                EstimatedTerm(
+                    name,
+                    parameter.name,
+                    title_parameter(parameter),
+                    parameter.unit,
+                    value,
+                    refined.get(parameter.name),
+                )
                 for parameter, value in zip(each.effect.searched, each.form.searched, strict=True)
             ]
         return tuple(found)

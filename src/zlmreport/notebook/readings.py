@@ -19,7 +19,7 @@ from zlmreport.job.contradictions import validate
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.parse import is_named_as_job, parse
+from zlmreport.job.parse import is_named_as_yaml, parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
 from zlmreport.measurement.approach import Approach
@@ -235,7 +235,7 @@ def read(
             Place("read"), f"a {type(source).__name__} is no path of a file, and no frame with named columns"
         )
     path = Path(source)
-    if is_named_as_job(path) and not plugin:
+    if is_named_as_yaml(path) and not plugin:
         from zlmreport import pipeline  # noqa: PLC0415 - it brings all that a certificate needs
 
         if keys:

@@ -17,6 +17,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from zlmreport.errors import list_names
+
 #: What is noted: who is at work, who was last, what is wrong with the process, each as a text of this room.
 _ROOM = 500
 _CALLED, _LAST, _WRONG = range(3)
@@ -160,7 +162,7 @@ def _find_lost_streams(before: _Streams) -> str:
         stream = getattr(sys, _STREAMS[number])
         if stream is not None and stream.closed:
             setattr(sys, _STREAMS[number], os.fdopen(number, "w", closefd=False))
-    return f"closed or changed {' and '.join(_STREAMS[number] for number in lost)}" if lost else ""
+    return f"closed or changed {list_names(_STREAMS[number] for number in lost)}" if lost else ""
 
 
 #: Of this process.

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from zlmreport.errors import count_in_words
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.effects.circle_design import CircleDesign, CircleTest, find_axes_of
@@ -96,6 +97,8 @@ def is_described(effect: CircleEffect, _: Designs) -> None:
             isinstance(each, SearchedParameter),
             f"{effect.identifier}: searched must hold SearchedParameter(name, unit), not {each!r}",
         )
+        if each.title is not None:
+            expect_words(each.title, f"{effect.identifier}: title of {each.name}")
 
 
 @check
@@ -118,6 +121,8 @@ def _expect_term(term: CircleTerm, design: CircleDesign, where: str) -> None:
         np.shape(term.column) == (design.count,) and np.isfinite(term.column).all(),
         f"{where}: column must be {design.count} finite numbers",
     )
+    if term.title is not None:
+        expect_words(term.title, f"{where}: title")
     expect(term.low < term.high, f"{where}: low must be below high")
     if term.usual:
         largest = abs(term.usual) * float(np.abs(term.column).max())
@@ -214,8 +219,8 @@ def _make_grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
     for each in grid:
         expect(
             len(each) == len(effect.searched) and all(map(isfinite, each)),
-            f"{effect.identifier}: a row of its grid has {len(each)} values for {len(effect.searched)} "
-            "searched parameters",
+            f"{effect.identifier}: a row of its grid has {count_in_words(len(each), 'value')} for "
+            f"{count_in_words(len(effect.searched), 'searched parameter')}",
         )
     return grid
 

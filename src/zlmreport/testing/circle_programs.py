@@ -67,7 +67,7 @@ def runs_every_turn_in_its_sense(
                 "circle",
             )
             found, planned = list(_measure_turns(first, moves, where)), list(path.turns)
-            expect(len(found) == len(planned), f"{where}: {len(found)} turns; expected {len(planned)}")
+            expect(len(found) == len(planned), f"{where}: turns: {len(found)}; expected {len(planned)}")
             for number, (is_run, turn) in enumerate(zip(found, planned, strict=True), start=1):
                 expect(
                     abs(is_run - (turn.ends - turn.begins)) < 1e-2,

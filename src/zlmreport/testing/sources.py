@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from zlmreport.errors import Place, ZlmreportError
+from zlmreport.errors import Place, ZlmreportError, count_in_words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -117,8 +117,11 @@ def reads_what_the_file_holds(
     assert holds is not None  # noqa: S101  # said above; for type checkers
     read = _read(source, keys, axis)
     found, missing = int(np.isfinite(read.deviation).sum()), len(read.missing())
-    expect(found == holds.readings, f"{where}: {found} readings; the file holds {holds.readings}")
-    expect(missing == holds.missing, f"{where}: {missing} readings are missing; expected {holds.missing}")
+    expect(
+        found == holds.readings,
+        f"{where}: {count_in_words(found, 'reading')}; the file holds {holds.readings}",
+    )
+    expect(missing == holds.missing, f"{where}: missing readings: {missing}; expected {holds.missing}")
     _expect_telling(read, holds, where)
     positions = read.axis.position_unit.from_si(read.target_positions[read.target])
     deviations = read.axis.deviation_unit.from_si(read.deviation)
@@ -359,7 +362,8 @@ def _read_instead(read: MeasurementSet | None, before: MeasurementSet) -> str:
     if read is None:
         return "nothing"
     lost = _count_found(before) - _count_found(read)
-    return f"{lost} readings fewer without a word" if lost else "other readings without a word"
+    fewer = f"{count_in_words(lost, 'reading')} fewer" if lost else "other readings"
+    return f"{fewer} without a word"
 
 
 _CUT = "a file cut off in the middle"

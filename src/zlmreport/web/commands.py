@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from zlmreport.errors import InputError
 from zlmreport.files import Document, write
 from zlmreport.job.job import Job
-from zlmreport.job.parse import is_named_as_job
+from zlmreport.job.parse import is_named_as_yaml
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.web.bench import PLACE, Bench, Loaded
@@ -163,7 +163,7 @@ def find_made_file(making: Mapping[str, Making], name: str) -> Path | None:
 
 def list_siblings(path: Path) -> list[str]:
     """Return the names of other jobs in the folder of one: what may be its second test."""
-    found = (each.name for each in path.resolve().parent.iterdir() if is_named_as_job(each))
+    found = (each.name for each in path.resolve().parent.iterdir() if is_named_as_yaml(each))
     return sorted(name for name in found if name != path.name)[:_MOST]
 
 

@@ -20,7 +20,7 @@ from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.days import SOON
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import is_named_as_job
+from zlmreport.job.parse import is_named_as_yaml
 from zlmreport.language import Language, Words
 from zlmreport.machines.reading import read_machine
 from zlmreport.measurement.provenance import SourceFile
@@ -114,7 +114,7 @@ def find_jobs_in(folder: Path) -> tuple[Path, ...]:
 
 def _is_job(path: Path, folder: Path) -> bool:
     hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
-    if hidden or not is_named_as_job(path) or not path.is_file():
+    if hidden or not is_named_as_yaml(path) or not path.is_file():
         return False
     try:
         return _read_schema(path) != ""

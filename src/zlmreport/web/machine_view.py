@@ -241,7 +241,7 @@ def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]
         value, uncertainty = pair
     return {
         "name": term.name,
-        "symbol": [{"text": term.name, "italic": False, "subscript": False}],
+        "symbol": [{"text": say(term.title), "italic": False, "subscript": False}],
         "description": "",
         "value": value,
         "number": term.unit.from_si(term.value),

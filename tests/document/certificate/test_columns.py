@@ -4,8 +4,21 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.document.blocks import Align, Cell, Column, Formulas, Mark, RowGroup, Symbol, Table, Verdict
+from zlmreport.document.blocks import (
+    Align,
+    Cell,
+    Column,
+    Formulas,
+    Graph,
+    Mark,
+    RowGroup,
+    Symbol,
+    Table,
+    Verdict,
+)
 from zlmreport.document.certificate import columns
+from zlmreport.document.figures.figure import Figure, Panel
+from zlmreport.language import Words, same
 
 NUMBERS = Align.RIGHT
 
@@ -114,3 +127,15 @@ def test_a_heading_of_a_group_takes_a_line() -> None:
     plain = table((Column("Name"),), ("word",))
     headed = Table("caption", plain.columns, (RowGroup(plain.groups[0].rows, "heading"),))
     assert columns.count_table_lines(headed, [20.0]) == columns.count_table_lines(plain, [20.0]) + 1
+
+
+def test_a_graph_is_higher_by_the_lines_that_a_long_name_adds_to_its_title() -> None:
+    title = Words("{test}: circle XY, R 150 mm; dashed, with ∑: what the axes predict")
+
+    def height(name: str) -> float:
+        axes = (same("X"), same("Y"), "mm", "µm")
+        return columns.estimate_height(
+            [Graph(Figure("circle", title.given(test=name), same(""), *axes, (Panel(),)))]
+        )
+
+    assert height("n" * 80) - height("n") == pytest.approx(0.944 * 1.3 * 8.1)

@@ -18,6 +18,7 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 MICROMETRE = 1e-6
@@ -210,6 +211,27 @@ def test_what_is_not_stated_is_missing(tmp_path: Path, left_out: str) -> None:
 def test_a_full_turn_tells_its_own_centre_and_an_arc_does_not(tmp_path: Path) -> None:
     assert budget(job(tmp_path)).is_complete
     assert budget(job(tmp_path, arc=200)).missing == ("centring",)
+
+
+@pytest.mark.parametrize(("deviation", "said"), [("0.16", "0.16"), ("0", "0")])
+def test_a_centre_that_is_hardly_off_counts_and_has_no_more_digits_than_a_circle_shows(
+    tmp_path: Path, deviation: str, said: str
+) -> None:
+    """e²/(2R) of an offset of 0.16 µm is a tenth of a picometre; of none it is nothing, and not missing."""
+    of = job(tmp_path)
+    turns = [
+        f"{sense},1,{angle},{float(deviation) * math.cos(math.radians(angle)):.4f}"
+        for sense, order in (("ccw", range(0, 360, 3)), ("cw", range(357, -1, -3)))
+        for angle in order
+    ]
+    (tmp_path / "circle.csv").write_text("\n".join(["sense,run,angle,deviation", *turns]), encoding="utf-8")
+
+    found = budget(of)
+
+    assert found.is_complete
+    centring = named(found)["centring"]
+    assert centring.stated.in_language(Language.GERMAN) == "R < 0,0001 µm"
+    assert f"lies {said} µm off" in centring.source.in_language(Language.ENGLISH)
 
 
 def test_the_centre_of_an_arc_that_is_stated_shifts_its_path(tmp_path: Path) -> None:

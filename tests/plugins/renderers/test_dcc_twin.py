@@ -283,7 +283,7 @@ def test_what_is_no_dcc_is_refused(content, message, tmp_path):
     [
         ("<si:valueXMLList>1.0 ", "<si:valueXMLList>2.0 ", "2 is no direction of approach"),
         ("zlmreport_run", "other", "lack the column zlmreport_run"),
-        ("<si:valueXMLList>1.0 1.0", "<si:valueXMLList>1.0", "has 89 values, and there are 90 readings"),
+        ("<si:valueXMLList>1.0 1.0", "<si:valueXMLList>1.0", "has 89 values for 90 readings"),
         ("<si:valueXMLList>1.0 1.0", "<si:valueXMLList>one 1.0", "could not convert string to float"),
     ],
 )

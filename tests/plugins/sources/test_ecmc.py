@@ -161,7 +161,7 @@ def test_cycles_that_were_announced_and_not_run_are_missing(file: File) -> None:
         (
             "CYCLES=1",
             "CYCLES=99999",
-            "x.dat: holds 8 entries for 2 positions and 99999 cycles; are POSITIONS and CYCLES right?",
+            "x.dat: holds 8 entries for 2 positions and 99,999 cycles; are POSITIONS and CYCLES right?",
         ),
     ],
 )

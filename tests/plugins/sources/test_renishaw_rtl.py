@@ -222,10 +222,13 @@ def test_a_damaged_deviation_is_named_by_line_and_column(file: File, deviations:
     assert file.complaint(specimen(deviations)) == complaint
 
 
-def test_a_file_that_was_cut_off_has_not_the_runs_that_it_announces(file: File) -> None:
-    content = specimen(BIDIRECTIONAL).replace("DEVIATIONS::", "RUNS::\nRun-count:10\nDEVIATIONS::")
+@pytest.mark.parametrize(("announced", "said"), [(10, "10 runs"), (1, "1 run")])
+def test_a_file_that_was_cut_off_has_not_the_runs_that_it_announces(
+    file: File, announced: int, said: str
+) -> None:
+    content = specimen(BIDIRECTIONAL).replace("DEVIATIONS::", f"RUNS::\nRun-count:{announced}\nDEVIATIONS::")
     assert file.complaint(content) == (
-        "x.rtl:10:1: the file announces 10 runs and has readings of 2; was it cut off?"
+        f"x.rtl:10:1: the file announces {said} and has readings of 2; was it cut off?"
     )
 
 
@@ -233,7 +236,7 @@ def test_a_file_of_many_targets_and_runs_and_hardly_any_readings_is_refused(file
     targets = " ".join(str(10 * number) for number in range(1000))
     runs = "\n".join(f"{run} 1 1\n{run} 2 2" for run in range(1, 501))
     assert file.complaint(specimen(runs, targets=targets)) == (
-        "x.rtl: has 1000 targets and 500 runs, and only 1000 readings"
+        "x.rtl: has 1,000 targets and 500 runs, and only 1,000 readings"
     )
 
 

@@ -21,6 +21,7 @@ from zlmreport.plugin import (
     Problem,
     Unit,
     Words,
+    counted,
     quoted,
 )
 from zlmreport.plugin.source import Provenance, Reading, SourceContext, TextFile, collect_readings, read_text
@@ -156,7 +157,8 @@ def _find_columns(readings: ET.Element, text: TextFile) -> Mapping[str, _Column]
         problems += [
             Problem(
                 text.place(),
-                f"{quoted(each.name)} has {len(each.values)} values, and there are {count} readings",
+                f"{quoted(each.name)} has {counted(len(each.values), 'value')} for "
+                f"{counted(count, 'reading')}",
             )
             for each in columns.values()
             if len(each.values) != count

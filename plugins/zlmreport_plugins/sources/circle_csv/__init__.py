@@ -26,6 +26,7 @@ from zlmreport.plugin import (
     Place,
     Problem,
     Words,
+    counted,
     hookimpl,
 )
 from zlmreport.plugin.source import (
@@ -235,8 +236,8 @@ def _find_wrong_turns(turns: Sequence[CircleTurn]) -> Iterator[Problem]:
         if len(turn.angle) < _FEWEST:
             yield Problem(
                 place,
-                f"run {turn.run} {name} has {len(turn.angle)} readings; the form of a circle needs {_FEWEST} "
-                "at least",
+                f"run {turn.run} {name} has {counted(len(turn.angle), 'reading')}; the form of a circle "
+                f"needs {_FEWEST} at least",
             )
             continue
         if np.any(np.diff(turn.time) < 0):

@@ -20,6 +20,7 @@ from zlmreport.plugin import (
     Problem,
     Unit,
     Words,
+    counted,
     did_you_mean,
     hookimpl,
     position_units,
@@ -149,8 +150,9 @@ class Log:
         """
         positions, cycles = self._read_count(POSITIONS), self._read_count(CYCLES)
         if positions * cycles > _HARDLY_ANY * len(self.entries):
-            message = f"holds {len(self.entries)} entries for {positions} positions and {cycles} cycles"
-            self.problems.append(Problem(self.file, f"{message}; are POSITIONS and CYCLES right?"))
+            plan = f"{counted(positions, 'position')} and {counted(cycles, 'cycle')}"
+            message = f"holds {len(self.entries)} entries for {plan}; are POSITIONS and CYCLES right?"
+            self.problems.append(Problem(self.file, message))
             return
         self._refuse_beyond(positions, cycles)
         targets = sorted(self._list_targets(positions), key=lambda target: target[1])

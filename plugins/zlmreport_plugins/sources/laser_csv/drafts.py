@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from statistics import median
 from typing import Any
 
+from zlmreport.plugin import listed
 from zlmreport.plugin.table import (
     DELIMITERS,
     PARTED_BY_BLANKS,
@@ -146,7 +147,7 @@ def note_notation(draft: Draft) -> None:
     }
     if words and all(word.casefold() in _MISSING for word in words):
         draft.keys["missing"] = sorted(words)
-        draft.asks.append(questions.MISSING_ASKED.format(words=" or ".join(map(repr, sorted(words)))))
+        draft.asks.append(questions.MISSING_ASKED.format(words=listed(map(repr, sorted(words)), "or")))
 
 
 def name_unit(what: str, draft: Draft, target: int, *columns: int) -> None:

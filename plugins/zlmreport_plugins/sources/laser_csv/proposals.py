@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from zlmreport.plugin import Approach
+from zlmreport.plugin import Approach, listed
 from zlmreport.plugin.source import SourceProposal
 from zlmreport.plugin.table import folded, moment
 from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
@@ -245,9 +245,7 @@ def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
     )
     if sheet and others:
         hold = "holds" if len(others) == 1 else "hold"
-        draft.asks.append(
-            questions.SHEETS_ASKED.format(sheet=repr(sheet), others=" and ".join(others), hold=hold)
-        )
+        draft.asks.append(questions.SHEETS_ASKED.format(sheet=repr(sheet), others=listed(others), hold=hold))
 
 
 def _order_keys(draft: Draft) -> dict[str, Any]:

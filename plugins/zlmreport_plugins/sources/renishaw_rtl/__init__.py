@@ -22,6 +22,7 @@ from zlmreport.plugin import (
     Problem,
     Unit,
     Words,
+    counted,
     hookimpl,
     quoted,
     same_in_all_languages,
@@ -180,7 +181,10 @@ class RenishawRtl:
         taken = list(list_passes(found, targets, problems))
         problems.extend(_cut_off(parts, found))
         if len(taken) * len(targets) > _HARDLY_ANY * len(found):
-            message = f"has {len(targets)} targets and {len(taken)} runs, and only {len(found)} readings"
+            message = (
+                f"has {counted(len(targets), 'target')} and {counted(len(taken), 'run')}, and only "
+                f"{counted(len(found), 'reading')}"
+            )
             raise InputError([Problem(text.place(), message), *problems])
         said = [_say_unit(options, unit, kind), *list_remarks(parts, problems)]
         return collect_readings(
@@ -237,7 +241,7 @@ def _cut_off(parts: Mapping[str, RtlSection], found: Sequence[Deviation]) -> Ite
     if stated and stated[0] != runs:
         yield Problem(
             stated[1].place,
-            f"the file announces {stated[0]} runs and has readings of {runs}; was it cut off?",
+            f"the file announces {counted(stated[0], 'run')} and has readings of {runs}; was it cut off?",
         )
 
 

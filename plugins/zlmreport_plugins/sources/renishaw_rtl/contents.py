@@ -9,7 +9,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.plugin import Approach, InputError, Place, Problem, did_you_mean, quoted
+from zlmreport.plugin import Approach, InputError, Place, Problem, counted, did_you_mean, quoted
 from zlmreport.plugin.source import TextFile, parse_number
 
 _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
@@ -152,7 +152,7 @@ def read_stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | No
 def _find_miscounted(section: RtlSection, begin: RtlLine, found: int) -> list[Problem]:
     stated = read_stated_count(section, "targetcount")
     if stated and stated[0] != found:
-        message = f"the file announces {stated[0]} targets and lists {found}; was it cut off?"
+        message = f"the file announces {counted(stated[0], 'target')} and lists {found}; was it cut off?"
         return [Problem(stated[1].place, message)]
     if not found:
         return [Problem(begin.place, "no target positions follow")]
@@ -240,7 +240,7 @@ def _read_deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Dev
         numbers.append(int(word))
     run, target = numbers
     if target > targets:
-        message = f"there is no target {target}; the file lists {targets} targets"
+        message = f"there is no target {target}; the file lists {counted(targets, 'target')}"
         problems.append(Problem(words[1][0], message))
         return None
     place, word = words[2]

@@ -87,7 +87,7 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
 
 
 def _describe(commands: Mapping[str, str]) -> str:
-    listed = "\n".join(f"  {name:13} {summary}" for name, summary in commands.items())
+    listed = "\n".join(f"  {name:14} {summary}" for name, summary in commands.items())
     return (
         "Read the measurements that a job names, evaluate them by its standards, and write\n"
         f"the certificate.\n\nother commands:\n{listed}\n"

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 import math
 import re
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -18,6 +19,58 @@ FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
 WHOLE_NUMBER = re.compile("[0-9]{1,9}")
 
 
+#: Letters of a line of prose, however wide the terminal.
+_LONGEST_LINE = 100
+#: What begins a row of a list: a word, and at least two blanks behind it.
+_LISTED = re.compile(r" +\S+(?: \S+)*? {2,}(?=\S)")
+_COMMAND = re.compile(r" +zlmreport ")
+#: An option before its value, and the blank that keeps them in a line.
+_OPTION, _HELD = re.compile(r"( -\S+) (?=[^- ])"), "\N{NO-BREAK SPACE}"
+#: By what a shell takes the next line for the same command.
+_GOES_ON = " \\"
+
+
+class HelpFormatter(argparse.HelpFormatter):
+    """Sets paragraphs, lists and commands of a help in lines that the terminal has."""
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        """Return a description, or what stands at the end of a help."""
+        room = min(width, _LONGEST_LINE) - len(indent)
+        lines = (line for part in _join_paragraphs(text.strip()) for line in _wrap_part(part, room))
+        return "\n".join(indent + line for line in lines)
+
+
+def _join_paragraphs(text: str) -> Iterator[str]:
+    """Yield paragraphs, each in one line, and every line that is empty or indented as it is."""
+    paragraph: list[str] = []
+    for line in text.splitlines():
+        if line and not line.startswith(" "):
+            paragraph.append(line)
+            continue
+        if paragraph:
+            yield " ".join(paragraph)
+        paragraph = []
+        yield line
+    if paragraph:
+        yield " ".join(paragraph)
+
+
+def _wrap_part(part: str, room: int) -> list[str]:
+    """Return a paragraph, a row of a list or a command in lines of so many letters."""
+    if _COMMAND.match(part):
+        held = _OPTION.sub(rf"\1{_HELD}", part)
+        lines = [line.replace(_HELD, " ") for line in _wrap(held, room - len(_GOES_ON), "      ")]
+        return [*(f"{line}{_GOES_ON}" for line in lines[:-1]), lines[-1]]
+    listed = _LISTED.match(part)
+    return _wrap(part, room, " " * (listed.end() if listed else len(part) - len(part.lstrip()))) or [""]
+
+
+def _wrap(text: str, room: int, further: str) -> list[str]:
+    return textwrap.wrap(
+        text, room, subsequent_indent=further, break_long_words=False, break_on_hyphens=False
+    )
+
+
 class CommandParser(argparse.ArgumentParser):
     """A parser whose errors are problems like all others, and name the nearest option."""
 
@@ -26,7 +79,7 @@ class CommandParser(argparse.ArgumentParser):
             program,
             description=description,
             epilog=epilog,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
+            formatter_class=HelpFormatter,
             allow_abbrev=False,
         )
         self._known = ["--help"]

@@ -12,7 +12,7 @@ from enum import StrEnum
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, count_in_words
 from zlmreport.job.tree import Keys, walk_scalars
 from zlmreport.job.types import find_path_from_job
 from zlmreport.language import Language, Words, named
@@ -203,8 +203,8 @@ def arrange_attachments(attachments: Iterable[Attachment], number: str) -> tuple
     if len(found) > MOST_ATTACHMENTS or size > LARGEST_TOTAL:
         raise InputError.at(
             Place(number),
-            f"its {len(found)} files have {size} bytes in all; a PDF certificate carries its files, and "
-            f"these are {MOST_ATTACHMENTS} with {LARGEST_TOTAL} bytes (64 MiB) at most",
+            f"its {count_in_words(len(found), 'file')} would be {size} bytes in all, and a PDF certificate "
+            f"carries its files: {MOST_ATTACHMENTS} with {LARGEST_TOTAL} bytes (64 MiB) at most",
         )
     return tuple(found)
 

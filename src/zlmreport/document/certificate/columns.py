@@ -34,6 +34,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate.document import Certificate, Head, Letterhead, shorten_letterhead
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
+from zlmreport.language import Language
 from zlmreport.language.formatting import WORD_JOINER, hold_together
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
@@ -411,7 +412,8 @@ def _estimate_height(block: GatheredBlock) -> float:
             return 25.0 + len(rows) * (_DENSE * _LINE + 3.4)
         case Graph(figure):
             drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
-            return drawing + 10.0 + _SMALL_TYPE * _LINE
+            title = figure.title.in_language(Language.ENGLISH)  # long where a name in it is
+            return drawing + 10.0 + _count_lines_in_room(title, _PAGE_EM / _SMALL_TYPE) * _SMALL_TYPE * _LINE
         case Paragraph():
             return _estimate_paragraph(block)
         case Notice(title, items):

@@ -24,7 +24,8 @@ from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.language import Words, join_parts, named
-from zlmreport.language.formatting import round_pair, write_percentage
+from zlmreport.language.formatting import write_percentage
+from zlmreport.language.numbers import write_part
 from zlmreport.measurement.units import MICROMETRE
 
 if TYPE_CHECKING:
@@ -219,9 +220,7 @@ def _lay_out_table(budget: Budget, writer: Writer) -> Table:
         for acts in Acts
         if (
             rows := tuple(
-                _lay_out_row(number, each, budget.share(each), writer)
-                for number, each in numbered
-                if each.acts is acts
+                _lay_out_row(number, each, budget, writer) for number, each in numbered if each.acts is acts
             )
         )
     ]
@@ -230,7 +229,7 @@ def _lay_out_table(budget: Budget, writer: Writer) -> Table:
         writer.say(_COMBINED_OF if budget.acting(Acts.ALONG_THE_LENGTH) else _SINGLE),
         "",
         "",
-        _write_size(budget.standard_uncertainty, writer),
+        _write_size(budget.standard_uncertainty, budget, writer),
         write_percentage(1.0, writer.language.decimal_sign, 1),
     )
     groups.append(RowGroup((total,), writer.say(_COMBINED)))
@@ -252,18 +251,18 @@ def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
     )
 
 
-def _lay_out_row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:
+def _lay_out_row(number: int, contribution: Contribution, budget: Budget, writer: Writer) -> tuple[Cell, ...]:
     return (
         Symbol(f"u_{{{number}}}"),
         Explained(writer.say(contribution.name), writer.say(contribution.source)),
         writer.say(contribution.stated),
         writer.say(wording.DISTRIBUTIONS[contribution.distribution]),
-        _write_size(contribution.standard_uncertainty, writer),
-        write_percentage(share, writer.language.decimal_sign, 1),
+        _write_size(contribution.standard_uncertainty, budget, writer),
+        write_percentage(budget.share(contribution), writer.language.decimal_sign, 1),
     )
 
 
-def _write_size(value: float, writer: Writer) -> str:
-    """Write a standard uncertainty to two significant digits."""
-    printed = writer.deviation_unit.from_si(value)
-    return round_pair(printed, printed, writer.language.decimal_sign)[1] if value else "0"
+def _write_size(value: float, budget: Budget, writer: Writer) -> str:
+    """Write a standard uncertainty as a part of all together."""
+    unit = writer.deviation_unit
+    return writer.say(write_part(unit.from_si(value), unit.from_si(budget.standard_uncertainty)))

@@ -8,7 +8,7 @@ from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
-from zlmreport.language.numbers import number_words, write_pair
+from zlmreport.language.numbers import number_words, write_part
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
 
@@ -85,11 +85,12 @@ _CONTRIBUTION = Words("{symbol}, {name}: {value}{unit}.")
 def draw_budget(budget: Budget, axis: Axis) -> Figure:
     """Return the graph of the standard uncertainties of a budget, in the order of its table."""
     unit = axis.deviation_unit
+    whole = unit.from_si(budget.standard_uncertainty)
     bars = []
     sentences = []
     for number, each in enumerate(budget.contributions, 1):
         size = unit.from_si(each.standard_uncertainty)
-        bar = Bar(same(f"u_{{{number}}}"), size, _write_uncertainty(size), is_symbol=True)
+        bar = Bar(same(f"u_{{{number}}}"), size, write_part(size, whole), is_symbol=True)
         bars.append(bar)
         sentences.append(
             _CONTRIBUTION.given(
@@ -106,8 +107,3 @@ def draw_budget(budget: Budget, axis: Axis) -> Figure:
         y_unit=unit.symbol,
         panels=(Panel(bars=tuple(bars)),),
     )
-
-
-def _write_uncertainty(value: float) -> Words:
-    """Write an uncertainty to two significant digits."""
-    return write_pair(value, value)[1] if value else same("0")

@@ -323,14 +323,16 @@ def read_trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
     """Return the certificates of a file, or of all files in a folder, in the terms of asn1crypto.
 
     `path`: A certificate, PEM or DER, or several in one file (PEM); or a folder of such files, those that end
-        in ``.pem``, ``.crt``, ``.cer`` or ``.der``.
+        in ``.pem``, ``.crt``, ``.cer`` or ``.der``, in small letters or capitals.
 
     Raises `AccessError` if it cannot be read; `InputError` if it is no certificate, or a folder without one;
     or if pyHanko is not installed.
     """
     try:
         files = (
-            sorted(each for each in path.iterdir() if each.suffix in _ENDINGS) if path.is_dir() else [path]
+            sorted(each for each in path.iterdir() if each.suffix.casefold() in _ENDINGS)
+            if path.is_dir()
+            else [path]
         )
         contents = [(each, read(each, _LARGEST)) for each in files]
     except OSError as error:

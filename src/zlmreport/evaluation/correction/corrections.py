@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.errors import InputError, Problem
+from zlmreport.errors import InputError, Problem, count_in_words
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import AirKeys, DeadPathKeys, ExclusionKeys, MaterialKeys
@@ -329,7 +329,9 @@ def _find_conditions(
         if logged is not None:
             missing = int(np.count_nonzero(np.isnan(logged)))
             if missing:
-                message = f"{key}: {name} was not logged at {missing} of {len(logged)} readings"
+                message = (
+                    f"{key}: {name} was not logged at {missing} of {count_in_words(len(logged), 'reading')}"
+                )
                 problems.append(Problem(job.place_of(key), message))
             found.append(logged)
         elif isinstance(stated, float):

@@ -17,6 +17,7 @@ from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, from_range
 from zlmreport.job.evaluation_keys import STATED_COVERAGE_FACTOR
 from zlmreport.job.job import Job
+from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -35,6 +36,7 @@ OF_A_RADIUS = (
     "device_expansion_coefficient",
     "centring",
 )
+_LEAST_RANGE = 1e-4  # µm
 HOW = {
     "calibrated_length": "state the expanded uncertainty (k = 2) of the instrument's calibrated length, µm",
     "centring": "state the range of error of the centre on which an arc is measured, µm",
@@ -75,23 +77,30 @@ def list_circle_contributions(
             source=wording.say_calibration(job.keys.instrument.certificate if job.keys.instrument else None),
             contributor="calibrated_length",
         )
-    centring = MICROMETRE.to_si(keys.centring) if keys.centring else 0.0
-    source, acts = wording.STATED, Acts.OFF_CENTRE
-    if not keys.centring and is_round(measurements.target_positions):
+    if keys.centring:
+        centring, source, acts = MICROMETRE.to_si(keys.centring), wording.STATED, Acts.OFF_CENTRE
+    elif is_round(measurements.target_positions):
         offset, acts = _fit_offset(measurements), Acts.ROUND_THE_CIRCLE
         centring = offset**2 / (2 * circle.radius)
-        source = wording.SECOND_ORDER.given(offset=float(f"{MICROMETRE.from_si(offset):.3g}"))
-    if centring:
-        shown = float(f"{MICROMETRE.from_si(centring):.3g}")
-        yield Contribution(
-            name=wording.USUAL["centring"],
-            standard_uncertainty=from_range(centring, Distribution.RECTANGULAR),
-            acts=acts,
-            distribution=Distribution.RECTANGULAR,
-            stated=wording.say_full_range("R", shown, MICROMETRE.symbol),
-            source=source,
-            contributor="centring",
-        )
+        source = wording.SECOND_ORDER.given(offset=float(f"{round(MICROMETRE.from_si(offset), 3):.3g}"))
+    else:
+        return
+    yield Contribution(
+        name=wording.USUAL["centring"],
+        standard_uncertainty=from_range(centring, Distribution.RECTANGULAR),
+        acts=acts,
+        distribution=Distribution.RECTANGULAR,
+        stated=_say_range(MICROMETRE.from_si(centring)),
+        source=source,
+        contributor="centring",
+    )
+
+
+def _say_range(value: float) -> Words:
+    """Return the range of the centring, µm; of one that nothing on a circle shows only that it is smaller."""
+    if value < _LEAST_RANGE:
+        return wording.say_range_below("R", _LEAST_RANGE, MICROMETRE.symbol)
+    return wording.say_full_range("R", float(f"{value:.3g}"), MICROMETRE.symbol)
 
 
 def is_round(angles: FloatArray) -> bool:

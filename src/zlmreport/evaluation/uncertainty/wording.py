@@ -98,7 +98,7 @@ DISTRIBUTIONS: Mapping[Distribution, Words] = MappingProxyType(
     }
 )
 
-_VALUE = Words("{symbol} = {value}")
+_VALUE, _BELOW = Words("{symbol} = {value}"), Words("{symbol} < {value}")
 _EXPANDED = Words("U = {value} (k = {factor})")
 
 
@@ -110,6 +110,11 @@ def say_calibration(certificate: str | None) -> Words:
 def say_full_range(symbol: str, value: float, unit: str) -> Words:
     """Return a full range as it is stated."""
     return _VALUE.given(symbol=symbol, value=say_with_unit(value, unit))
+
+
+def say_range_below(symbol: str, least: float, unit: str) -> Words:
+    """Return of a full range only that it is smaller."""
+    return _BELOW.given(symbol=symbol, value=say_with_unit(least, unit))
 
 
 def say_standard_uncertainty(value: float, unit: Unit) -> Words:

@@ -15,7 +15,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from zlmreport.errors import AccessError, Place
+from zlmreport.errors import AccessError, Place, count_in_words
 from zlmreport.files import Closable, JournalFile, make_unreadable, read
 from zlmreport.live.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.live.capture.progress import Progress
@@ -208,7 +208,7 @@ def _say_damaged(sound: int) -> str:
         return "is no journal of 'zlmreport capture'; name another file in measurement.source.journal"
     return (
         "the journal was altered or damaged from this line on; bring back a copy of it, or keep the "
-        f"{sound} lines before (head -n {sound}) and go on with --resume"
+        f"{count_in_words(sound, 'line')} before (head -n {sound}) and go on with --resume"
     )
 
 
@@ -331,8 +331,8 @@ def _is_there(history: History) -> str:
     if progress.is_over:
         return f"holds the finished capture of {number}; name another journal for a new one"
     return (
-        f"holds a capture of {number} that is not finished: {progress.taken} of {len(progress.visits)} "
-        "visits; go on with --resume, or name another journal"
+        f"holds a capture of {number} that is not finished: {progress.taken} of "
+        f"{count_in_words(len(progress.visits), 'visit')}; go on with --resume, or name another journal"
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
-from zlmreport.language import Words, same
+from zlmreport.language import Words, list_alternatives, list_in_words, same
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import Machine, find_unit_of
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
@@ -55,14 +55,14 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     blocks: list[Block] = [replace(table, dense=is_full)] if known or is_full else []
     exact = [each.name for each in machine.curves if not each.largest_uncertainty]
     if exact:
-        blocks.append(Paragraph(say(_EXACT.given(errors=", ".join(exact)))))
+        blocks.append(Paragraph(say(_EXACT.given(errors=list_in_words(exact)))))
     if is_full:
         return Section("errors", say(_ERRORS), (Paragraph(say(_NOTE)), *blocks))
     if named:
         blocks.append(Paragraph(say(_NOT_MEASURED.given(errors=", ".join(named)))))
     assumed = sum(each.is_assumed for each in machine.unmeasured)
     if assumed:
-        blocks.append(Paragraph(say(_ASSUMED.given(count=assumed))))
+        blocks.append(Paragraph(say(_ASSUMED.given(number=assumed))))
     return Section("errors", title, tuple(blocks))
 
 
@@ -75,8 +75,8 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
     """Return the largest error of the work space, slices of it, and the body diagonals."""
     space = find_measured_space(machine)
     if space is None:
-        parted = ", ".join(axis for axis in AXES if is_parted(machine, axis))
-        said = _PARTED.given(axes=parted) if parted else _NO_SPACE
+        parted = [axis for axis in AXES if is_parted(machine, axis)]
+        said = _PARTED.given(axes=list_alternatives(parted)) if parted else _NO_SPACE
         return Section("work-space", say(_SPACE), (Paragraph(say(said)),))
     found = map_volume(machine, space)
     place = found.largest
@@ -144,7 +144,7 @@ def _draw_maps(found: VolumeMap, moving: list[int], say: Sayer) -> Figure:
         panels.append(
             Panel(heading=same(f"{AXES[still]} = {place} mm"), tiles=Tiles(across, upwards, values, darkest))
         )
-    largest = _SEEN.given(count=len(panels), largest=float(np.round(darkest, 2)))
+    largest = _SEEN.given(number=len(panels), largest=float(np.round(darkest, 2)))
     return Figure(
         "work-space", _SLICES, largest, same(AXES[first]), same(AXES[second]), "mm", "mm", tuple(panels),
         height=_MAP_HEIGHT, is_wide=True,
@@ -167,7 +167,9 @@ _EXACT = Words(
 _STATED = Words("stated")
 _NOT_MEASURED = Words("Not measured, taken as bounded: {errors}")
 _ASSUMED = Words(
-    "{count} of these bounds are assumptions of this program; the machine file (bounds) states your own."
+    "{number} of these bounds is an assumption of this program; the machine file (bounds) states your own.",
+    plural="{number} of these bounds are assumptions of this program; the machine file (bounds) states your "
+    "own.",
 )
 _ERROR, _SIZE = Words("Error"), Words("Size")
 _UNIT, _RANGE = Words("Unit"), Words("Range")
@@ -190,6 +192,9 @@ _DIAGONALS_NOTE = Words(
     "small diagonal error does not mean a small volumetric error: opposite scales cancel."
 )
 _SLICES = Words("Length of the error in slices of the work space, in µm: the darker, the larger")
-_SEEN = Words("Maps of {count} slices, values written on them; the largest value is {largest} µm.")
+_SEEN = Words(
+    "Map of {number} slice, values written on it; the largest value is {largest} µm.",
+    plural="Maps of {number} slices, values written on them; the largest value is {largest} µm.",
+)
 _SEEN_ON_A_LINE = Words("A curve over the axis; the largest value is {largest} µm.")
 _LENGTH_OF = Words("Length of the error")

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Symbol
-from zlmreport.language import Words, join_parts
+from zlmreport.language import Words, join_parts, list_in_words
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
 from zlmreport.machines.cross_making import CrossMade
@@ -46,7 +46,7 @@ def _lay_out_tables(made: CrossMade, say: Sayer) -> Section:
     )  # fmt: skip
     blocks: list[Block] = [
         make_plain_table(say(TABLES), columns, rows),
-        Paragraph(say(_HELD.given(errors=", ".join(made.held)))),
+        Paragraph(say(_HELD.given(errors=list_in_words(made.held)))),
     ]
     if plan.within_uncertainty:
         blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
@@ -60,7 +60,7 @@ def lay_out_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Se
     if plan is None:
         return None
     found = forecast(machine.machine, plan.tables, machine.measured, registry)
-    blocks: list[Block] = [Paragraph(say(_WOULD_HOLD.given(errors=", ".join(plan.taken))))]
+    blocks: list[Block] = [Paragraph(say(_WOULD_HOLD.given(errors=list_in_words(plan.taken))))]
     if plan.within_uncertainty:
         blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
     return Section("cross-tables", say(_PROMISED), (*blocks, *_lay_out_forecast(found, say).blocks))
@@ -80,7 +80,7 @@ def say_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Paragr
         for name, before, after in sizes
     )
     left = join_parts(told, say.language)
-    return Paragraph(say(_BRIEFLY.given(errors=", ".join(plan.taken), left=left)))
+    return Paragraph(say(_BRIEFLY.given(errors=list_in_words(plan.taken), left=left)))
 
 
 def _lay_out_sign(moves: int, say: Sayer) -> Section:

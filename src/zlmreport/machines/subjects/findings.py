@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Table
 from zlmreport.document.subjects.diagnosis import CANDIDATES, MARKS, VERDICT
-from zlmreport.language import Words
+from zlmreport.language import Words, list_alternatives, list_in_words
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
@@ -42,9 +42,9 @@ def say_verdict(diagnosis: MachineDiagnosis) -> Words:
             ),
         ]
         how = say_how_told(first, diagnosis)
-        return _TIED.given(effects=_join_titles([each.effect.title for each in equals], _OR), how=how)
+        return _TIED.given(effects=list_alternatives([each.effect.title for each in equals]), how=how)
     by_name = {each.effect.identifier: each.effect for each in diagnosis.complete.effects}
-    named = _MISSING.given(effects=_join_titles([by_name[each].title for each in diagnosis.found], _AND))
+    named = _MISSING.given(effects=list_in_words([by_name[each].title for each in diagnosis.found]))
     if left is None:
         return named
     beside = _BESIDE.given(shape=left.shape, size=_write_size(left.rms))
@@ -53,13 +53,6 @@ def say_verdict(diagnosis: MachineDiagnosis) -> Words:
 
 def _write_size(rms: float) -> Words:
     return write_significant(MICROMETRE.from_si(rms), 2)
-
-
-def _join_titles(titles: Sequence[Words], words: Words) -> Words:
-    found = titles[0]
-    for each in titles[1:]:
-        found = words.given(one=found, other=each)
-    return found
 
 
 def say_how_told(candidate: CircleCandidate, diagnosis: MachineDiagnosis) -> Words:
@@ -197,7 +190,7 @@ def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
             if u is None
             else say.write_pair(each.value, u, each.unit)
         )
-        rows.append((each.effect, each.name, value, each.unit.symbol))
+        rows.append((each.effect, say(each.title), value, each.unit.symbol))
     columns = (
         Column(say(_EFFECT)),
         Column(say(_PARAMETER)),
@@ -226,7 +219,7 @@ def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Secti
     sizes = [
         write_significant(MICROMETRE.from_si(each), 2) for each in (before.rms, after.rms, after.noise.rms)
     ]
-    names = ", ".join(after.names) or say(_NONE)
+    names = list_in_words(after.names or [_NONE])
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
 
@@ -245,7 +238,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
         return _NEXT_ADD.given(effect=title, before=before, after=after, noise=noise)
     if diagnosis.is_tied and planned.proposals:
         first_run = planned.proposals[0]
-        return _NEXT_RUN.given(run=first_run.what, minutes=round(first_run.minutes))
+        return _NEXT_RUN.given(run=first_run.what, number=round(first_run.minutes))
     if diagnosis.verdict is Verdict.ADEQUATE:
         return _NEXT_DOCUMENT
     return _NEXT_LOOK
@@ -262,7 +255,10 @@ def lay_out_said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section
 _NEXT_ADD = Words(
     "Next: add {effect}. The error falls from {before} µm to {after} µm; the noise is {noise} µm."
 )
-_NEXT_RUN = Words("Next: run {run}, {minutes} minutes; then one of them can be named.")
+_NEXT_RUN = Words(
+    "Next: run {run}, {number} minute; then one of them can be named.",
+    plural="Next: run {run}, {number} minutes; then one of them can be named.",
+)
 _NEXT_DOCUMENT = Words("Next: nothing is missing; write the document.")
 _NEXT_LOOK = Words(
     "Next: repeat the run. If it comes again, look at the machine where the residual stands out: no "
@@ -274,8 +270,6 @@ _TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of 
 _UNEXPLAINED = Words("Something is left that no effect explains: {shape}, root mean square {size} µm.")
 _BESIDE = Words("Beside it something without a name is left: {shape}, root mean square {size} µm.")
 _TWO = Words("{one} {other}")
-_OR = Words("{one} or {other}")
-_AND = Words("{one} and {other}")
 _SENSE = Words("run the circle in the other sense, too")
 _FEED = Words("run the circle at a quarter or at four times the feed, too")
 _RADIUS = Words("run the circle with a bar of another length, too")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from zlmreport.document.blocks import Block, Cell, Column, Paragraph, Section
-from zlmreport.language import Words
+from zlmreport.language import Words, list_in_words
 from zlmreport.language.formatting import write_percentage
 from zlmreport.machines.planning import NextRun
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
@@ -14,10 +14,7 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
     between = [each.title for each in found.between]
     heading = _NOTHING
     if between:
-        listed = between[0]
-        for each in between[1:]:
-            listed = _AND.given(one=listed, other=each)
-        heading = _DECIDE.given(effects=listed)
+        heading = _DECIDE.given(effects=list_in_words(between))
     runs: list[tuple[Cell, ...]] = [
         (
             say(each.what),
@@ -32,7 +29,7 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
     sizes: list[tuple[Cell, ...]] = [
         (
             each.effect,
-            each.name,
+            say(each.title),
             say.write_general(float(f"{each.unit.from_si(each.size):.2g}")),
             each.unit.symbol,
         )
@@ -51,7 +48,6 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
 _NEXT = Words("The next run")
 _NOTHING = Words("Nothing is to be decided; runs that would add to this:")
 _DECIDE = Words("To tell {effects} apart:")
-_AND = Words("{one} and {other}")
 _RUN, _MINUTES = Words("run"), Words("minutes")
 _DECIDES = Words("decides")
 _VISIBLE = Words("Smallest size that these circles show half of the time:")

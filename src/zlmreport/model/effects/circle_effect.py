@@ -13,7 +13,7 @@ from typing import Protocol, TypeAlias, runtime_checkable
 
 import numpy as np
 
-from zlmreport.language import Words
+from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.effects.circle_design import CircleDesign
@@ -55,7 +55,7 @@ class Law:
 class CircleTerm:
     """A parameter of an effect with its column."""
 
-    name: str  #: As reports have it: ``X``, ``T_X-T_Y``, ``C0Y``.
+    name: str  #: As results files have it: ``X``, ``T_X-T_Y``, ``C0Y``.
     unit: Unit
     column: FloatArray  #: (N,): What one unit (SI) makes of Δr, m.
     group: str = ""  #: Terms of one group come in together: an axis, a plane; its own name without it.
@@ -63,6 +63,7 @@ class CircleTerm:
     high: float = np.inf
     #: A usual size, SI: what leads among effects with the same columns is what needs the less unusual value.
     usual: float = 0.0
+    title: Words | None = None  #: As pages have it, in words; its name without it.
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +73,12 @@ class SearchedParameter:
     name: str
     unit: Unit
     is_refined: bool = False  #: Whether the search goes on between two values of the grid.
+    title: Words | None = None  #: As pages have it, in words; its name without it.
+
+
+def title_parameter(parameter: CircleTerm | SearchedParameter) -> Words:
+    """Return what a parameter is called on pages."""
+    return same(parameter.name) if parameter.title is None else parameter.title
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,7 +81,7 @@ def _estimate_growth(position: FloatArray, left: FloatArray, judged: BoolArray) 
     """
     sizes = np.abs(left)
     usual = float(np.median(sizes[judged]))
-    if usual == 0:
+    if usual == 0 or np.ptp(position[judged]) == 0:
         return np.ones(len(left))
     logarithms = np.log(np.maximum(sizes, _LEAST * usual))
     away = position - position[judged].mean()

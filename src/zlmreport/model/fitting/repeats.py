@@ -203,7 +203,7 @@ def _examine_spreads(design: Design, deviation: FloatArray) -> tuple[tuple[Sprea
     found: list[SpreadTest] = []
     if sizes[:, 0].max() <= _NOTHING * np.abs(deviation).max():
         return (), grown
-    if len(deviation) > len(np.unique(number_cells(design))):
+    if design.length and len(deviation) > len(np.unique(number_cells(design))):
         away = design.position - design.middle
         slope, p_value = _fit_slope(away, sizes)
         for run in np.unique(design.cycle) if p_value < _LEVEL else ():

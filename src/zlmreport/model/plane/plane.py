@@ -133,9 +133,9 @@ def _find_other_quantity(job: Job, first: Job) -> Iterator[Problem]:
             f"the same {what}",
         )
 
-    serials = [each.keys.machine.serial for each in (job, first)]
-    if serials[0] and serials[1] and serials[0] != serials[1]:
-        yield refuse("machine.serial", "machine", serials[0], serials[1])
+    machine, of_first = job.keys.machine, first.keys.machine
+    if machine.is_other_than(of_first):
+        yield refuse("machine.serial", "machine", machine.serial or "", of_first.serial or "")
     axes = [f"{each.axis.name} ({each.axis.kind})" for each in (job, first)]
     if axes[0] != axes[1]:
         yield refuse("axis.name", "axis", *axes)

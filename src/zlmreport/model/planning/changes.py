@@ -8,10 +8,9 @@ from functools import reduce
 
 import numpy as np
 
-from zlmreport.language import Words
+from zlmreport.language import Words, list_in_words
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.report import list_in_words
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method
 from zlmreport.model.planning.plan import Pause, Plan
 from zlmreport.model.planning.targets import (

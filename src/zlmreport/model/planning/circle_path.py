@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, count_in_words
 from zlmreport.job.circle_keys import CirclePlanKeys
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
@@ -231,7 +231,7 @@ def write_circle_heading(path: CirclePath, options: ProgramOptions) -> Iterator[
     yield f"job {write_plain_name(path.number)}"
     yield (
         f"circle {path.circle.plane}, radius {path.radius:.12g} mm, "
-        f"feed {write_program_number(path.feed)} mm/min, {len(path.turns)} turns"
+        f"feed {write_program_number(path.feed)} mm/min, {count_in_words(len(path.turns), 'turn')}"
     )
     yield (
         f"evaluated {low:.12g} to {high:.12g} deg from {first} to {second}, "

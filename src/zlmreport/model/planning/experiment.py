@@ -15,7 +15,7 @@ from itertools import combinations
 
 import numpy as np
 
-from zlmreport.language import Words
+from zlmreport.language import Words, list_in_words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
@@ -25,7 +25,6 @@ from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.random_curves import PRICE as NAMELESS_PRICE
-from zlmreport.model.diagnosis.report import list_in_words
 from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design

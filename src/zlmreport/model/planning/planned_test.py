@@ -109,7 +109,7 @@ def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
     if readings < parameters + _FEWEST_DEGREES:
         raise InputError.at(
             job.place_of("plan"),
-            f"plan: {readings} readings are too few: the model has "
+            f"plan: too few readings ({readings}): the model has "
             f"{count_in_words(parameters, 'parameter')}, and an effect is seen from "
             f"{_FEWEST_DEGREES} readings more on; take more targets or runs",
         )

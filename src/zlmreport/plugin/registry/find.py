@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 #: Entry points of this group name modules that offer several things, and are loaded to know what.
 GROUP = "zlmreport"
-#: What the name of a catalogue of effects ends with.
-_CATALOGUES = frozenset({".yaml", ".yml"})
 
 
 def find_plugins(
@@ -99,9 +97,11 @@ def find_plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
 
 def _find_in_file(path: Path) -> PluginCandidate:
     """Return the plugin in a file; its name in the interpreter is one that no import finds."""
+    from zlmreport.job.parse import is_named_as_yaml  # noqa: PLC0415 - reads YAML, which a run without files may not need
+
     if not path.is_file():
         raise AccessError.at(Place(str(path)), "there is no such plugin file")
-    if path.suffix in _CATALOGUES:
+    if is_named_as_yaml(path):
         catalogue = _Catalogue(path)
         return PluginCandidate(Plugin(path.stem, str(path)), lambda: catalogue)
     spec = spec_from_file_location(f"zlmreport plugin {path}", path)
