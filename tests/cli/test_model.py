@@ -101,6 +101,25 @@ def test_a_job_without_a_model_is_diagnosed(shop: Shop) -> None:
     assert told(shop.run("model", "diagnose", "job.yaml", "--json"))["model"]["effects"] == []
 
 
+def test_a_test_of_one_target_is_diagnosed_and_a_longer_one_advised(shop: Shop) -> None:
+    rows = [
+        f"100,{sign},{run},{3 + 2 * int(sign + '1') + 0.3 * ((7 * run) % 5 - 2)}\n"
+        for run in range(1, 11)
+        for sign in "+-"
+    ]
+    (shop.folder / "one.csv").write_text("target,direction,run,deviation\n" + "".join(rows), encoding="utf-8")
+    (shop.folder / "one.yaml").write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: ONE, kind: report}\n"
+        "axis: {name: X, travel: [0, 500]}\n"
+        "measurement: {date: 2026-01-01, source: {plugin: laser-csv, file: one.csv}}\n"
+        "evaluate: [iso230-2:2014]\nmodel: {effects: [offset]}\noutput: {directory: out}\n",
+        encoding="utf-8",
+    )
+    lines = " ".join(shop.run("model", "diagnose", "one.yaml").output.split())
+    assert "Missing effect: backlash or backlash-gradient" in lines
+    assert "To tell backlash and backlash-gradient apart: take 21 targets" in lines
+
+
 def test_a_model_can_be_begun(shop: Shop) -> None:
     change(shop, (f"model:\n  effects:\n    - offset\n    - scale-error\n{LAST}", ""))
     run = shop.run("model", "add", "job.yaml", "scale-error")

@@ -425,3 +425,20 @@ def test_a_first_run_that_is_in_the_model_is_no_noise() -> None:
     )
     assert compute_error_numbers(assumed).noise_rms == pytest.approx(3.7 * SIGMA, rel=0.1)
     assert compute_error_numbers(full).noise_rms == pytest.approx(SIGMA, rel=0.1)
+
+
+@pytest.mark.parametrize("place", [0.0, 0.1])
+def test_a_test_of_one_target_shows_what_changes_in_time_and_with_the_direction(place: float) -> None:
+    design = linear_test(1, 10, places=np.array([place]))
+    quiet = 3e-6 + noise(design)
+
+    def name(deviation: FloatArray) -> set[str]:
+        found = diagnose(model_of("offset"), observations(design, deviation), INSTALLED)
+        assert found.remainder is None
+        return {
+            each for one in found.candidates[:1] for each in (one.identifier, *one.equals) if found.together
+        }
+
+    assert name(quiet) == set()
+    assert "backlash" in name(quiet + 2e-6 * design.direction)
+    assert "thermal-drift" in name(quiet + 5e-6 * -np.expm1(-design.time / 300.0))

@@ -12,9 +12,8 @@ from typing import Any
 from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.job import Job
-from zlmreport.language import Language
+from zlmreport.language import Language, list_alternatives
 from zlmreport.measurement.units import with_unit
-from zlmreport.model.diagnosis.report import list_alternatives
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.naming import Naming
 

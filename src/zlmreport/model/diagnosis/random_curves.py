@@ -77,7 +77,13 @@ class RandomCurve:
 
 
 def list_random_curves(design: Design) -> Iterator[RandomCurve]:
-    """Yield every kind of curve that a plan may show."""
+    """Yield every kind of curve that a plan may show: at one target none that lies along the axis."""
+    for each in _list_curves(design):
+        if design.length > 0 or each.shape not in _WITH_POSITION:
+            yield each
+
+
+def _list_curves(design: Design) -> Iterator[RandomCurve]:
     along, moment = _normalise(design.position), _normalise(compute_working_time(design))
     lever, direction = _find_lever(design)[:, np.newaxis], design.direction[:, np.newaxis]
     runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
@@ -125,7 +131,7 @@ def _find_lever(design: Design) -> FloatArray:
     about the middle would need a displacement beside it, and would be dearer than a name that is wrong.
     """
     low, high = design.span
-    return np.asarray((design.position - min(max(0.0, low), high)) / design.length, dtype=np.float64)
+    return np.asarray((design.position - min(max(0.0, low), high)) / (design.length or 1.0), dtype=np.float64)
 
 
 def _normalise(values: FloatArray) -> FloatArray:
@@ -195,3 +201,5 @@ _UNSTEADY_WAVE = Words("a wave along the axis with a period of some {period}, no
 _SMOOTH_IN_BOTH = Words("a curve along the axis that changes in time")
 _SLOPE_RUNS = Words("a slope along the axis that differs from run to run")
 _DIRECTION_RUNS = Words("a reversal value that differs from run to run")
+#: Those that are no curves where there is but one position.
+_WITH_POSITION = (_SMOOTH_PLACE, _DIRECTION_PLACE, _SLOPE_TIME, _SMOOTH_IN_BOTH, _SLOPE_RUNS)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.candidate import Candidate
@@ -57,8 +57,6 @@ _SHAPE = Words(
 )
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _QUESTION = Words("{statement} {question}")
-_OR = Words("{one} or {other}")
-_AND = Words("{one} and {other}")
 
 
 def report(
@@ -309,7 +307,7 @@ def write_verdict_statement(diagnosis: Diagnosis) -> Words:
         list_alternatives([each.identifier, *by_name[each.identifier].equals]) for each in diagnosis.together
     ]
     is_many = len(groups) > 1
-    missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=list_in_words(groups, _AND))
+    missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=list_in_words(groups))
     statement = _say_so_far(diagnosis, missing, is_many=is_many)
     if diagnosis.makeshift:
         statement = _GOES.given(statement=statement, effects=list_in_words(diagnosis.makeshift))
@@ -367,19 +365,3 @@ def select_serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
         for each in diagnosis.candidates
         if each.identifier in named or each.equals or each.probability >= _SERIOUS
     )
-
-
-def list_alternatives(names: Sequence[str | Words]) -> Words:
-    """Return names of which one is meant: the last after an "or"."""
-    return list_in_words(names, _OR)
-
-
-def list_in_words(names: Sequence[str | Words], last: Words = _AND) -> Words:
-    """Return names in a row: commas between them, and a word before the last."""
-    *others, final = names
-    if not others:
-        return Words("{one}").given(one=final)
-    row = others[0]
-    for name in others[1:]:
-        row = Words("{one}, {other}").given(one=row, other=name)
-    return last.given(one=row, other=final)

@@ -72,6 +72,8 @@ def find_single_run(design: Design, residual: FloatArray, sigma: float) -> Singl
     for way, column in ways.items():
         if way is RunDifference.REVERSAL and not design.is_bidirectional:
             continue
+        if way is RunDifference.SLOPE and design.length == 0:
+            continue
         of_run = [design.cycle == run for run in runs]
         squares = np.array([float(column[own] @ column[own]) for own in of_run])
         sizes = np.array([float(column[own] @ residual[own]) for own in of_run]) / squares

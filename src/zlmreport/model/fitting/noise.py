@@ -103,11 +103,12 @@ def list_noise_parts(design: Design) -> tuple[NoisePart, ...]:
     if readings < _FEWEST_READINGS:
         return ()
     by_target = _make_membership(design.target)
-    parts = []
-    if _has_repeats(by_target):
+    # What is irregular at one target is no scatter: it is its deviation, and its lost motion.
+    is_irregular, parts = by_target.shape[1] > 1, []
+    if is_irregular and _has_repeats(by_target):
         parts.append(NoisePart(NoiseSource.POSITION, by_target))
     by_cell = _make_membership(2 * design.target + (design.direction > 0))
-    if design.is_bidirectional and _has_repeats(by_cell):
+    if is_irregular and design.is_bidirectional and _has_repeats(by_cell):
         signed = by_target * design.direction[:, np.newaxis]
         parts.append(NoisePart(NoiseSource.DIRECTION, signed))
     by_run = _make_membership(design.cycle)

@@ -199,7 +199,9 @@ class Question:
             change = plan.after.compute_change(name) if plan.after else 0.0
             begun = course - course[0] + log[0] + change
             conditions[name] = read_only_floats(np.broadcast_to(begun, len(design.position)))
-        return replace(design, conditions=conditions, span=first.span)
+        # A test of one target has no travel of which a place could be a share.
+        span = first.span if first.length > 0 else design.span
+        return replace(design, conditions=conditions, span=span)
 
     def compute_columns(self, design: Design) -> FloatArray:
         """Return what model and set-up can imitate: each session has a zero of its own."""
