@@ -233,16 +233,6 @@ class CircleStudy:
         """What the effects of the model add to the prediction, (N,), m."""
         return np.asarray(self.base @ self.solution[0])
 
-    def compute_share_of(self, identifier: str) -> FloatArray:
-        """Return what one of the effects makes of the deviations, (N,), m."""
-        values, place = self.solution[0], 0
-        for each in self.effects:
-            columns = each.columns
-            if each.effect.identifier == identifier:
-                return np.asarray(columns @ values[place : place + columns.shape[1]])
-            place += columns.shape[1]
-        return np.zeros(self.design.count)
-
     @property
     def residual(self) -> FloatArray:
         """What is left, (N,), m."""
@@ -252,20 +242,6 @@ class CircleStudy:
     def rms(self) -> float:
         """The root mean square of that, m."""
         return float(np.sqrt(np.mean(self.residual**2)))
-
-    def make_thinned_circle(self, index: int) -> CircularTest:
-        """Return one of the tests with its readings thinned."""
-        circle, design = self.design.circles[index], self.design
-        own = design.test == index
-        turns = {turn: number for number, turn in enumerate(np.unique(design.turn[own]).tolist(), start=1)}
-        return replace(
-            circle,
-            angle=design.angle[own],
-            sense=design.sense[own],
-            run=np.array([turns[turn] for turn in design.turn[own].tolist()]),
-            deviation=self.predicted[own] + self.deviation[own],
-            time=design.time[own],
-        )
 
     def with_effect(self, added: Chosen) -> CircleStudy:
         """Return the study with one effect more."""
