@@ -211,8 +211,9 @@ def _confirm(options: Namespace, registry: Registry) -> int:
             sep="\n",
         )
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
-        how = f"zlmreport {show_path(both)}" if both else "--output DIR writes the job"
-        print(*wrap(f"the certificate of both tests, as found and as left: {how}", ""), sep="\n")
+        # A command stands on a line by itself: it is copied whole.
+        how = f"\n  zlmreport {show_path(both)}" if both else " --output DIR writes the job"
+        print(f"the certificate of both tests, as found and as left:{how}")
     return 0 if found.verdict is ConfirmationVerdict.HELD else NOT_MET
 
 

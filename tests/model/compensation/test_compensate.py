@@ -170,7 +170,7 @@ def test_both_tests_make_one_certificate(folder: Path, capsys: Capture) -> None:
     Path("before.yaml").write_text(Path("before.yaml").read_text().replace(str(DATA), "readings"))
     (folder / "readings").symlink_to(DATA)
     assert main(["compensate", "--confirm", before, after, "-o", "both"]) == 0
-    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
+    assert capsys.readouterr().out.endswith("as found and as left:\n  zlmreport both/LOOP-1-as-left.yaml\n")
     assert main(["both/LOOP-1-as-left.yaml"]) == 0
     results = json.loads((folder / "both" / "LOOP-1.json").read_text(encoding="utf-8"))
     found, left = (
@@ -182,7 +182,7 @@ def test_both_tests_make_one_certificate(folder: Path, capsys: Capture) -> None:
         main(["compensate", "--confirm", before, after, "-o", "both"]) == 2
     )  # nobody's work is written over
     assert main(["compensate", "--confirm", before, "both/LOOP-1-as-left.yaml"]) == 0
-    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
+    assert capsys.readouterr().out.endswith("as found and as left:\n  zlmreport both/LOOP-1-as-left.yaml\n")
 
 
 def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:
