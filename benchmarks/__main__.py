@@ -29,6 +29,7 @@ OTHERS = {
     "hidden-effects": ("hidden_effects.command", "main"),
     "experiments": ("hidden_effects.command", "main_of_experiments"),
     "several": ("hidden_effects.several", "main"),
+    "irregular": ("hidden_effects.irregular", "main"),
     "owners": ("hidden_effects.owners", "main"),
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
@@ -71,8 +72,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, worlds, quantities, "
-        "machines, machine-bands, machine-circles, step-gauge, kills have options of their own: "
+        epilog="./run benchmark hidden-effects, experiments, several, irregular, priors, coverage, worlds, "
+        "quantities, machines, machine-bands, machine-circles, step-gauge, kills have options of their own: "
         "see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))

@@ -33,6 +33,18 @@ def test_parameters_come_back_in_si() -> None:
     assert values["L"] == pytest.approx(0.08, rel=0.02)
 
 
+def test_a_step_between_two_targets_is_known_though_its_place_may_be_anywhere_between_them() -> None:
+    left, right = _DESIGN.target_positions[4:6]
+    place = {"unit": "mm", "range": [float(f"{1e3 * each:.3f}") for each in (left + 1e-3, right - 1e-3)]}
+    step = _effect("a*step(P - c)", a={"unit": "um"}, c=place)
+    deviation = 5e-6 * (_DESIGN.position > (left + right) / 2) + noise(_DESIGN, sigma=4e-7)
+    size, where = fit(model_of("offset", step), _DESIGN, deviation).estimates[1:]
+    assert size.value == pytest.approx(5e-6, abs=size.expanded_uncertainty)
+    assert size.expanded_uncertainty < 1e-6
+    assert where.is_scanned
+    assert where.expanded_uncertainty <= right - left
+
+
 def test_formula_is_named_where_no_installed_effect_explains_as_much() -> None:
     deviation = 6e-6 * np.sin(2 * np.pi * _DESIGN.position**2 / 0.09) + noise(_DESIGN, sigma=4e-7)
     chirp = _effect(

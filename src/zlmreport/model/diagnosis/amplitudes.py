@@ -1,7 +1,8 @@
 """Searches the amplitudes of noise and of nameless curves beside a set of effects.
 
 A part after another gets its best level, all others as they are, until none gains anything. Of smooth curves
-all levels are looked at, of irregular shares those next to the one there is.
+all levels are looked at, of irregular shares those next to the one there is, and in the end all in the place
+of a smooth curve.
 """
 
 from __future__ import annotations
@@ -42,36 +43,73 @@ class AmplitudeSearch:
         return self._known[key]
 
     def _find_near(self, start: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes) -> Amplitudes:
-        contest = self._contest
         now = tuple(min(level, most - 1) for level, most in zip(start, levels, strict=True))
-        best = contest.compute_criterion(now, columns)
-        irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
-        smooth = [number for number in range(len(contest.parts)) if number not in irregular]
+        best = self._contest.compute_criterion(now, columns)
         for turn in range(_ROUNDS):
             before = best
-            silent = [number for number in smooth if not now[number] and levels[number] > 1]
-            for numbers in [silent, *self._list_alike(now, smooth)]:
-                if not numbers:
-                    continue
-                tried = [
-                    each[: levels[number]]
-                    for number, each in zip(numbers, contest.by_level(now, columns, numbers), strict=True)
-                ]
-                leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
-                if tried[leading].min() < best - _NOTHING:
-                    best = float(tried[leading].min())
-                    now = move_amplitude(now, numbers[leading], int(np.argmin(tried[leading])))
-            for number in irregular:
-                level, noise = now[number], contest.parts[number].noise_levels
-                others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
-                for other in sorted(others - {level}):
-                    if 0 <= other < levels[number]:
-                        criterion = contest.compute_criterion(move_amplitude(now, number, other), columns)
-                        if criterion < best - _NOTHING:
-                            best, now = criterion, move_amplitude(now, number, other)
+            best, now = self._choose_smooth(best, now, columns, levels)
+            best, now = self._choose_irregular(best, now, columns, levels, is_first=not turn)
             if best > before - _SETTLED:
-                break
+                instead = self._find_irregular_instead(best, now, columns, levels)
+                if instead is None:
+                    break
+                best, now = instead
         return now
+
+    def _choose_smooth(
+        self, best: float, now: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes
+    ) -> tuple[float, Amplitudes]:
+        """Return amplitudes in which smooth curves have better levels, one after another."""
+        contest = self._contest
+        smooth = [number for number, part in enumerate(contest.parts) if part.irregular is None]
+        silent = [number for number in smooth if not now[number] and levels[number] > 1]
+        for numbers in [silent, *self._list_alike(now, smooth)]:
+            if not numbers:
+                continue
+            tried = [
+                each[: levels[number]]
+                for number, each in zip(numbers, contest.by_level(now, columns, numbers), strict=True)
+            ]
+            leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
+            if tried[leading].min() < best - _NOTHING:
+                best = float(tried[leading].min())
+                now = move_amplitude(now, numbers[leading], int(np.argmin(tried[leading])))
+        return best, now
+
+    def _choose_irregular(
+        self, best: float, now: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes, *, is_first: bool
+    ) -> tuple[float, Amplitudes]:
+        """Return amplitudes in which irregular shares have better levels, next to those that there are."""
+        for number, part in enumerate(self._contest.parts):
+            if part.irregular is None:
+                continue
+            level, noise = now[number], part.noise_levels
+            others = {1, noise - 1, noise, noise + 2} if is_first and not level else {0, level - 1, level + 1}
+            for other in sorted(others - {level}):
+                if 0 <= other < levels[number]:
+                    criterion = self._contest.compute_criterion(move_amplitude(now, number, other), columns)
+                    if criterion < best - _NOTHING:
+                        best, now = criterion, move_amplitude(now, number, other)
+        return best, now
+
+    def _find_irregular_instead(
+        self, best: float, now: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes
+    ) -> tuple[float, Amplitudes] | None:
+        """Return better amplitudes in which an irregular share takes the place of a smooth curve.
+
+        Where targets are few either describes the readings, and the one that is there keeps the other away.
+        """
+        parts, found = self._contest.parts, None
+        for number, part in enumerate(parts):
+            if part.irregular is None or now[number] >= part.noise_levels:
+                continue
+            for other in (place for place, level in enumerate(now) if level >= parts[place].noise_levels):
+                for level in range(part.noise_levels, levels[number]):
+                    moved = move_amplitude(move_amplitude(now, other, 0), number, level)
+                    criterion = self._contest.compute_criterion(moved, columns)
+                    if criterion < best - _NOTHING:
+                        best, found = criterion, (criterion, moved)
+        return found
 
     def _list_alike(self, now: Amplitudes, smooth: Sequence[int]) -> Iterator[list[int]]:
         """Yield the parts that are something by themselves, and together with those of other lengths.

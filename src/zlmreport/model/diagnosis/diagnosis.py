@@ -196,6 +196,12 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
         complete, further = _complete(complete, hidden.named, ())
         finding = replace(finding, named=(*named, *further), remainder=hidden.remainder)
         after = compute_error_numbers(complete)
+    if finding.named and finding.remainder and not finding.makeshift and after.rms >= error.rms:
+        step = _choose_next(fitted, finding.named)
+        if step is None or step[1].rms >= fitted.rms:
+            # Beside what has no name they are so little that nobody could add one and see the error fall.
+            complete, after = fitted, error
+            finding = _forget_names(finding, find(fitted, (), asked.expected, is_left=True))
     left = finding.remainder
     if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
         left = None
@@ -276,6 +282,15 @@ def _is_noise(error: ErrorNumbers, lasting: float | None) -> bool:
     if error.chi2_per_dof is None or error.chi2_per_dof <= LARGEST_RATIO:
         return True
     return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
+
+
+def _forget_names(finding: ContestFinding, nameless: ContestFinding) -> ContestFinding:
+    """Return a finding in which the named effects are only some that explain most.
+
+    `nameless`: The same without any effect.
+    """
+    others = tuple(each.leading for each in finding.named)
+    return replace(finding, named=(), others=others, remainder=nameless.remainder)
 
 
 def _complete(

@@ -1,0 +1,75 @@
+"""How often axes that are irregular from target to target, with few targets, are given a name.
+
+Guideways, scales and screws are straight only so far: between targets that lie a tenth of the travel apart
+one error says little of the next. Of few targets one effect or two pass through all of them by chance. Such
+axes are drawn, linear and rotary ones, and diagnosed beside the model with which one begins.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
+from hidden_effects.judge import INSTALLED
+from hidden_effects.trial import EFFECTS, measured
+from zlmreport.measurement.units import MICROMETRE
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.fitting.observations import make_observations_of
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.simulation.description import SimulatedNoise
+from zlmreport.model.simulation.simulate import make_design_of
+
+_MODEL = AxisModel(tuple(Term(EFFECTS[name]) for name in ("offset", "scale-error", "backlash")))
+_SIGMAS = (0.05, 0.3, 0.8, 3.0)  # µm; on a rotary axis as many µm at a radius of one metre
+_SIZES = (3.0, 30.0)  # of the geometry, in σ
+_RUNS, _TARGETS = (3, 5), (5, 6, 7, 9, 11)
+_ROTARY_SHARE = 0.2
+_SEED = 20_261_129
+
+
+def diagnose_drawn_axis(number: int, targets: int) -> Diagnosis:
+    """Return the diagnosis of an axis; the same number gives the same."""
+    random = np.random.default_rng([_SEED, number, targets])
+    draw = drawn_rotary_test if random.random() < _ROTARY_SHARE else drawn_linear_test
+    method = (Method.LINEAR, Method.PENDULUM)[int(random.integers(2))]
+    description = draw(random, method, targets, int(random.choice(_RUNS)))
+    sigma = float(MICROMETRE.to_si(_SIGMAS[number % len(_SIGMAS)]))
+    geometry = sigma * float(np.exp(random.uniform(*np.log(_SIZES))))
+    description = replace(description, noise=SimulatedNoise(reading=sigma, position=geometry))
+    design = make_design_of(description)
+    nothing = np.zeros(len(design.position))
+    readings = measured(description, design, nothing, nothing).measurements
+    observed = make_observations_of(readings, overrun=description.plan.overrun)
+    return diagnose(_MODEL, observed, INSTALLED)
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Draw axes, diagnose them, and print how many of them were given a name."""
+    parser = argparse.ArgumentParser(
+        prog="./run benchmark irregular",
+        description="Diagnose axes that are irregular from target to target.",
+    )
+    parser.add_argument("--axes", type=int, default=40, help="how many of each (%(default)s)")
+    parser.add_argument("--first", type=int, default=1000, help="number of the first (%(default)s)")
+    parser.add_argument("--targets", type=int, nargs="+", default=list(_TARGETS), help="of the tests")
+    asked = parser.parse_args(arguments)
+    print(
+        "| targets | axes | unexplained | adequate | named | by what |", "|---|---|---|---|---|---|", sep="\n"
+    )
+    for targets in asked.targets:
+        found = [diagnose_drawn_axis(asked.first + each, targets) for each in range(asked.axes)]
+        verdicts = Counter(each.verdict for each in found)
+        names = [" and ".join(effect.identifier for effect in each.together) for each in found]
+        cells = (
+            targets,
+            asked.axes,
+            *(verdicts[each] for each in (Verdict.UNEXPLAINED, Verdict.ADEQUATE, Verdict.MISSING)),
+            "; ".join(filter(None, names)) or "–",
+        )
+        print("|", " | ".join(map(str, cells)), "|", flush=True)

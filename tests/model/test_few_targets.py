@@ -1,0 +1,47 @@
+"""What a test of few targets tells: irregular geometry has no name, nor has what is too little to see."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.effects.design import Design
+
+_MODEL = model_of("offset", "scale-error", "backlash")
+
+
+def _draw_geometry(design: Design, seed: int, size: float) -> FloatArray:
+    """Return an error that is another at each target, m, and the same whenever the axis comes there."""
+    targets = design.target_positions
+    errors = size * np.random.default_rng([seed, len(targets)]).standard_normal(len(targets))
+    return np.asarray(errors[np.searchsorted(targets, design.position)])
+
+
+def _diagnose(design: Design, deviation: FloatArray) -> Diagnosis:
+    return diagnose(_MODEL, observations(design, deviation), INSTALLED)
+
+
+@pytest.mark.parametrize(("targets", "seed"), [(6, 1), (6, 4), (7, 2), (9, 4), (11, 0), (11, 11)])
+def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targets: int, seed: int) -> None:
+    design = linear_test(targets, 5, seed=seed)
+    deviation = _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50)
+    found = _diagnose(design, deviation)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.remainder is not None
+    assert found.remainder.shape.en.startswith("irregular from position to position")
+
+
+@pytest.mark.parametrize("seed", [2, 4, 5, 7])
+def test_what_would_not_lower_the_error_beside_a_large_remainder_is_not_named(seed: int) -> None:
+    design = linear_test(6, 6)
+    wave = 1e-6 * np.sin(2 * np.pi * design.time / (0.37 * np.ptp(design.time)) + 1)
+    deviation = _draw_geometry(design, seed, 25 * SIGMA) + wave + noise(design, seed=seed + 50)
+    found = _diagnose(design, deviation)
+    assert found.verdict is Verdict.UNEXPLAINED
+    assert not found.together
+    # It is there, and told as what may be.
+    assert found.candidates[0].identifier == "time-periodic"
+    assert found.candidates[0].error.rms >= found.error.rms
