@@ -117,7 +117,7 @@ def collect_compared_sizes(found: ComparedTest) -> dict[str, Any]:
         "rms_left": _MICRO * found.rms.left,
         "numbers": [_collect_standard_values(each) for each in found.numbers],
         "of_axes": _write_in_micrometres(found.of_axes),
-        "of_effects": _write_in_micrometres(found.of_effects),
+        "of_effects": _write_in_micrometres({effect.identifier: size for effect, size in found.of_effects}),
         "fails": [
             collect_stretch(each, is_circle=isinstance(found.test, CircularTest)) for each in found.fails
         ],
