@@ -15,12 +15,13 @@ from io import BytesIO
 from pathlib import Path
 
 from zlmreport import pipeline
+from zlmreport.document.certificate.results_file import MACHINE_RESULTS, RESULTS
 from zlmreport.errors import InputError, Place
 from zlmreport.job.loading import load
 from zlmreport.language import Words
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import MACHINE_RESULTS, SCHEMA, find_stated_by, lay_out
+from zlmreport.verification.attached import find_stated_by, lay_out
 from zlmreport.verification.carrier import find_results_in, open_pdf, read_file
 from zlmreport.verification.findings import (
     CheckedStatement,
@@ -58,7 +59,7 @@ _KINDS: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
     (
         "json",
         lambda head: (
-            head.startswith(b"{") and any(f'"{each}"'.encode() in head for each in (SCHEMA, MACHINE_RESULTS))
+            head.startswith(b"{") and any(f'"{each}"'.encode() in head for each in (RESULTS, MACHINE_RESULTS))
         ),
     ),
     ("dcc", lambda head: head.startswith(b"<") and b"https://ptb.de/dcc" in head),

@@ -14,6 +14,7 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.files import demand
@@ -26,7 +27,6 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.verification import attached, pages, readers, structure, table, values
 from zlmreport.verification.alone import format_of, verify_alone
 from zlmreport.verification.attached import (
-    MACHINE_RESULTS,
     Results,
     StatedResults,
     check_digital_certificates,
