@@ -20,7 +20,7 @@ from hidden_effects.records import Record
 from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import make_observations_of
@@ -65,7 +65,11 @@ def judged(case: Case) -> Record:
         return named(case) | {"outcome": "refused", "message": str(error)}
     diagnosed = time.process_time()
     question = find_question_of_tie(first)
-    if question is None or first.verdict is not Verdict.MISSING or case.hidden[0] not in question.names:
+    if (
+        question is None
+        or first.verdict is not DiagnosisVerdict.MISSING
+        or case.hidden[0] not in question.names
+    ):
         return named(case) | {"outcome": "no tie with the truth in it"}
     rise = float(np.ptp(first.fit.design.conditions["axis_temperature"]))
     expected = ExpectedTest(question.sigma, rise)
@@ -95,7 +99,7 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
         said = diagnose(add_zeros(trial.model, observed.design), observed, INSTALLED)
     except ModelError as error:
         return {"decision": "refused", "message": str(error)}
-    leading = said.candidates[:1] if said.verdict is Verdict.MISSING else ()
+    leading = said.candidates[:1] if said.verdict is DiagnosisVerdict.MISSING else ()
     names = {name for each in leading for name in (each.identifier, *each.equals)}
     left = names.intersection(advice.effects)
     truth = trial.case.hidden[0]

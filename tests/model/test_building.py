@@ -8,7 +8,7 @@ from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observ
 from model.hidden_effect import example_diagnosis
 from zlmreport.model.diagnosis.building import build, name_steps
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.finding import find
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
@@ -21,7 +21,7 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
         [
             replace(example, together=(EFFECTS["scale-kink"],), candidates=(first,)),
             replace(example, together=(EFFECTS["first-run"],), candidates=()),
-            replace(example, together=(), verdict=Verdict.ADEQUATE),
+            replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE),
         ]
     )
 
@@ -67,7 +67,7 @@ def test_what_is_much_like_a_makeshift_comes_in_once_that_is_out() -> None:
         asked.append(model.identifiers)
         fitted = fit(model, example.fit.design, example.fit.deviation)
         if "scale-error" in model.identifiers:
-            return replace(example, fit=fitted, together=(), verdict=Verdict.ADEQUATE)
+            return replace(example, fit=fitted, together=(), verdict=DiagnosisVerdict.ADEQUATE)
         return replace(
             example,
             fit=fitted,

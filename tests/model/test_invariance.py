@@ -21,7 +21,7 @@ from model.axis_tests import (
 )
 from model.hidden_effect import study
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport_plugins.effects.polynomial import Polynomial
@@ -61,7 +61,7 @@ def _is_like(diagnosis: Diagnosis, usual: Diagnosis) -> None:
 
 
 def test_the_example_has_something_to_lose() -> None:
-    assert _usual().verdict is Verdict.MISSING
+    assert _usual().verdict is DiagnosisVerdict.MISSING
     assert _usual().candidates[0].identifier == "screw-pitch"
 
 

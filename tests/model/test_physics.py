@@ -10,7 +10,7 @@ import pytest
 from model.axis_tests import EFFECTS, INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.report import report
 
 _DESIGN = linear_test(11, 3)
@@ -28,7 +28,7 @@ def belt() -> Diagnosis:
 
 
 def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
-    assert belt.verdict is Verdict.MISSING
+    assert belt.verdict is DiagnosisVerdict.MISSING
     assert [each.identifier for each in belt.together] == ["backlash"]
     first = belt.candidates[0]
     assert first.is_plausible

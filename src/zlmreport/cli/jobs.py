@@ -430,10 +430,10 @@ def _tell_model(result: JobResult) -> Iterator[str]:
     diagnosis = result.diagnosis
     if diagnosis is None:
         return
-    from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict  # noqa: PLC0415 - brings the error model
     from zlmreport.model.diagnosis.report import write_verdict_statement  # noqa: PLC0415
 
-    is_adequate = diagnosis.verdict is Verdict.ADEQUATE
+    is_adequate = diagnosis.verdict is DiagnosisVerdict.ADEQUATE
     statement = write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
     yield from _tell_notice("model", statement, colour=Colour.GREEN if is_adequate else Colour.YELLOW)
     if not is_adequate:

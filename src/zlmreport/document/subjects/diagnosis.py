@@ -36,7 +36,7 @@ from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import select_serious_candidates, write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure
@@ -78,9 +78,9 @@ _LOOK = Words("Look at {at}. Measure {measure}.")
 _IMPROBABLE = Words("Hardly missing")
 _SENTENCES = ColumnKind.SENTENCES
 MARKS = {
-    Verdict.ADEQUATE: Mark.MET,
-    Verdict.MISSING: Mark.OPEN,
-    Verdict.UNEXPLAINED: Mark.NOT_MET,
+    DiagnosisVerdict.ADEQUATE: Mark.MET,
+    DiagnosisVerdict.MISSING: Mark.OPEN,
+    DiagnosisVerdict.UNEXPLAINED: Mark.NOT_MET,
 }
 _EXTRAPOLATED = Words("{p} (extrapolated)")
 _VISIBLE = Words("{share} % of it is visible beside this model")
@@ -176,7 +176,7 @@ class DiagnosisRows:
             candidates=rows(diagnosis.candidates),
             not_excluded=tuple(diagnosis.not_excluded),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
-            names_candidates=diagnosis.verdict is Verdict.MISSING,
+            names_candidates=diagnosis.verdict is DiagnosisVerdict.MISSING,
             remainder=_lay_out_remainder(diagnosis, language),
         )
 
@@ -200,7 +200,7 @@ def lay_out_diagnosis(
     serious = [each for each in rows.candidates if each.is_serious]
     others = [each for each in rows.candidates if not each.is_serious]
     excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
-    leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
+    leads = bool(rows.candidates) and diagnosis.verdict is not DiagnosisVerdict.ADEQUATE
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),

@@ -18,7 +18,7 @@ from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.measurement.units import MICROMETRE
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.effects.circle_effect import CircleEffect
 
 _MOST_CANDIDATES = 5
@@ -26,10 +26,10 @@ _MOST_CANDIDATES = 5
 
 def say_verdict(diagnosis: MachineDiagnosis) -> Words:
     """Return the verdict in words."""
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _ADEQUATE
     left = diagnosis.remainder
-    if diagnosis.verdict is Verdict.UNEXPLAINED and left:
+    if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED and left:
         return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
     if not diagnosis.found:
         first = diagnosis.candidates[0]
@@ -250,7 +250,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
     if diagnosis.is_tied and planned.proposals:
         first_run = planned.proposals[0]
         return _NEXT_RUN.given(run=first_run.what, number=round(first_run.minutes))
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _NEXT_DOCUMENT
     return _NEXT_LOOK
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.effect import Effect
@@ -77,7 +77,7 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
     found = [diagnosing(model, frozenset(), _tell_part(told, 0))]
     steps: list[BuildStep] = []
     tried = {frozenset(model.identifiers)}
-    while len(found) <= _MOST_ROUNDS and found[-1].verdict is Verdict.MISSING:
+    while len(found) <= _MOST_ROUNDS and found[-1].verdict is DiagnosisVerdict.MISSING:
         extended, taken = _extend_model(model, found[-1])
         # Two models each of which takes the other for the better one are as good as each other.
         if not taken or frozenset(extended.identifiers) in tried:

@@ -49,7 +49,7 @@ class _Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class HeldContrasts:
     """Contrasts that are not in a table, held against it under many covariances."""
 
     contrasts: FloatArray  #: (N, k)
@@ -113,9 +113,9 @@ class Columns:
         self._sums[first : self._count] = self._sum(contrasts)
         return read_only_integers(np.arange(first, self._count))
 
-    def hold(self, contrasts: FloatArray) -> Held:
+    def hold(self, contrasts: FloatArray) -> HeldContrasts:
         """Return contrasts, shape (N, k), ready for products with the columns of the table."""
-        return Held(contrasts, self._sum(contrasts))
+        return HeldContrasts(contrasts, self._sum(contrasts))
 
     def keep(self, core: int) -> None:
         """Say that products of the columns so far will be asked for again and again, most of all of a core.
@@ -180,7 +180,7 @@ class Columns:
         rows = known.kept.find_rows(one, lambda missing: self._multiply_with_all_kept(known, missing))
         return known.kept.values[rows[:, np.newaxis], kept]
 
-    def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: Held) -> FloatArray:
+    def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: HeldContrasts) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         known = self._of(ratios)
         less = known.turn(self._sums[one]) @ known.turn(held.sums).T
@@ -192,11 +192,11 @@ class Columns:
         if key not in known.squares:
             flat = blocks.ravel()
             known.squares[key] = self._multiply_within(
-                known, Held(self.select_columns(flat), self._sums[flat]), blocks.shape[1]
+                known, HeldContrasts(self.select_columns(flat), self._sums[flat]), blocks.shape[1]
             )
         return known.squares[key]
 
-    def multiply_held_blocks(self, ratios: tuple[float, ...], held: Held, width: int) -> FloatArray:
+    def multiply_held_blocks(self, ratios: tuple[float, ...], held: HeldContrasts, width: int) -> FloatArray:
         """Return the same of contrasts that are not in the table, so many in a block."""
         return self._multiply_within(self._of(ratios), held, width)
 
@@ -206,7 +206,7 @@ class Columns:
         sums = self._factors.sum_by_target(self.space.single.apply_transposed(contrasts))
         return sums.transpose(2, 0, 1).reshape(contrasts.shape[1], self._width)
 
-    def _multiply_within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
+    def _multiply_within(self, known: _Eliminated, held: HeldContrasts, width: int) -> FloatArray:
         rows = np.ascontiguousarray(held.contrasts.T).reshape(-1, width, len(held.contrasts))
         turned = known.turn(held.sums).reshape(len(rows), width, -1)
         return np.asarray(rows @ rows.transpose(0, 2, 1) - turned @ turned.transpose(0, 2, 1))

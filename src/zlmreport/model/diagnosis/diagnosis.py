@@ -50,7 +50,7 @@ _IMPROBABLE = 1e-3
 _LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
 
 
-class Verdict(StrEnum):
+class DiagnosisVerdict(StrEnum):
     """What a diagnosis comes to.
 
     `ADEQUATE`: nothing is left that the noise does not explain. `MISSING`: at least one installed effect has
@@ -69,7 +69,7 @@ class Diagnosis:
 
     fit: Fit  #: The model as it is.
     error: ErrorNumbers  #: How far it is from the readings.
-    verdict: Verdict  #: What the diagnosis comes to.
+    verdict: DiagnosisVerdict  #: What the diagnosis comes to.
     p_value: float  #: Chance of such a contest where nothing is missing.
     tests: tuple[Failure, ...]  #: All tests of the residuals.
     failures: tuple[Failure, ...]  #: Those that they did not pass, and flagged readings.
@@ -255,12 +255,12 @@ def _select_of_the_set(readings: IntArray) -> IntArray:
 
 def _decide_verdict(
     left: Remainder | None, together: Sequence[Effect], faults: Iterable[DataFault]
-) -> Verdict:
+) -> DiagnosisVerdict:
     if together:
-        return Verdict.MISSING
+        return DiagnosisVerdict.MISSING
     if left is not None or any(each.comes_first or each.kind is FaultKind.WRONG_UNIT for each in faults):
-        return Verdict.UNEXPLAINED
-    return Verdict.ADEQUATE
+        return DiagnosisVerdict.UNEXPLAINED
+    return DiagnosisVerdict.ADEQUATE
 
 
 def _is_perhaps_noise(error: ErrorNumbers, fitted: Fit) -> bool:

@@ -14,7 +14,7 @@ from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -24,7 +24,7 @@ from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter, find_unit_of
-from zlmreport.model.fitting.estimate import Estimate
+from zlmreport.model.fitting.estimate import ParameterEstimate
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.profile import find_intervals
@@ -233,7 +233,7 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
     }
 
 
-def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
+def _estimate(estimate: ParameterEstimate, design: Design) -> dict[str, Any]:
     unit = _choose_unit(estimate.parameter, design)
     found = {
         "name": estimate.parameter.name,
@@ -298,9 +298,9 @@ def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
 
 def write_verdict_statement(diagnosis: Diagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _ADEQUATE
-    if diagnosis.verdict is Verdict.UNEXPLAINED:
+    if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
     groups = [

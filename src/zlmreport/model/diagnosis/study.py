@@ -31,7 +31,7 @@ from zlmreport.model.effects.design import transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape
 from zlmreport.model.effects.harmonic import Harmonic, find_harmonics
 from zlmreport.model.fitting.blunders import find_outliers
-from zlmreport.model.fitting.estimate import Estimate, InstrumentError
+from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.observations import Observations, make_observations_of, select_readings, thin
 from zlmreport.model.fitting.priors import PriorExpectation
@@ -376,7 +376,7 @@ def _find_waves(fitted: Fit) -> Iterator[Wave]:
         first += solved
         if solved < len(term.effect.linear):
             continue
-        own: list[Estimate] = [
+        own: list[ParameterEstimate] = [
             each
             for each in fitted.estimates
             if each.effect == term.effect.identifier and each.parameter in term.effect.linear

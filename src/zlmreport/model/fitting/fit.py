@@ -18,8 +18,8 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter
 from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_root
 from zlmreport.model.fitting.estimate import (
-    Estimate,
     InstrumentError,
+    ParameterEstimate,
     Uncertainties,
     compute_coverage_factors,
     compute_variance_of_variance,
@@ -83,7 +83,7 @@ class Fit:
     deviation: FloatArray
     fitted: FloatArray
     assumptions: Assumptions  #: What was taken for granted.
-    estimates: tuple[Estimate, ...]  #: All parameters, in the order of the model.
+    estimates: tuple[ParameterEstimate, ...]  #: All parameters, in the order of the model.
     noise: Noise  #: What scatters.
     solution: Solution  #: The parameters as arrays.
     places: tuple[ContinuousParameter, ...]  #: The searched parameters that vary continuously.
