@@ -27,7 +27,7 @@ from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
 from zlmreport.model.planning.deciding import find_question_of_tie
 from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
-from zlmreport.model.planning.plan import ExpectedTest, Plan
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest
 from zlmreport.model.simulation.description import SimulatedNoise, sample_noise_of
 
 #: Targets and runs of tests that leave ties.
@@ -83,7 +83,7 @@ def judged(case: Case) -> Record:
     return found | {"followed": _followed(trial, advice, advice.plan, design)}
 
 
-def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) -> dict[str, Any]:
+def _followed(trial: Trial, advice: Experiment, plan: AxisPlan, expected: Design) -> dict[str, Any]:
     """Return what the diagnosis of the advised test says; `expected` is its design."""
     design = wandering(expected, np.random.default_rng([trial.description.seed, 3]))
     # What the job's model describes is in the advised test as it is in every test.
@@ -107,7 +107,7 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
     return {"decision": decision, "verdict": said.verdict, "names": sorted(names)}
 
 
-def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray) -> Measured:
+def _measured_again(trial: Trial, plan: AxisPlan, design: Design, known: FloatArray) -> Measured:
     """Return the readings of the advised test; what is irregular along the axis stays where it was."""
     first = trial.description
     noise, seed = first.noise, first.seed + 1

@@ -33,7 +33,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -213,7 +213,7 @@ def followed(drawn: Drawn) -> Outcome:
     seconds: list[float] = []
     verdicts: list[DiagnosisVerdict] = []
 
-    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)

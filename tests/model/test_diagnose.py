@@ -27,7 +27,7 @@ from model.axis_tests import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
@@ -68,13 +68,13 @@ HIDDEN = {
 
 def _diagnosis(
     added: FloatArray | float, *, model: AxisModel = USUAL, design: Design = DESIGN, seed: int = 2
-) -> Diagnosis:
+) -> AxisDiagnosis:
     readings = known(design) + realistic_noise(design, seed) + added
     return diagnose(model, observations(design, readings), INSTALLED)
 
 
 @cache
-def _hiding(effect: str) -> Diagnosis:
+def _hiding(effect: str) -> AxisDiagnosis:
     """Return the diagnosis of a test that hides an effect."""
     design = _LIVELY_AIR if effect in {"air-index", "dead-path"} else DESIGN
     return _diagnosis(hidden(design, effect, HIDDEN[effect], size=1.5), design=design)
@@ -105,7 +105,7 @@ def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -
 
 
 @cache
-def screw() -> Diagnosis:
+def screw() -> AxisDiagnosis:
     """Return the diagnosis of a test that hides the pitch of a screw."""
     return _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 

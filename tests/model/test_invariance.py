@@ -21,7 +21,7 @@ from model.axis_tests import (
 )
 from model.hidden_effect import study
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport_plugins.effects.polynomial import Polynomial
@@ -33,16 +33,16 @@ READINGS = known(DESIGN) + noise(DESIGN) + hidden(DESIGN, "screw-pitch", [0.01],
 
 def _diagnosis(
     added: FloatArray | float = 0.0, model: AxisModel = MODEL, effects: tuple[Effect, ...] = INSTALLED
-) -> Diagnosis:
+) -> AxisDiagnosis:
     return diagnose(model, observations(DESIGN, READINGS + added), effects)
 
 
 @cache
-def _usual() -> Diagnosis:
+def _usual() -> AxisDiagnosis:
     return _diagnosis()
 
 
-def _outcome(diagnosis: Diagnosis) -> tuple[object, ...]:
+def _outcome(diagnosis: AxisDiagnosis) -> tuple[object, ...]:
     """Return what a reader takes from a diagnosis."""
     return (
         diagnosis.verdict,
@@ -52,7 +52,7 @@ def _outcome(diagnosis: Diagnosis) -> tuple[object, ...]:
     )
 
 
-def _is_like(diagnosis: Diagnosis, usual: Diagnosis) -> None:
+def _is_like(diagnosis: AxisDiagnosis, usual: AxisDiagnosis) -> None:
     assert _outcome(diagnosis) == _outcome(usual)
     for one, other in zip(diagnosis.candidates, usual.candidates, strict=True):
         # What the model explains counts by a noise of known size, 0.2 % of it, beside the scatter.

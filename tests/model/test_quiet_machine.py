@@ -11,7 +11,7 @@ import pytest
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations, pendulum_test
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.repeats import find_resolution
@@ -22,11 +22,11 @@ _LINEAR, _PENDULUM = linear_test(11, 3), pendulum_test(11, 3)
 _MODEL = model_of("offset", "scale-error", "backlash")
 
 
-def _named(diagnosis: Diagnosis) -> tuple[DiagnosisVerdict, str]:
+def _named(diagnosis: AxisDiagnosis) -> tuple[DiagnosisVerdict, str]:
     return diagnosis.verdict, diagnosis.candidates[0].identifier
 
 
-def _diagnosed(design: Design, deviation: FloatArray) -> Diagnosis:
+def _diagnosed(design: Design, deviation: FloatArray) -> AxisDiagnosis:
     return diagnose(_MODEL, observations(design, deviation), INSTALLED)
 
 

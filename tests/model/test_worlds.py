@@ -19,13 +19,13 @@ from model.worlds import (
     with_night,
 )
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
 
 _DESIGN = linear_test(15, 4)
 
 
-def _said(diagnosis: Diagnosis) -> str:
+def _said(diagnosis: AxisDiagnosis) -> str:
     return write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from zlmreport.language import Words
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
     from zlmreport.model.diagnosis.faults import DataFault
     from zlmreport.plugin.registry import Registry
 
@@ -102,7 +102,7 @@ class JobResult:
     path: Path  #: The job file, as the user named it.
     job: Job | None = None  #: The checked job; None if it is wrong.
     evaluations: tuple[Evaluation, ...] = ()  #: By each of its standards.
-    diagnosis: Diagnosis | None = None  #: Of its error model; None where the job names none.
+    diagnosis: AxisDiagnosis | None = None  #: Of its error model; None where the job names none.
     doubts: tuple[Words, ...] = ()  #: Values that seem to be in another unit, in sentences.
     #: What the readings show that the job does not say, and what of calibrations is open.
     evidence: tuple[Words, ...] = ()

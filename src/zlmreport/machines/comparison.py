@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.design import join_side_by_side
-from zlmreport.machines.machine import Machine, TestPrediction, predict
+from zlmreport.machines.machine import MachineModel, TestPrediction, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import (
     Stretch,
@@ -87,7 +87,7 @@ class ComparedTest:
 
 
 def compare_circles(
-    machine: Machine,
+    machine: MachineModel,
     circles: Sequence[MeasuredCircle],
     registry: Registry,
     study: CircleStudy | None = None,
@@ -98,7 +98,7 @@ def compare_circles(
 
 
 def _compare_circle(
-    machine: Machine,
+    machine: MachineModel,
     measured: MeasuredCircle,
     index: int,
     registry: Registry,
@@ -159,7 +159,7 @@ def _compute_made_by_effects(
     return found
 
 
-def compare_line(machine: Machine, line: StraightTest) -> ComparedTest:
+def compare_line(machine: MachineModel, line: StraightTest) -> ComparedTest:
     """Return a line against its prediction."""
     prediction = predict(machine, line.course)
     left = line.deviation - prediction.values

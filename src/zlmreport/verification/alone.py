@@ -24,9 +24,9 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import find_stated_by, lay_out
 from zlmreport.verification.carrier import find_results_in, open_pdf, read_file
 from zlmreport.verification.findings import (
+    CheckedCertificate,
     CheckedStatement,
     Identity,
-    Verification,
     VerificationOutcome,
     VerificationVerdict,
 )
@@ -78,8 +78,8 @@ def format_of(content: bytes) -> str | None:
 
 
 def verify_alone(
-    path: Path, content: bytes, made_by: str, registry: Registry, verify: Callable[[Path], Verification]
-) -> Verification:
+    path: Path, content: bytes, made_by: str, registry: Registry, verify: Callable[[Path], CheckedCertificate]
+) -> CheckedCertificate:
     """Say of a file of a certificate what can be said.
 
     `made_by`: The format that makes such files.
@@ -90,7 +90,7 @@ def verify_alone(
     """
     digest = _find_digest(content) if made_by not in {"csv", "xlsx"} else ""
     beside = path.with_suffix(".pdf")
-    found = Verification(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
+    found = CheckedCertificate(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
     if not beside.is_file():
         told = [_BY_DIGEST.given(digest=digest)] if digest else []
         unknown = CheckedStatement(path.name, VerificationVerdict.OPEN, _NO_PDF.given(name=beside.name))
@@ -125,7 +125,7 @@ def _find_digest(content: bytes) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
-def _decide_verdict(found: Verification) -> VerificationVerdict:
+def _decide_verdict(found: CheckedCertificate) -> VerificationVerdict:
     return {
         VerificationOutcome.HOLDS: VerificationVerdict.HOLDS,
         VerificationOutcome.DOES_NOT_HOLD: VerificationVerdict.DIFFERS,
@@ -133,7 +133,7 @@ def _decide_verdict(found: Verification) -> VerificationVerdict:
     }[found.outcome]
 
 
-def _find_first(found: Verification) -> Words | str:
+def _find_first(found: CheckedCertificate) -> Words | str:
     """Return the first that does not hold of a certificate."""
     findings = (*found.files, *found.pages, *found.document)
     wanted = VerificationVerdict.DIFFERS if found.differences else VerificationVerdict.OPEN

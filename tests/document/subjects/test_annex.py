@@ -19,7 +19,7 @@ from zlmreport.document.subjects.annex import Modelled
 from zlmreport.document.writer import Writer
 from zlmreport.job.job import Job
 from zlmreport.language import Language, same
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -48,7 +48,7 @@ def text(of: Modelled, language: Language = Language.ENGLISH) -> str:
 
 def with_diagnosis(**changes: object) -> Modelled:
     """Return the example with parts of its diagnosis replaced."""
-    diagnosis: Diagnosis = replace(modelled().diagnosis, **changes)
+    diagnosis: AxisDiagnosis = replace(modelled().diagnosis, **changes)
     return replace(modelled(), diagnosis=diagnosis)
 
 

@@ -34,7 +34,7 @@ _AND = Words("{first}; {second}")
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class EffectCandidate:
     """An effect that the model may lack."""
 
     effect: Effect  #: In the form that fits best.
@@ -62,7 +62,7 @@ class Candidate:
         return self.effect.identifier
 
 
-def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
+def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[EffectCandidate]:
     """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
     seen: set[str] = set()
     for each in finding.named:
@@ -83,7 +83,7 @@ def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[C
 
 def _make_candidate(
     base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
-) -> Iterator[Candidate]:
+) -> Iterator[EffectCandidate]:
     """Yield an effect as a candidate, if the readings determine it beside the job's model."""
     try:
         after = fit_with_member(base, rival.member)
@@ -94,7 +94,7 @@ def _make_candidate(
     question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
     contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
     values = {each.parameter.name: each.value for each in estimates}
-    yield Candidate(
+    yield EffectCandidate(
         effect=rival.member.effect,
         p_value=rival.p_value.value,
         p_value_is_extrapolated=rival.p_value.is_extrapolated,

@@ -13,8 +13,8 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -60,7 +60,7 @@ _QUESTION = Words("{statement} {question}")
 
 
 def report(
-    diagnosis: Diagnosis,
+    diagnosis: AxisDiagnosis,
     language: Language = Language.ENGLISH,
     experiment: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
@@ -262,7 +262,7 @@ def _collect_failure(failure: Failure, language: Language) -> dict[str, Any]:
     }
 
 
-def _collect_candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
+def _collect_candidate(candidate: EffectCandidate, design: Design, language: Language) -> dict[str, Any]:
     after = report_error(candidate.error, design.axis)
     discriminate_by, remedy = candidate.discriminate_by, candidate.effect.remedy
     return {
@@ -296,7 +296,7 @@ def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
     }
 
 
-def write_verdict_statement(diagnosis: Diagnosis) -> Words:
+def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
     if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _ADEQUATE
@@ -323,7 +323,7 @@ def write_verdict_statement(diagnosis: Diagnosis) -> Words:
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
 
 
-def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
+def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> Words:
     """Return how far the effects that are missing explain the rest."""
     if diagnosis.leaves_noise:
         return _RESTS[is_many].given(missing=missing)
@@ -341,7 +341,7 @@ def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words
     return given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
-def _say_unexplained(diagnosis: Diagnosis) -> Words:
+def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     fault = next((each for each in diagnosis.faults if each.comes_first), None)
     if fault is None and diagnosis.remainder is None:
         fault = next(iter(diagnosis.faults), None)
@@ -352,12 +352,12 @@ def _say_unexplained(diagnosis: Diagnosis) -> Words:
     return _add_remainder(_SHAPE, diagnosis.remainder, diagnosis)
 
 
-def _add_remainder(words: Words, remainder: Remainder, diagnosis: Diagnosis) -> Words:
+def _add_remainder(words: Words, remainder: Remainder, diagnosis: AxisDiagnosis) -> Words:
     size = wording.deviation(diagnosis.fit.design.axis, remainder.rms)
     return words.given(shape=remainder.shape, where=remainder.where, size=size)
 
 
-def select_serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
+def select_serious_candidates(diagnosis: AxisDiagnosis) -> tuple[EffectCandidate, ...]:
     """Return the candidates that are worth a word: those of the set, their equals, what is not improbable."""
     named = {each.identifier for each in diagnosis.together}
     return tuple(

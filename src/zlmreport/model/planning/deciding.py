@@ -16,9 +16,9 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidate import Candidate
+from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
@@ -54,7 +54,7 @@ _OF_THE_FORM: Mapping[str, Mapping[str, str]] = {
 
 
 def plan_experiment_of_tie(
-    study: Study, diagnosis: Diagnosis, effects: Sequence[Effect], told: Told = tell_nobody
+    study: Study, diagnosis: AxisDiagnosis, effects: Sequence[Effect], told: Told = tell_nobody
 ) -> Experiment | None:
     """Return the experiment that tells the first candidate of a diagnosis from its equals; None without any.
 
@@ -64,7 +64,7 @@ def plan_experiment_of_tie(
     return None if question is None else _plan_of_study(study, diagnosis.fit, question, effects, told)
 
 
-def find_question_of_tie(diagnosis: Diagnosis) -> Question | None:
+def find_question_of_tie(diagnosis: AxisDiagnosis) -> Question | None:
     """Return which of the first candidate and its equals it is; None without any."""
     leading = diagnosis.candidates[0] if diagnosis.candidates else None
     if leading is None or not leading.equals:
@@ -126,7 +126,7 @@ def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
             raise InputError.at(PLACE, f"there is no effect {name[:60]!r}; {did_you_mean(name, list(known))}")
 
 
-def _fit_with(base: Fit, candidate: Candidate) -> Fit:
+def _fit_with(base: Fit, candidate: EffectCandidate) -> Fit:
     """Return the fit of a model with a candidate, where the diagnosis found it."""
     searched = [each.value for each in candidate.estimates if each.parameter in candidate.effect.searched]
     before = dict(zip(base.model.identifiers, base.solution.thetas, strict=True))
