@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import PurePath
@@ -14,6 +13,7 @@ import numpy as np
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
+from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidate import EffectCandidate
@@ -250,7 +250,7 @@ def write_deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
     """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``."""
     statement = experiment.statement.in_language(Language.ENGLISH)
     lines = [f"# {sentence.strip()}." for sentence in statement.rstrip(".").split(". ")]
-    return "\n".join([*lines, *_write_lines(make_deciding_job(experiment, job, extends), "")]) + "\n"
+    return "\n".join([*lines, *write_group(make_deciding_job(experiment, job, extends))]) + "\n"
 
 
 def make_deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, Any]:
@@ -312,13 +312,3 @@ def _make_source_keys(job: Job) -> dict[str, Any]:
         if key in stated:
             usual[key] = {name: value.get(name, name) for name in getattr(options, key)}
     return {"file": f"{number}-readings.csv", **usual}
-
-
-def _write_lines(keys: Mapping[str, Any], indent: str) -> Iterator[str]:
-    """Yield a group of keys as YAML; what is no group as JSON, which YAML contains."""
-    for key, value in keys.items():
-        if isinstance(value, Mapping) and value:
-            yield f"{indent}{key}:"
-            yield from _write_lines(value, f"{indent}  ")
-        else:
-            yield f"{indent}{key}: {json.dumps(value, ensure_ascii=False)}"

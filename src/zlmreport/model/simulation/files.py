@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.list_edits import write_in_a_line
 from zlmreport.job.simulation import CourseKeys, SimulatedNoiseKeys, SimulationFile
+from zlmreport.job.yaml_text import write_in_a_line
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
