@@ -92,7 +92,9 @@ def _estimate_growth(position: FloatArray, left: FloatArray, judged: BoolArray) 
     slope = float(away[judged] @ logarithms[judged]) / float(away[judged] @ away[judged])
     if abs(slope) * float(np.linalg.norm(away[judged])) < _GROWS * _OF_LOGARITHM:
         return np.ones(len(left))
-    bend = np.polynomial.Polynomial.fit(away[judged], logarithms[judged], 2)
+    # Two positions have no bend.
+    order = min(2, len(np.unique(away[judged])) - 1)
+    bend = np.polynomial.Polynomial.fit(away[judged], logarithms[judged], order)
     grown = np.exp(bend(away))
     return np.asarray(grown / grown[judged].mean(), dtype=np.float64)
 

@@ -193,7 +193,6 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
         damped = np.vstack([slopes / lengths, np.sqrt(damping) * np.eye(len(places))])
         aim = np.concatenate([best.residual, np.zeros(len(places))])
         step = np.linalg.lstsq(damped, aim, rcond=None)[0] / lengths
-        tried = best
         thetas = best.thetas
         for place, shift in zip(places, step * spacings, strict=True):
             thetas = place.move(thetas, float(shift))
