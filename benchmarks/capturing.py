@@ -26,7 +26,7 @@ from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene, Troub
 from zlmreport.live.ports.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.simulate import make_emulated_machine
 from zlmreport.plugin.registry import find_plugins
@@ -95,7 +95,7 @@ def _decoded(make: Callable[[], Decoder], sent: bytes) -> int:
 
 def _latency(runs: int) -> Iterator[Measured]:
     """Yield how soon after the dwell of an axis its reading is on the disk, in real time."""
-    plan = Plan(np.linspace(0.0, 0.04, 5), runs=runs, overrun=4e-3, feed=0.1, dwell=0.4)
+    plan = AxisPlan(np.linspace(0.0, 0.04, 5), runs=runs, overrun=4e-3, feed=0.1, dwell=0.4)
     machine = make_emulated_machine(Description(Axis("X", travel=(0.0, 0.04)), plan, seed=1), 2.0)
     settings = Settings(1e-3, 1e-6, 0.2, 0.04, 0.4)
     instrument = find_plugins().instrument("umd1")

@@ -29,7 +29,7 @@ from zlmreport.model.compensation.making import Made, make
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import make_observations_of
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import simulate
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -86,7 +86,7 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
         position=float(random.choice([0.0, 0.5, 2.0])) * _UM,
         run=float(random.choice([0.0, 0.5])) * _UM,
     )
-    plan = Plan(read_only_floats(targets), runs=int(random.choice([3, 5, 5, 8])))
+    plan = AxisPlan(read_only_floats(targets), runs=int(random.choice([3, 5, 5, 8])))
     return Description(Axis("X"), plan, int(random.integers(1 << 30)), tuple(terms), noise=noise)
 
 

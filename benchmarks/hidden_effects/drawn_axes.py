@@ -13,7 +13,7 @@ import numpy as np
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.measurement.units import ZERO_CELSIUS
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.targets import compute_target_positions
 from zlmreport.model.simulation.description import ConditionCourse, Description
 
@@ -48,7 +48,7 @@ def drawn_linear_test(
         compensation_table=_smooth_table(random, travel, 5e-6),
         angular_errors=_smooth_table(random, travel, 20e-6),
     )
-    plan = Plan(
+    plan = AxisPlan(
         compute_target_positions(travel, targets, pitch, random),
         method,
         runs,
@@ -76,7 +76,7 @@ def drawn_rotary_test(
     travel = (0.0, 2 * math.pi)
     pitch = travel[1] / int(random.integers(36, 181))
     axis = Axis("C", AxisKind.ROTARY, travel, screw_pitch=pitch, signal_period=travel[1] / 18_000)
-    plan = Plan(
+    plan = AxisPlan(
         compute_target_positions(travel, targets, pitch, random),
         method,
         runs,

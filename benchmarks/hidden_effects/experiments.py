@@ -20,14 +20,14 @@ from hidden_effects.records import Record
 from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
 from zlmreport.model.planning.deciding import find_question_of_tie
 from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
-from zlmreport.model.planning.plan import ExpectedTest, Plan
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest
 from zlmreport.model.simulation.description import SimulatedNoise, sample_noise_of
 
 #: Targets and runs of tests that leave ties.
@@ -65,7 +65,11 @@ def judged(case: Case) -> Record:
         return named(case) | {"outcome": "refused", "message": str(error)}
     diagnosed = time.process_time()
     question = find_question_of_tie(first)
-    if question is None or first.verdict is not Verdict.MISSING or case.hidden[0] not in question.names:
+    if (
+        question is None
+        or first.verdict is not DiagnosisVerdict.MISSING
+        or case.hidden[0] not in question.names
+    ):
         return named(case) | {"outcome": "no tie with the truth in it"}
     rise = float(np.ptp(first.fit.design.conditions["axis_temperature"]))
     expected = ExpectedTest(question.sigma, rise)
@@ -79,7 +83,7 @@ def judged(case: Case) -> Record:
     return found | {"followed": _followed(trial, advice, advice.plan, design)}
 
 
-def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) -> dict[str, Any]:
+def _followed(trial: Trial, advice: Experiment, plan: AxisPlan, expected: Design) -> dict[str, Any]:
     """Return what the diagnosis of the advised test says; `expected` is its design."""
     design = wandering(expected, np.random.default_rng([trial.description.seed, 3]))
     # What the job's model describes is in the advised test as it is in every test.
@@ -95,7 +99,7 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
         said = diagnose(add_zeros(trial.model, observed.design), observed, INSTALLED)
     except ModelError as error:
         return {"decision": "refused", "message": str(error)}
-    leading = said.candidates[:1] if said.verdict is Verdict.MISSING else ()
+    leading = said.candidates[:1] if said.verdict is DiagnosisVerdict.MISSING else ()
     names = {name for each in leading for name in (each.identifier, *each.equals)}
     left = names.intersection(advice.effects)
     truth = trial.case.hidden[0]
@@ -103,7 +107,7 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
     return {"decision": decision, "verdict": said.verdict, "names": sorted(names)}
 
 
-def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray) -> Measured:
+def _measured_again(trial: Trial, plan: AxisPlan, design: Design, known: FloatArray) -> Measured:
     """Return the readings of the advised test; what is irregular along the axis stays where it was."""
     first = trial.description
     noise, seed = first.noise, first.seed + 1

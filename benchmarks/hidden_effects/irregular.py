@@ -18,7 +18,7 @@ from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.judge import INSTALLED
 from hidden_effects.trial import EFFECTS, measured
 from zlmreport.measurement.units import MICROMETRE
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.planning.methods import Method
@@ -33,7 +33,7 @@ _ROTARY_SHARE = 0.2
 _SEED = 20_261_129
 
 
-def diagnose_drawn_axis(number: int, targets: int) -> Diagnosis:
+def diagnose_drawn_axis(number: int, targets: int) -> AxisDiagnosis:
     """Return the diagnosis of an axis; the same number gives the same."""
     random = np.random.default_rng([_SEED, number, targets])
     draw = drawn_rotary_test if random.random() < _ROTARY_SHARE else drawn_linear_test
@@ -69,7 +69,14 @@ def main(arguments: Sequence[str]) -> None:
         cells = (
             targets,
             asked.axes,
-            *(verdicts[each] for each in (Verdict.UNEXPLAINED, Verdict.ADEQUATE, Verdict.MISSING)),
+            *(
+                verdicts[each]
+                for each in (
+                    DiagnosisVerdict.UNEXPLAINED,
+                    DiagnosisVerdict.ADEQUATE,
+                    DiagnosisVerdict.MISSING,
+                )
+            ),
             "; ".join(filter(None, names)) or "–",
         )
         print("|", " | ".join(map(str, cells)), "|", flush=True)

@@ -10,7 +10,7 @@ from hidden_effects import generic, prediction
 from hidden_effects.cases import Case, Kind
 from hidden_effects.trial import EFFECTS, Trial, drawn_trial
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.fitting.observations import Observations, make_observations_of
 
@@ -71,7 +71,7 @@ def named(case: Case) -> dict[str, Any]:
     }
 
 
-def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
+def _said(diagnosis: AxisDiagnosis) -> Mapping[str, Any]:
     """Return what a diagnosis says, as far as it is judged."""
     return {
         "verdict": diagnosis.verdict,
@@ -93,11 +93,11 @@ def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
     }
 
 
-def _added(trial: Trial, observed: Observations, diagnosis: Diagnosis) -> list[list[str]]:
+def _added(trial: Trial, observed: Observations, diagnosis: AxisDiagnosis) -> list[list[str]]:
     """Return what a user adds who believes every first candidate: its name and its equals."""
     model: AxisModel = trial.model
     added = []
-    while diagnosis.verdict is Verdict.MISSING and len(added) < _MOST_ADDED:
+    while diagnosis.verdict is DiagnosisVerdict.MISSING and len(added) < _MOST_ADDED:
         first = diagnosis.candidates[0]
         added.append([first.identifier, *first.equals])
         model = model.with_effect(first.effect)

@@ -23,7 +23,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import ARCSECOND, MICROMETRE
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -126,7 +126,7 @@ def build_model(fault: Fault, seed: int, sigma: float = _SIGMA, *, is_rotary: bo
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
     observed = make_observations_of(readings, overrun=description.plan.overrun)
 
-    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
         return diagnose(model, observed, INSTALLED, may_go=may_go, told=told)
 
     started = time.process_time()

@@ -14,14 +14,14 @@ from dataclasses import replace
 import numpy as np
 
 from hidden_effects.trial import Measured, Trial
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import Observations, make_observations_of
 
 
-def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
+def errors(trial: Trial, diagnosis: AxisDiagnosis) -> dict[str, float]:
     """Return the errors on a second test over σ: ``before``, ``after``, and the ``oracle``'s.
 
     A user adds the first candidate where the verdict is that an effect is missing, and nothing otherwise.
@@ -37,7 +37,7 @@ def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
 
     truth = trial.effects[0].effect
     found = {"before": before, "oracle": after(truth)}
-    added = diagnosis.candidates[0].effect if diagnosis.verdict is Verdict.MISSING else None
+    added = diagnosis.candidates[0].effect if diagnosis.verdict is DiagnosisVerdict.MISSING else None
     if added is None:
         return found | {"after": before}
     if (added.identifier, added.settings) == (truth.identifier, truth.settings):

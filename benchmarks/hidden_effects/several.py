@@ -33,7 +33,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -211,9 +211,9 @@ def _tells_stranger(
 def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
-    verdicts: list[Verdict] = []
+    verdicts: list[DiagnosisVerdict] = []
 
-    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
@@ -225,7 +225,7 @@ def followed(drawn: Drawn) -> Outcome:
     equals = {each.identifier: frozenset(each.equals) for each in built.steps if not each.is_removed}
     left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
     is_placed = remainder is not None and is_where_told(remainder, drawn)
-    is_unexplained = Verdict.UNEXPLAINED in verdicts
+    is_unexplained = DiagnosisVerdict.UNEXPLAINED in verdicts
     return Outcome(drawn, names, equals, left, remainder is not None, is_placed, is_unexplained, max(seconds))
 
 

@@ -26,7 +26,14 @@ from zlmreport.plugin import (
     TextLine,
     counted,
 )
-from zlmreport.plugin.extension import FileFormat, JobInstrument, JobKeys, KeysFile, read_keys_file
+from zlmreport.plugin.extension import (
+    FileFormat,
+    JobInstrument,
+    JobKeys,
+    KeysFile,
+    is_named_as_yaml,
+    read_keys_file,
+)
 from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 from zlmreport_step_gauge.keys import Temperature
@@ -41,10 +48,6 @@ _SIDES = {"front": Side.FRONT, "back": Side.BACK}
 _REFERENCE_CELSIUS = 20.0
 #: Of the distance between neighbouring faces: a calibrated face lies no farther from its nominal place.
 _MOST_OF_A_STEP = 0.1
-
-
-#: Names of files that hold all facts; any other is a table of the faces.
-_SUFFIXES = frozenset({".yaml", ".yml"})
 
 
 class FaceKeys(JobPart):
@@ -124,7 +127,7 @@ def read_calibration(path: Path) -> CalibratedGauge:
     order, a face that is missing or stands on the wrong side, distances that do not rise or lie far from
     their nominal place.
     """
-    if not _is_file_of_keys(path):
+    if not is_named_as_yaml(path):
         return _read_table(path)
     file = read_keys_file(path, StepGaugeFileKeys, FORMAT)
     keys = file.keys
@@ -299,11 +302,6 @@ def _find_unlike_a_gauge(listed: Sequence[_Listed]) -> Iterator[Problem]:
             )
 
 
-def _is_file_of_keys(path: Path) -> bool:
-    """Whether a calibration is a file of keys, and no bare table of faces."""
-    return path.suffix.lower() in _SUFFIXES
-
-
 def name_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
     """Return the keys of a job whose step gauge is its measuring instrument, unless it names another.
 
@@ -312,7 +310,7 @@ def name_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
 
     Raises `InputError` with every mistake of the calibration file; `AccessError` if it cannot be read.
     """
-    if keys.instrument or not _is_file_of_keys(calibration):
+    if keys.instrument or not is_named_as_yaml(calibration):
         return keys
     gauge = read_keys_file(calibration, StepGaugeFileKeys, FORMAT).keys
     instrument = JobInstrument(

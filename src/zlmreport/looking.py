@@ -10,7 +10,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
-from zlmreport.job.list_edits import write_in_a_line
+from zlmreport.job.yaml_text import write_in_a_line
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurand import CIRCLE, list_measurands_of
 from zlmreport.measurement.measurement_set import MeasurementSet, join_lines

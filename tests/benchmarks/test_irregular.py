@@ -5,14 +5,14 @@ from __future__ import annotations
 import pytest
 
 from hidden_effects.irregular import diagnose_drawn_axis, main
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 
 
 def test_a_drawn_axis_is_off_by_far_more_than_its_readings_scatter() -> None:
     found = diagnose_drawn_axis(2000, 7)
     assert found.error.noise_rms is not None
     assert found.error.rms > 2 * found.error.noise_rms
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
 
 
 def test_of_each_number_of_targets_it_is_told_how_many_were_named(capsys: pytest.CaptureFixture[str]) -> None:

@@ -151,6 +151,34 @@ def test_a_step_that_is_pointed_at_is_seen_before_and_after(address: str, window
     expect(page.locator(".ghost")).to_have_count(0)
 
 
+def test_a_preview_that_was_not_to_be_had_is_asked_for_again(address: str, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    page.route("**/api/step?*", lambda route: route.fulfill(status=404, body="not now"))
+    with page.expect_response("**/api/step?*"):
+        page.get_by_role("button", name="+ backlash").focus()
+    page.get_by_role("button", name="+ backlash").blur()
+    page.unroute("**/api/step?*")
+    page.get_by_role("button", name="+ backlash").focus()
+    expect(page.locator(".plot").first.locator(".curve.ghost")).to_have_count(2)
+
+
+def test_a_click_that_went_wrong_keeps_none_after_it_from_being_done(address: str, window: Window) -> None:
+    page = window(address)
+    page.evaluate("addEventListener('unhandledrejection', (event) => event.preventDefault())")
+    diagnosed(page, "missing")
+    page.route(
+        "**/api/change",
+        lambda route: route.fulfill(json={**route.fetch().json(), "graphs": None}),
+        times=1,
+    )
+    with page.expect_response("**/api/change"):
+        page.get_by_role("button", name="Add screw-pitch to the model").click()
+    with page.expect_response("**/api/change"):
+        page.keyboard.press("Control+z")
+    diagnosed(page, "missing")
+
+
 def test_steps_are_taken_back_and_again_by_keys_with_the_diagnosis_at_once(
     address: str, job: Path, window: Window
 ) -> None:

@@ -186,6 +186,13 @@ def test_what_makes_no_document_is_told_with_its_place(shop: Shop, old: str, new
     assert "Traceback" not in run.messages
 
 
+def test_a_serial_number_in_capitals_is_the_same_machine(shop: Shop) -> None:
+    alone = whole().replace("parts/yaw.yaml, square.yaml", "parts/yaw.yaml").replace("00123", "VM-7A")
+    shop.write("positioning.yaml", POSITIONING.replace("00123", "vm-7a"))
+    run = shop.run("check", str(shop.write("whole.yaml", alone)))
+    assert run.code == 0, run.messages
+
+
 @pytest.mark.parametrize("command", [("plan",), ("model", "diagnose"), ("capture",)])
 def test_commands_of_one_measurement_ask_for_one(shop: Shop, command: tuple[str, ...]) -> None:
     run = shop.run(*command, str(shop.write("whole.yaml", whole())))

@@ -11,16 +11,16 @@ from model.axis_tests import INSTALLED, model_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.fitting.observations import make_observations_of
 
 _DATA = Path(__file__).parents[1] / "data" / "published"
 VERDICTS = {
-    "ecmc_13e6c326": Verdict.MISSING,
-    "ecmc_0657b0d4": Verdict.UNEXPLAINED,
-    "ecmc_1139bca6": Verdict.UNEXPLAINED,
-    "ecmc_2845f959": Verdict.UNEXPLAINED,
-    "ecmc_59b90437": Verdict.UNEXPLAINED,
+    "ecmc_13e6c326": DiagnosisVerdict.MISSING,
+    "ecmc_0657b0d4": DiagnosisVerdict.UNEXPLAINED,
+    "ecmc_1139bca6": DiagnosisVerdict.UNEXPLAINED,
+    "ecmc_2845f959": DiagnosisVerdict.UNEXPLAINED,
+    "ecmc_59b90437": DiagnosisVerdict.UNEXPLAINED,
 }
 
 
@@ -37,7 +37,7 @@ def _exchanged(rows: list[tuple[float, int, int, float]]) -> list[tuple[float, i
     return sorted(turned, key=lambda row: (row[2], -row[1], row[1] * row[0]))
 
 
-def _diagnosis(rows: list[tuple[float, int, int, float]]) -> Diagnosis:
+def _diagnosis(rows: list[tuple[float, int, int, float]]) -> AxisDiagnosis:
     target, direction, run, deviation = (np.array(column) for column in zip(*rows, strict=True))
     positions, index = np.unique(target, return_inverse=True)
     measurements = MeasurementSet(

@@ -49,6 +49,7 @@ def test_certificates_whose_number_no_job_has_are_named(
     job = fleet.parent / "x.yaml"
     job.write_text(job.read_text(encoding="utf-8").replace("R-1", "R-2"), encoding="utf-8")
     (fleet.parent / "certificates/note.json").write_text("{}", encoding="utf-8")
+    (fleet.parent / "certificates/list.json").write_text("[]", encoding="utf-8")
     assert main(["fleet", "rebuild", str(fleet)]) == 4
     (said,) = capsys.readouterr().err.splitlines()
     assert "no job has the number R-1; it is not in the ledger" in said

@@ -9,14 +9,14 @@ import numpy as np
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import Chain, ErrorLine
-from zlmreport.machines.machine import Machine, list_missing_errors
+from zlmreport.machines.machine import MachineModel, list_missing_errors
 from zlmreport.measurement.circle import NominalCircle
 
 MICRO = 1e-6
 
 
 def bare_machine(curves=(), letters="XYFZ", tool=(0.0, 0.0, 0.0)):
-    return Machine(
+    return MachineModel(
         Chain(letters), tool, tuple(curves), list_missing_errors({each.name: each for each in curves}, {})
     )
 

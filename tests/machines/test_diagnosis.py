@@ -22,7 +22,7 @@ from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.contest import make_nameless_curves
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()
@@ -54,7 +54,7 @@ CAUSES = {
 def test_a_hidden_cause_is_named_and_measured(name, plane):
     move, parameter, value = CAUSES[name]
     found = diagnosed(circle(move, seed=3, plane=plane))
-    assert found.verdict is Verdict.MISSING
+    assert found.verdict is DiagnosisVerdict.MISSING
     assert found.found == (name,)
     axes = dict(zip("XYZ", plane + "?", strict=True))
     square = {"XY": ("C0Y", 1), "YZ": ("A0Z", 1), "ZX": ("B0Z", -1)}[plane]
@@ -77,7 +77,9 @@ def test_a_hidden_cause_is_named_and_measured(name, plane):
 
 @pytest.mark.long
 def test_a_healthy_machine_raises_few_alarms():
-    alarms = sum(diagnosed(circle(nothing, seed=seed)).verdict is not Verdict.ADEQUATE for seed in range(8))
+    alarms = sum(
+        diagnosed(circle(nothing, seed=seed)).verdict is not DiagnosisVerdict.ADEQUATE for seed in range(8)
+    )
     assert alarms <= 2
 
 
@@ -91,7 +93,7 @@ def test_two_causes_are_found_beside_each_other():
 def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     found = diagnosed(circle(out_of_square(20 * MICRO), seed=2, senses=(1,)))
     values = collect_diagnosis(found, (), ())
-    assert found.verdict is Verdict.MISSING
+    assert found.verdict is DiagnosisVerdict.MISSING
     assert found.found == ()
     first = values["candidates"][0]
     assert {first["effect"], *first["indistinguishable_from"]} >= {"squareness", "servo-mismatch"}
@@ -113,7 +115,7 @@ def test_what_tied_effects_do_is_no_noise(senses):
 def test_five_lobes_are_nobodys(seed):
     plain = circle(nothing, seed=seed)
     found = diagnosed(with_deviation(plain, 1.5 * MICRO * np.cos(5 * plain.angle + seed)))
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.found == ()
     assert found.remainder is not None
 
@@ -125,7 +127,7 @@ def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name(
     effects = [REGISTRY.circle_effect(name) for name in (*BASE, "squareness")]
     study = study_circles(bare_machine(), [with_deviation(seen, 3 * MICRO * bump)], effects)
     found = diagnose(study, [REGISTRY.circle_effect(name) for name in ("scale-mismatch", "servo-mismatch")])
-    assert (found.verdict, found.found) == (Verdict.UNEXPLAINED, ())
+    assert (found.verdict, found.found) == (DiagnosisVerdict.UNEXPLAINED, ())
     bare, held = (each.list_estimates_of("squareness")[0] for each in (study, found.complete))
     assert held.expanded_uncertainty > 1.3 * bare.expanded_uncertainty
     assert found.study is found.complete
@@ -179,7 +181,7 @@ def test_the_axes_uncertainty_is_no_missing_effect():
     ]
     seen = circle(unequal_scales(9 * MICRO, -6 * MICRO), seed=3)
     assert diagnosed(seen, machine=bare_machine(curves)).found == ("scale-mismatch",)
-    assert diagnosed(seen, machine=bare_machine(unsure)).verdict is Verdict.ADEQUATE
+    assert diagnosed(seen, machine=bare_machine(unsure)).verdict is DiagnosisVerdict.ADEQUATE
 
 
 def test_two_feeds_tell_cross_talk_from_squareness():
@@ -228,7 +230,7 @@ def test_lags_that_do_not_close_over_three_planes_are_nobodys():
         for index, plane in enumerate(("XY", "YZ", "ZX"))
     ]
     found = diagnosed(*circles)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.found == ()
 
 
@@ -255,7 +257,7 @@ def test_the_evidence_of_what_is_exactly_explained_is_finite(size):
     assert all(np.isfinite(each.evidence) for each in found.candidates)
     assert np.isfinite(found.noise)
     assert all(np.isfinite(each.probability) for each in found.candidates)
-    assert (found.verdict is Verdict.ADEQUATE) == (size == 0.0)
+    assert (found.verdict is DiagnosisVerdict.ADEQUATE) == (size == 0.0)
     if size == 12e-6:
         assert "squareness" in {
             found.candidates[0].effect.identifier,

@@ -121,3 +121,10 @@ def test_a_format_of_what_a_job_measured_is_refused(name, folder, capsys):
     assert main(["machine", "certificate", str(path), "--format", f"json,{name}", "-o", str(folder)]) == 2
     assert f"--format: {name} states what a job measured" in capsys.readouterr().err
     assert set(folder.iterdir()) == before
+
+
+@pytest.mark.long
+def test_effects_have_their_titles_in_the_language_of_the_page(folder):
+    said = " ".join(text(made(folder, language="de")).split())
+    assert "servo-mismatch: Unterschied der Schleppabstände" in said
+    assert said.count("servo-mismatch Unterschied der Schleppabstände") == 2

@@ -10,7 +10,7 @@ from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -59,5 +59,5 @@ def example_history() -> tuple[Fitted, ...]:
 
 
 @cache
-def example_diagnosis() -> Diagnosis:
+def example_diagnosis() -> AxisDiagnosis:
     return example().diagnose(registry().effects)

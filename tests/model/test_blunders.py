@@ -45,6 +45,12 @@ def test_good_readings_at_the_noisy_end_are_kept() -> None:
     assert sum(flagged) <= 3  # of 2100 normal readings
 
 
+def test_scatter_that_grows_between_two_targets_is_a_line_without_a_bend() -> None:
+    design = linear_test(2, 8)
+    readings = (1.0 + 200.0 * (design.position > design.middle)) * noise(design)
+    assert not len(find_outliers(design, readings).readings)
+
+
 def test_a_blunder_at_the_quiet_end_is_found_where_the_other_scatters_more() -> None:
     readings = (1.0 + 8.0 * DESIGN.position) * noise(DESIGN)
     quiet = int(np.argmin(DESIGN.position))

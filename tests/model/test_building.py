@@ -8,7 +8,7 @@ from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observ
 from model.hidden_effect import example_diagnosis
 from zlmreport.model.diagnosis.building import build, name_steps
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.finding import find
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
@@ -21,11 +21,11 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
         [
             replace(example, together=(EFFECTS["scale-kink"],), candidates=(first,)),
             replace(example, together=(EFFECTS["first-run"],), candidates=()),
-            replace(example, together=(), verdict=Verdict.ADEQUATE),
+            replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE),
         ]
     )
 
-    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
         return replace(next(said), fit=fit(model, example.fit.design, example.fit.deviation))
 
     found = build(model_of("offset"), diagnosing)
@@ -37,7 +37,7 @@ def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None
     example = example_diagnosis()
     asked: list[tuple[str, ...]] = []
 
-    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
         asked.append(model.identifiers)
         fitted = fit(model, example.fit.design, example.fit.deviation)
         has_kink = "scale-kink" in model.identifiers
@@ -63,11 +63,11 @@ def test_what_stands_in_a_model_does_not_give_way_to_what_is_no_better() -> None
 def test_what_is_much_like_a_makeshift_comes_in_once_that_is_out() -> None:
     example, asked = example_diagnosis(), list[tuple[str, ...]]()
 
-    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
         asked.append(model.identifiers)
         fitted = fit(model, example.fit.design, example.fit.deviation)
         if "scale-error" in model.identifiers:
-            return replace(example, fit=fitted, together=(), verdict=Verdict.ADEQUATE)
+            return replace(example, fit=fitted, together=(), verdict=DiagnosisVerdict.ADEQUATE)
         return replace(
             example,
             fit=fitted,

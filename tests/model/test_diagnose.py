@@ -27,7 +27,7 @@ from model.axis_tests import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
@@ -68,13 +68,13 @@ HIDDEN = {
 
 def _diagnosis(
     added: FloatArray | float, *, model: AxisModel = USUAL, design: Design = DESIGN, seed: int = 2
-) -> Diagnosis:
+) -> AxisDiagnosis:
     readings = known(design) + realistic_noise(design, seed) + added
     return diagnose(model, observations(design, readings), INSTALLED)
 
 
 @cache
-def _hiding(effect: str) -> Diagnosis:
+def _hiding(effect: str) -> AxisDiagnosis:
     """Return the diagnosis of a test that hides an effect."""
     design = _LIVELY_AIR if effect in {"air-index", "dead-path"} else DESIGN
     return _diagnosis(hidden(design, effect, HIDDEN[effect], size=1.5), design=design)
@@ -84,7 +84,7 @@ def _hiding(effect: str) -> Diagnosis:
 @pytest.mark.parametrize("effect", HIDDEN)
 def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None:
     found = _hiding(effect)
-    assert found.verdict is Verdict.MISSING
+    assert found.verdict is DiagnosisVerdict.MISSING
     assert effect in {found.candidates[0].identifier, *found.candidates[0].equals}
 
 
@@ -100,12 +100,12 @@ def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -
         )
     )
     given = _diagnosis(0.0, model=model)
-    assert given.verdict is free.verdict is Verdict.ADEQUATE
+    assert given.verdict is free.verdict is DiagnosisVerdict.ADEQUATE
     assert given.fit.noise.sigma == pytest.approx(free.fit.noise.sigma, rel=0.05)
 
 
 @cache
-def screw() -> Diagnosis:
+def screw() -> AxisDiagnosis:
     """Return the diagnosis of a test that hides the pitch of a screw."""
     return _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 
@@ -141,9 +141,9 @@ def test_candidates_come_best_first_with_probabilities_of_one_whole() -> None:
 def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -> None:
     found = [_diagnosis(0.0, seed=seed) for seed in range(10)]
     # Each is a false alarm with 5 %: of ten, three or more are with 1 %.
-    assert [each.verdict for each in found].count(Verdict.ADEQUATE) >= 8
+    assert [each.verdict for each in found].count(DiagnosisVerdict.ADEQUATE) >= 8
     quiet = found[2]
-    assert (quiet.verdict, quiet.candidates, quiet.together) == (Verdict.ADEQUATE, (), ())
+    assert (quiet.verdict, quiet.candidates, quiet.together) == (DiagnosisVerdict.ADEQUATE, (), ())
     assert quiet.remainder is None
 
 
@@ -166,7 +166,7 @@ def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
         np.where((place > 0.3) & (place < 0.55), 1.0, 0.0) * DESIGN.direction * np.sin(DESIGN.time / 200.0)
     )
     found = _diagnosis(6e-6 * shape)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.remainder is not None
     assert found.remainder.rms > 0.5 * SIGMA
 
@@ -174,7 +174,7 @@ def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
 def test_what_is_left_without_a_name_is_described_by_its_shape() -> None:
     smooth = np.exp(-0.5 * ((DESIGN.time / DESIGN.duration - 0.6) / 0.06) ** 2)
     found = _diagnosis(5e-6 * smooth)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.remainder is not None
     assert "in time" in found.remainder.shape.in_language(Language.ENGLISH)
     assert found.remainder.low < 0.6 * DESIGN.duration < found.remainder.high
@@ -186,13 +186,13 @@ def test_two_missing_effects_are_found_together_and_one_after_another() -> None:
         DESIGN, "thermal-drift", [300.0], size=1.5
     )
     first = _diagnosis(both)
-    assert first.verdict is Verdict.MISSING
+    assert first.verdict is DiagnosisVerdict.MISSING
     assert {each.identifier for each in first.together} == {"screw-pitch", "thermal-drift"}
     second = _diagnosis(both, model=USUAL.with_effect(first.together[0]))
-    assert second.verdict is Verdict.MISSING
+    assert second.verdict is DiagnosisVerdict.MISSING
     assert [each.identifier for each in second.together] == list(first.further)
     third = _diagnosis(both, model=second.fit.model.with_effect(second.together[0]))
-    assert third.verdict is Verdict.ADEQUATE
+    assert third.verdict is DiagnosisVerdict.ADEQUATE
 
 
 def test_effects_with_the_same_columns_are_named_together_with_what_tells_them_apart() -> None:
@@ -240,7 +240,7 @@ def test_readings_that_stand_off_one_after_another_are_not_set_aside() -> None:
     block[60:66] = 9e-6
     found = _diagnosis(block)
     assert not set(found.outliers.tolist()) & set(range(60, 66))
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
 
 
 @pytest.mark.long
@@ -293,7 +293,7 @@ def test_too_few_readings_are_refused_with_what_would_do() -> None:
 
 def test_readings_without_any_scatter_are_diagnosed() -> None:
     found = diagnose(model_of("offset"), observations(DESIGN, np.zeros(len(DESIGN.position))), INSTALLED)
-    assert found.verdict is Verdict.ADEQUATE
+    assert found.verdict is DiagnosisVerdict.ADEQUATE
 
 
 class TestReport:
@@ -405,7 +405,7 @@ def test_what_is_left_beside_a_bow_is_told_and_is_no_larger_than_what_the_whole_
 def test_a_set_that_the_readings_do_not_determine_is_not_adequate(monkeypatch: pytest.MonkeyPatch) -> None:
     # So small that χ² alone would let it pass.
     readings = known(DESIGN) + hidden(DESIGN, "scale-kink", [0.6], size=0.5) + noise(DESIGN)
-    assert diagnose(USUAL, observations(DESIGN, readings), INSTALLED).verdict is Verdict.MISSING
+    assert diagnose(USUAL, observations(DESIGN, readings), INSTALLED).verdict is DiagnosisVerdict.MISSING
 
     def refuse(*_: object) -> None:
         raise ModelError(["the readings do not determine it"])
@@ -414,7 +414,7 @@ def test_a_set_that_the_readings_do_not_determine_is_not_adequate(monkeypatch: p
         monkeypatch.setattr(f"zlmreport.model.diagnosis.{module}.fit_with_member", refuse)
     found = diagnose(USUAL, observations(DESIGN, readings), INSTALLED)
     assert found.together == ()
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
 
 
 def test_a_first_run_that_is_in_the_model_is_no_noise() -> None:

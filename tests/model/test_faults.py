@@ -10,7 +10,7 @@ import pytest
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
     find_gaps,
@@ -58,7 +58,7 @@ def test_order_of_the_rows_shows_swapped_directions() -> None:
 
 def test_swapped_directions_are_a_fault_and_no_cause() -> None:
     found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.candidates == ()
     (fault,) = report(found)["faults"]
     assert (fault["fault"], fault["run"], fault["probability"]) == ("swapped-direction", 3, 1.0)
@@ -222,7 +222,7 @@ def test_a_run_that_stands_off_from_all_others_is_no_noise() -> None:
     sigma = 0.7e-6
     deviation = noise(design, sigma=sigma) + 2 * sigma * (design.run == 3)
     found = diagnose(_MODEL, observations(design, deviation), INSTALLED)
-    assert found.verdict is not Verdict.ADEQUATE
+    assert found.verdict is not DiagnosisVerdict.ADEQUATE
     (displaced,) = found.together
     assert displaced.identifier == "run-displaced"
     values = {each.parameter.name: each.value for each in found.candidates[0].estimates}

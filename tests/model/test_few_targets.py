@@ -7,7 +7,7 @@ import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.design import Design
 
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -20,7 +20,7 @@ def _draw_geometry(design: Design, seed: int, size: float) -> FloatArray:
     return np.asarray(errors[np.searchsorted(targets, design.position)])
 
 
-def _diagnose(design: Design, deviation: FloatArray) -> Diagnosis:
+def _diagnose(design: Design, deviation: FloatArray) -> AxisDiagnosis:
     return diagnose(_MODEL, observations(design, deviation), INSTALLED)
 
 
@@ -29,7 +29,7 @@ def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targe
     design = linear_test(targets, 5, seed=seed)
     deviation = _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50)
     found = _diagnose(design, deviation)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.remainder is not None
     assert found.remainder.shape.en.startswith("irregular from position to position")
 
@@ -40,7 +40,7 @@ def test_what_would_not_lower_the_error_beside_a_large_remainder_is_not_named(se
     wave = 1e-6 * np.sin(2 * np.pi * design.time / (0.37 * np.ptp(design.time)) + 1)
     deviation = _draw_geometry(design, seed, 25 * SIGMA) + wave + noise(design, seed=seed + 50)
     found = _diagnose(design, deviation)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert not found.together
     # It is there, and told as what may be.
     assert found.candidates[0].identifier == "time-periodic"

@@ -22,8 +22,8 @@ from model.axis_tests import (
 )
 from model.hidden_effect import study
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.finding import MENTION
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
@@ -36,16 +36,16 @@ READINGS = known(DESIGN) + noise(DESIGN) + hidden(DESIGN, "screw-pitch", [0.01],
 
 def _diagnosis(
     added: FloatArray | float = 0.0, model: AxisModel = MODEL, effects: tuple[Effect, ...] = INSTALLED
-) -> Diagnosis:
+) -> AxisDiagnosis:
     return diagnose(model, observations(DESIGN, READINGS + added), effects)
 
 
 @cache
-def _usual() -> Diagnosis:
+def _usual() -> AxisDiagnosis:
     return _diagnosis()
 
 
-def _outcome(diagnosis: Diagnosis) -> tuple[object, ...]:
+def _outcome(diagnosis: AxisDiagnosis) -> tuple[object, ...]:
     """Return what a reader takes from a diagnosis."""
     return (
         diagnosis.verdict,
@@ -55,12 +55,12 @@ def _outcome(diagnosis: Diagnosis) -> tuple[object, ...]:
     )
 
 
-def _compute_odds(candidate: Candidate) -> float:
+def _compute_odds(candidate: EffectCandidate) -> float:
     """Return 2·ln of the odds for a candidate."""
     return 2 * math.log(candidate.probability / (1 - candidate.probability))
 
 
-def _is_like(diagnosis: Diagnosis, usual: Diagnosis) -> None:
+def _is_like(diagnosis: AxisDiagnosis, usual: AxisDiagnosis) -> None:
     assert _outcome(diagnosis) == _outcome(usual)
     for one, other in zip(diagnosis.candidates, usual.candidates, strict=True):
         # What the model explains counts by a noise of known size, 0.2 % of it, beside the scatter: that is an
@@ -70,7 +70,7 @@ def _is_like(diagnosis: Diagnosis, usual: Diagnosis) -> None:
 
 
 def test_the_example_has_something_to_lose() -> None:
-    assert _usual().verdict is Verdict.MISSING
+    assert _usual().verdict is DiagnosisVerdict.MISSING
     assert _usual().candidates[0].identifier == "screw-pitch"
 
 

@@ -10,25 +10,25 @@ import pytest
 from model.axis_tests import EFFECTS, INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.report import report
 
 _DESIGN = linear_test(11, 3)
 _MODEL = model_of("offset", "scale-error")
 
 
-def _diagnosed(deviation: FloatArray) -> Diagnosis:
+def _diagnosed(deviation: FloatArray) -> AxisDiagnosis:
     return diagnose(_MODEL, observations(_DESIGN, deviation + noise(_DESIGN)), INSTALLED)
 
 
 @pytest.fixture(scope="module")
-def belt() -> Diagnosis:
+def belt() -> AxisDiagnosis:
     """A belt: 1.2 mm of lost motion."""
     return _diagnosed(-600e-6 * _DESIGN.direction)
 
 
-def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
-    assert belt.verdict is Verdict.MISSING
+def test_a_belt_has_the_lost_motion_of_a_belt(belt: AxisDiagnosis) -> None:
+    assert belt.verdict is DiagnosisVerdict.MISSING
     assert [each.identifier for each in belt.together] == ["backlash"]
     first = belt.candidates[0]
     assert first.is_plausible
@@ -36,7 +36,7 @@ def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
     assert belt.leaves_noise
 
 
-def test_what_is_large_is_asked_for(belt: Diagnosis) -> None:
+def test_what_is_large_is_asked_for(belt: AxisDiagnosis) -> None:
     first = belt.candidates[0]
     assert first.is_large
     assert first.question is not None

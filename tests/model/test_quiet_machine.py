@@ -11,7 +11,7 @@ import pytest
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations, pendulum_test
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.repeats import find_resolution
@@ -22,11 +22,11 @@ _LINEAR, _PENDULUM = linear_test(11, 3), pendulum_test(11, 3)
 _MODEL = model_of("offset", "scale-error", "backlash")
 
 
-def _named(diagnosis: Diagnosis) -> tuple[Verdict, str]:
+def _named(diagnosis: AxisDiagnosis) -> tuple[DiagnosisVerdict, str]:
     return diagnosis.verdict, diagnosis.candidates[0].identifier
 
 
-def _diagnosed(design: Design, deviation: FloatArray) -> Diagnosis:
+def _diagnosed(design: Design, deviation: FloatArray) -> AxisDiagnosis:
     return diagnose(_MODEL, observations(design, deviation), INSTALLED)
 
 
@@ -44,24 +44,24 @@ def _wave_through_nodes(position: FloatArray, pitch: float) -> FloatArray:
 def test_pitch_error_is_named_however_little_the_readings_scatter(design: Design, sigma: float) -> None:
     shape = _wave_through_nodes(design.position, 0.01)
     found = _diagnosed(design, shape + noise(design, sigma=sigma))
-    assert _named(found) == (Verdict.MISSING, "screw-pitch")
+    assert _named(found) == (DiagnosisVerdict.MISSING, "screw-pitch")
 
 
 def test_expansion_of_the_scale_keeps_its_name_on_a_quiet_machine() -> None:
     found = _diagnosed(_LINEAR, hidden(_LINEAR, "scale-expansion") + noise(_LINEAR, sigma=1e-9))
-    assert _named(found) == (Verdict.MISSING, "scale-expansion")
+    assert _named(found) == (DiagnosisVerdict.MISSING, "scale-expansion")
 
 
 @pytest.mark.long
 def test_rounding_that_repeats_is_no_irregular_geometry() -> None:
     exact = hidden(_LINEAR, "screw-pitch", [0.01], size=3.0) + noise(_LINEAR, sigma=1e-8)
     found = _diagnosed(_LINEAR, np.round(exact / 5e-7) * 5e-7)
-    assert _named(found) == (Verdict.MISSING, "screw-pitch")
+    assert _named(found) == (DiagnosisVerdict.MISSING, "screw-pitch")
 
 
 def test_model_that_explains_all_but_rounding_is_adequate() -> None:
     exact = 2e-6 + 20e-6 * _LINEAR.position - 4e-6 * _LINEAR.direction
-    assert _diagnosed(_LINEAR, np.round(exact / 1e-8) * 1e-8).verdict is Verdict.ADEQUATE
+    assert _diagnosed(_LINEAR, np.round(exact / 1e-8) * 1e-8).verdict is DiagnosisVerdict.ADEQUATE
 
 
 @pytest.mark.long
@@ -74,7 +74,7 @@ def test_pitch_error_of_a_real_control_is_named_at_every_noise(sigma: float) -> 
     found = diagnose(
         _MODEL, replace(observed, deviation=read_only_floats(observed.deviation + shape)), INSTALLED
     )
-    assert _named(found) == (Verdict.MISSING, "screw-pitch")
+    assert _named(found) == (DiagnosisVerdict.MISSING, "screw-pitch")
 
 
 @pytest.mark.parametrize(

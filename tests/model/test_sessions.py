@@ -10,7 +10,7 @@ import pytest
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
 from zlmreport.language import Language, same
 from zlmreport.measurement.arrays import FloatArray, read_only_integers
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.fit import fit
@@ -38,7 +38,7 @@ def _session(kelvin: float, seed: int, hidden: str, *, zero: float = 0.0) -> Obs
     return Observations(design, deviation, read_only_integers(np.arange(len(deviation))), ())
 
 
-def _diagnosed(observed: Observations) -> Diagnosis:
+def _diagnosed(observed: Observations) -> AxisDiagnosis:
     return diagnose(add_zeros(_STRAIGHT, observed.design), observed, INSTALLED)
 
 

@@ -11,7 +11,7 @@ from model.axis_tests import EFFECTS
 from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, list_in_words, same
 from zlmreport.measurement.units import MILLIMETRE
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.report import write_verdict_statement
@@ -89,21 +89,21 @@ def test_what_is_large_is_asked_after_its_name() -> None:
 
 
 def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
-    assert said(verdict=Verdict.ADEQUATE).startswith("The model describes the readings")
+    assert said(verdict=DiagnosisVerdict.ADEQUATE).startswith("The model describes the readings")
 
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
-    assert said(verdict=Verdict.UNEXPLAINED, remainder=LEFT) == (
+    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=LEFT) == (
         "Something is left that no installed effect explains: a bump, around 250 mm; root mean square 1.2 µm."
     )
 
 
 def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:
-    assert said(verdict=Verdict.UNEXPLAINED).startswith("Something is left")
+    assert said(verdict=DiagnosisVerdict.UNEXPLAINED).startswith("Something is left")
 
 
-@pytest.mark.parametrize("verdict", Verdict)
-def test_every_verdict_has_a_german_sentence(verdict: Verdict) -> None:
+@pytest.mark.parametrize("verdict", DiagnosisVerdict)
+def test_every_verdict_has_a_german_sentence(verdict: DiagnosisVerdict) -> None:
     statement = write_verdict_statement(replace(example_diagnosis(), verdict=verdict))
     assert statement.in_language(Language.GERMAN) != statement.in_language(Language.ENGLISH)
 

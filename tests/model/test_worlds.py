@@ -19,13 +19,13 @@ from model.worlds import (
     with_night,
 )
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
 
 _DESIGN = linear_test(15, 4)
 
 
-def _said(diagnosis: Diagnosis) -> str:
+def _said(diagnosis: AxisDiagnosis) -> str:
     return write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 
@@ -59,7 +59,7 @@ def test_screw_worn_on_one_flank_is_told_with_its_lost_motion_and_its_slope() ->
     readings = 8e-6 * design.position + worn + noise(design, 1, 0.7e-6)
     found = built(model_of("offset"), design, readings)
     assert {each.identifier for each in found.steps} == {"one-way-step", "backlash", "scale-error"}
-    assert found.last.verdict is Verdict.ADEQUATE
+    assert found.last.verdict is DiagnosisVerdict.ADEQUATE
 
 
 @pytest.mark.long
@@ -74,7 +74,7 @@ def test_lost_motion_is_told_beside_a_kink_in_one_direction() -> None:
 
 def test_noise_that_lasts_over_a_few_readings_is_noise() -> None:
     readings = known(_DESIGN) + lasting_noise(_DESIGN, 0.6)
-    assert diagnosed(USUAL, _DESIGN, readings).verdict is Verdict.ADEQUATE
+    assert diagnosed(USUAL, _DESIGN, readings).verdict is DiagnosisVerdict.ADEQUATE
 
 
 @pytest.mark.long
@@ -83,7 +83,7 @@ def test_second_joint_comes_in_beside_the_first() -> None:
     readings = straight(design) + joints(design) + noise(design)
     found = built(model_of("offset", "scale-error", "backlash"), design, readings)
     assert [each.identifier for each in found.steps] == ["scale-joint", "scale-joint-2"]
-    assert found.last.verdict is Verdict.ADEQUATE
+    assert found.last.verdict is DiagnosisVerdict.ADEQUATE
 
 
 def test_air_that_was_corrected_twice_is_named_and_asked_for() -> None:

@@ -10,7 +10,7 @@ from model.axis_tests import EFFECTS, INSTALLED, noise, observations
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 
@@ -55,7 +55,7 @@ def corrected_twice(design: Design) -> FloatArray:
     return -EFFECTS["air-index"].columns(design, np.empty(0))[:, 0]
 
 
-def diagnosed(model: AxisModel, design: Design, deviation: FloatArray) -> Diagnosis:
+def diagnosed(model: AxisModel, design: Design, deviation: FloatArray) -> AxisDiagnosis:
     """Return what a diagnosis with all installed effects says."""
     return diagnose(model, observations(design, deviation), INSTALLED)
 
@@ -64,7 +64,7 @@ def built(model: AxisModel, design: Design, deviation: FloatArray) -> Built:
     """Return the model that comes of following every diagnosis."""
     observed = observations(design, deviation)
 
-    def diagnosing(now: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+    def diagnosing(now: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
         return diagnose(now, observed, INSTALLED, may_go=may_go, told=told)
 
     return build(model, diagnosing)

@@ -10,7 +10,7 @@ import pytest
 from verification.issued import issue, lay_out, registry
 from verification.remembered import remembering
 from zlmreport.verification import verify as verifying
-from zlmreport.verification.findings import Verification
+from zlmreport.verification.findings import CheckedCertificate
 
 
 @pytest.fixture(scope="session")
@@ -24,10 +24,10 @@ def by_typst(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 @pytest.fixture
-def verified(tmp_path: Path) -> Iterator[Callable[[bytes], Verification]]:
+def verified(tmp_path: Path) -> Iterator[Callable[[bytes], CheckedCertificate]]:
     """Verify the bytes of a PDF; what the same files give is printed once for all tests."""
 
-    def run(pdf: bytes) -> Verification:
+    def run(pdf: bytes) -> CheckedCertificate:
         path = tmp_path / "certificate.pdf"
         path.write_bytes(pdf)
         return verifying.verify(path, registry())

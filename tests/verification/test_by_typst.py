@@ -16,9 +16,9 @@ from verification.test_verify import differing
 from zlmreport.plugin.protocols import is_made_by
 from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
-from zlmreport.verification.findings import Verification, VerificationVerdict
+from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 
 
 def test_it_holds_as_it_was_issued(by_typst: bytes, verified: Verify) -> None:

@@ -28,10 +28,10 @@ from verification.altering import descendant, every_font, rewritten, with_progra
 from verification.issued import JOB, altered, content_of, registry, specification, with_results, with_source
 from zlmreport.errors import AccessError, InputError
 from zlmreport.plugin.registry import DISABLE, find_plugins
-from zlmreport.verification.findings import Verification
+from zlmreport.verification.findings import CheckedCertificate
 from zlmreport.verification.verify import verify
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 SECRET = "secret-of-this-machine"
 
 

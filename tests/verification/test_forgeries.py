@@ -13,9 +13,9 @@ from verification.altering import Forgery, rewritten
 from verification.forgeries import FORGERIES, plain
 from verification.test_trust import signed
 from zlmreport.errors import InputError
-from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
+from zlmreport.verification.findings import CheckedCertificate, VerificationOutcome, VerificationVerdict
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 
 
 def one_in(count: int, forgeries: Sequence[Forgery]) -> list[Any]:

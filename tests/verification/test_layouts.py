@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from verification.issued import JOB, LABORATORY, issue, lay_out
-from zlmreport.verification.findings import Verification
+from zlmreport.verification.findings import CheckedCertificate
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 
 
 def holds(verified: Verify, job: Path) -> bool:

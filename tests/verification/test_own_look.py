@@ -9,7 +9,7 @@ import matplotlib as mpl
 import pytest
 
 from verification.issued import LABORATORY, issue, lay_out, page_with, with_digit, with_page_content
-from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
+from zlmreport.verification.findings import CheckedCertificate, VerificationOutcome, VerificationVerdict
 
 FONT = Path(mpl.get_data_path(), "fonts", "ttf", "DejaVuSerif.ttf")
 TYPEFACE = f"typeface: {{regular: {FONT}, semibold: {FONT}}}"
@@ -29,7 +29,7 @@ def issued(request: pytest.FixtureRequest, tmp_path: Path) -> bytes:
 
 @pytest.mark.long
 def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
-    issued: bytes, verified: Callable[[bytes], Verification]
+    issued: bytes, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     found = verified(issued)
     assert found.outcome is VerificationOutcome.UNDECIDED
@@ -40,7 +40,7 @@ def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
 
 @pytest.mark.long
 def test_a_number_that_is_taken_from_its_pages_is_found(
-    issued: bytes, verified: Callable[[bytes], Verification]
+    issued: bytes, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     page = page_with(issued, "Figure 1")
     found = verified(with_page_content(issued, page, lambda _: b""))
@@ -62,7 +62,7 @@ def test_a_page_whose_number_was_changed_never_holds(
     digits: list[tuple[str, str]],
     outcome: VerificationOutcome,
     issued: bytes,
-    verified: Callable[[bytes], Verification],
+    verified: Callable[[bytes], CheckedCertificate],
 ) -> None:
     forged, changed = issued, set()
     for number, other in digits:

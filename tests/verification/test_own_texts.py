@@ -11,7 +11,12 @@ import pytest
 
 from verification.issued import JOB, LABORATORY, issue, lay_out
 from zlmreport.job.keys import JobKeys
-from zlmreport.verification.findings import QuotedText, Verification, VerificationOutcome, VerificationVerdict
+from zlmreport.verification.findings import (
+    CheckedCertificate,
+    QuotedText,
+    VerificationOutcome,
+    VerificationVerdict,
+)
 from zlmreport.verification.own_texts import quote_own_texts
 
 
@@ -47,7 +52,7 @@ WORDS = {
 
 @pytest.mark.parametrize("laboratory", RESULTS.values(), ids=RESULTS)
 def test_a_result_in_the_laboratorys_own_words_is_not_decided(
-    laboratory: str, tmp_path: Path, verified: Callable[[bytes], Verification]
+    laboratory: str, tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     found = verified(issue(lay_out(tmp_path, laboratory=laboratory), "pdf-typst"))
     assert found.outcome is VerificationOutcome.UNDECIDED
@@ -57,7 +62,7 @@ def test_a_result_in_the_laboratorys_own_words_is_not_decided(
 
 
 def test_a_result_in_the_name_of_the_axis_is_not_decided(
-    tmp_path: Path, verified: Callable[[bytes], Verification]
+    tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     job = JOB.replace("name: X", "name: 'X, P = 1.0 µm'")
     assert verified(issue(lay_out(tmp_path, job=job), "pdf-typst")).outcome is VerificationOutcome.UNDECIDED
@@ -65,7 +70,7 @@ def test_a_result_in_the_name_of_the_axis_is_not_decided(
 
 @pytest.mark.parametrize("sections", WORDS.values(), ids=WORDS)
 def test_words_that_state_no_result_hold(
-    sections: str, tmp_path: Path, verified: Callable[[bytes], Verification]
+    sections: str, tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     assert verified(issue(lay_out(tmp_path, laboratory=_with(sections=sections)), "pdf-typst")).holds
 
@@ -162,7 +167,7 @@ def test_names_of_all_countries_are_not_marked(text: str) -> None:
 
 
 def test_a_day_on_which_something_will_be_due_holds(
-    tmp_path: Path, verified: Callable[[bytes], Verification]
+    tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     laboratory = f"{LABORATORY}next_due: {{date: 2131-11-20, agreed: true}}\n"
     assert verified(issue(lay_out(tmp_path, laboratory=laboratory), "pdf-typst")).holds
@@ -170,7 +175,7 @@ def test_a_day_on_which_something_will_be_due_holds(
 
 @pytest.mark.parametrize("key", ["line: Y 200, 20 mm above the table", "remarks: 20 mm above the table"])
 def test_a_length_may_stand_where_it_is_asked_for(
-    key: str, tmp_path: Path, verified: Callable[[bytes], Verification]
+    key: str, tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
 ) -> None:
     name, text = key.split(": ", 1)
     job = JOB.replace("measurement: {", f"measurement: {{{name}: '{text}', ")

@@ -13,7 +13,7 @@ from pypdf import PdfReader
 from verification.issued import with_page_content
 from zlmreport.cli.terminal import say
 from zlmreport.verification import raster
-from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
+from zlmreport.verification.findings import CheckedCertificate, VerificationOutcome, VerificationVerdict
 
 
 def page(drawn: str, width: int = 200, rotate: int = 0) -> bytes:
@@ -97,7 +97,10 @@ def test_a_mark_may_be_off_by_a_pixel_where_other_libraries_drew(
     ids=["a little", "far"],
 )
 def test_what_another_library_shifted_holds_within_the_tolerance(
-    issued: bytes, verified: Callable[[bytes], Verification], points: float, outcome: VerificationOutcome
+    issued: bytes,
+    verified: Callable[[bytes], CheckedCertificate],
+    points: float,
+    outcome: VerificationOutcome,
 ) -> None:
     shift = b"1 0 0 1 %f 0 cm\n" % points
     shifted = issued

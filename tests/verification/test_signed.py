@@ -22,9 +22,9 @@ from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.errors import Place
 from zlmreport.job.loading import load
-from zlmreport.verification.findings import Verification, VerificationVerdict
+from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 Sign = Callable[[bytes], bytes]
 
 

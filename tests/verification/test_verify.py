@@ -36,17 +36,17 @@ from zlmreport.cli.terminal import say
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification import verify
 from zlmreport.verification.findings import (
+    CheckedCertificate,
     CheckedStatement,
-    Verification,
     VerificationOutcome,
     VerificationVerdict,
 )
 
-Verify = Callable[[bytes], Verification]
+Verify = Callable[[bytes], CheckedCertificate]
 RESULTS = f"{NUMBER}.json"
 
 
-def differing(found: Verification) -> list[str]:
+def differing(found: CheckedCertificate) -> list[str]:
     """The subjects of all findings that differ, and the paths of values."""
     findings = (*found.files, *found.pages, *found.document)
     subjects = [each.subject for each in findings if each.verdict is VerificationVerdict.DIFFERS]
@@ -55,7 +55,7 @@ def differing(found: Verification) -> list[str]:
     ]
 
 
-def finding(found: Verification, subject: str) -> CheckedStatement:
+def finding(found: CheckedCertificate, subject: str) -> CheckedStatement:
     (one,) = (
         each
         for each in (*found.files, *found.pages, *found.document)

@@ -166,8 +166,9 @@ export class Loop {
 
   /** Do one thing after the other: a click while another is under way is not lost. */
   change(wanted) {
-    this.queue = (this.queue ?? Promise.resolve()).then(() => this.changeNow(wanted));
-    return this.queue;
+    const done = (this.queue ?? Promise.resolve()).then(() => this.changeNow(wanted));
+    this.queue = done.catch(() => false); // what nobody expected of one click does not keep the next from being done
+    return done;
   }
 
   async changeNow(wanted) {

@@ -5,7 +5,7 @@ import { fill, h, named } from "./dom.js";
 import { Graphs } from "./graphs.js";
 import { Loop } from "./loop.js";
 import * as panels from "./panels.js";
-import { Refusal, Silence, get, post } from "./server.js";
+import { Refusal, Silence, get, post, remembered } from "./server.js";
 import { crossTables } from "./tables.js";
 
 const PLACES = { certificate: "certificate", build: "stairs" };
@@ -140,10 +140,8 @@ export class MachinePage extends Loop {
       this.graphs?.compare(null);
       return;
     }
-    const key = `${test} ${step}`;
-    if (!previews.has(key)) previews.set(key, get("/api/step", { of: step, test }));
     try {
-      const found = await previews.get(key);
+      const found = await remembered(previews, `${test} ${step}`, "/api/step", { of: step, test });
       if (this.previewed === step && this.previews === previews && this.test === test) this.graphs.compare(found, name);
     } catch (error) {
       if (!(error instanceof Refusal || error instanceof Silence)) throw error;

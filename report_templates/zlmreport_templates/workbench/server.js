@@ -23,6 +23,16 @@ export async function get(path, values = {}) {
   return answered(path, {}, values);
 }
 
+/** Return what is known by a name, or else ask for it; what is not to be had is asked for again the next time. */
+export function remembered(known, name, path, values) {
+  if (!known.has(name)) {
+    const asked = get(path, values);
+    known.set(name, asked);
+    asked.catch(() => known.delete(name));
+  }
+  return known.get(name);
+}
+
 /** Send a click, with the digest of the job that it was made on. */
 export async function post(path, body) {
   return answered(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });

@@ -9,7 +9,7 @@ import { Graphs } from "./graphs.js";
 import { Loop } from "./loop.js";
 import { MachinePage } from "./machine.js";
 import * as panels from "./panels.js";
-import { ROOT, Refusal, Silence, get } from "./server.js";
+import { ROOT, Refusal, Silence, get, remembered } from "./server.js";
 
 const PLACES = { certificate: "certificate", table: "compensation", confirmation: "compensation", experiment: "experiment", build: "stairs" };
 const NESTED = new Set(["lacking", "certificate"]);
@@ -129,10 +129,8 @@ class Page extends Loop {
 
   /** Return what draws an effect on one of its periods; null where it has none, or is not to be had. */
   async #wave(of) {
-    const { waves } = this;
-    if (!waves.has(of)) waves.set(of, get("/api/folded", { of }).then(({ wave }) => wave));
     try {
-      return await waves.get(of);
+      return (await remembered(this.waves, of, "/api/folded", { of })).wave;
     } catch (error) {
       if (error instanceof Refusal || error instanceof Silence) return null;
       throw error;
@@ -147,9 +145,8 @@ class Page extends Loop {
       this.graphs.compare(null);
       return;
     }
-    if (!previews.has(step)) previews.set(step, get("/api/step", { of: step }));
     try {
-      const found = await previews.get(step);
+      const found = await remembered(previews, step, "/api/step", { of: step });
       if (this.previewed === step && this.previews === previews) this.graphs.compare(found, name);
     } catch (error) {
       if (!(error instanceof Refusal || error instanceof Silence)) throw error;

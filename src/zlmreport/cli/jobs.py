@@ -46,7 +46,7 @@ if TYPE_CHECKING:
     from zlmreport.language import Words
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
     from zlmreport.model.diagnosis.faults import DataFault
     from zlmreport.plugin.registry import Registry
 
@@ -102,7 +102,7 @@ class JobResult:
     path: Path  #: The job file, as the user named it.
     job: Job | None = None  #: The checked job; None if it is wrong.
     evaluations: tuple[Evaluation, ...] = ()  #: By each of its standards.
-    diagnosis: Diagnosis | None = None  #: Of its error model; None where the job names none.
+    diagnosis: AxisDiagnosis | None = None  #: Of its error model; None where the job names none.
     doubts: tuple[Words, ...] = ()  #: Values that seem to be in another unit, in sentences.
     #: What the readings show that the job does not say, and what of calibrations is open.
     evidence: tuple[Words, ...] = ()
@@ -430,10 +430,10 @@ def _tell_model(result: JobResult) -> Iterator[str]:
     diagnosis = result.diagnosis
     if diagnosis is None:
         return
-    from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict  # noqa: PLC0415 - brings the error model
     from zlmreport.model.diagnosis.report import write_verdict_statement  # noqa: PLC0415
 
-    is_adequate = diagnosis.verdict is Verdict.ADEQUATE
+    is_adequate = diagnosis.verdict is DiagnosisVerdict.ADEQUATE
     statement = write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
     yield from _tell_notice("model", statement, colour=Colour.GREEN if is_adequate else Colour.YELLOW)
     if not is_adequate:

@@ -41,7 +41,7 @@ from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import Built
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.diagnosis.study import Fitted, Study, read_addition, refuse_useless
 from zlmreport.model.effects.effect import Effect
@@ -298,7 +298,7 @@ def _collect_lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson
         except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
             told.append((name, f"left out: it cannot be read: {say_reason(error)}"))
             continue
-        if diagnosis.verdict is not Verdict.ADEQUATE:
+        if diagnosis.verdict is not DiagnosisVerdict.ADEQUATE:
             told.append((name, f"left out: its model is not adequate ({diagnosis.verdict})"))
             continue
         seen[readings] = name

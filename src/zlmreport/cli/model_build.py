@@ -12,7 +12,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, name_steps
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.effects import wording
 
@@ -54,10 +54,10 @@ def _write_staircase(built: Built) -> str:
     return f"{' → '.join(stairs)}{unit}{noise}"
 
 
-def _say_what_is_left(last: Diagnosis, names: tuple[str, ...]) -> Words:
+def _say_what_is_left(last: AxisDiagnosis, names: tuple[str, ...]) -> Words:
     """Return what is left beside the model that was built."""
     left = last.remainder
-    if left is None or not names or last.verdict is not Verdict.UNEXPLAINED:
+    if left is None or not names or last.verdict is not DiagnosisVerdict.UNEXPLAINED:
         return write_verdict_statement(last)
     size = wording.deviation(last.fit.design.axis, left.rms)
     return _LEFT.given(shape=left.shape, where=left.where, size=size)

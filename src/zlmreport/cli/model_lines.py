@@ -24,7 +24,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
@@ -66,7 +66,11 @@ def write_point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[st
 
 
 def tell_diagnosis(
-    diagnosis: Diagnosis, study: Study, path: str, experiment: Experiment | None, titles: Mapping[str, Words]
+    diagnosis: AxisDiagnosis,
+    study: Study,
+    path: str,
+    experiment: Experiment | None,
+    titles: Mapping[str, Words],
 ) -> Iterator[str]:
     """Yield the lines on a diagnosis; `path` is the job as the user types it."""
     yield from _lay_out_heading(study.job, diagnosis.fit)
@@ -91,16 +95,16 @@ def tell_diagnosis(
     yield following
 
 
-def measure_lines(diagnosis: Diagnosis, indent: str = "") -> Iterator[str]:
+def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
     """Yield what to look at and to measure before the certificate, where nothing can be tried."""
     left = diagnosis.remainder
-    if diagnosis.verdict is Verdict.UNEXPLAINED and left is not None and left.formula is None:
+    if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED and left is not None and left.formula is None:
         look = look_for(left, diagnosis.fit.design)
         yield from wrap(f"look at: {look.at.in_language(_ENGLISH)}", indent)
         yield from wrap(f"measure: {look.measure.in_language(_ENGLISH)}", indent)
 
 
-def find_next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | None = None) -> str:
+def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment | None = None) -> str:
     """Return the command that a diagnosis asks for next.
 
     `path`: The job as the user types it.
@@ -110,7 +114,7 @@ def find_next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | Non
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
     if len(diagnosis.together) > 1:
         return f"zlmreport model build {path}"
-    if diagnosis.verdict is Verdict.MISSING and diagnosis.together:
+    if diagnosis.verdict is DiagnosisVerdict.MISSING and diagnosis.together:
         return f"zlmreport model add {path} {_quote_for_shell(write_effect_argument(diagnosis.together[0]))}"
     if diagnosis.remainder and diagnosis.remainder.formula:
         return (

@@ -13,7 +13,7 @@ from zlmreport.files import Document, write
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
 from zlmreport.live.emulation.emulator import Scene
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.files import (
     read_description_of,
     write_job_text,
@@ -94,7 +94,7 @@ def _run_live(options: Namespace) -> int:
     return put_on_line(emulator, options, announce, lambda: next(program), started.start)
 
 
-def _make_source_keys(options: Namespace, plan: Plan, instrument: Mapping[str, str]) -> dict[str, Any]:
+def _make_source_keys(options: Namespace, plan: AxisPlan, instrument: Mapping[str, str]) -> dict[str, Any]:
     """Return the keys of the job's source: of a short rest the first half is left to the axis to settle."""
     source = {
         "plugin": "serial-interferometer",

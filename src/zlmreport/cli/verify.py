@@ -24,10 +24,10 @@ from zlmreport.language import Words, list_in_words, named
 from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.findings import (
+    CheckedCertificate,
     CheckedStatement,
     ComparedValue,
     QuotedText,
-    Verification,
     VerificationOutcome,
     VerificationVerdict,
     is_number,
@@ -97,7 +97,7 @@ def run(options: Namespace) -> int:
     return code
 
 
-def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
+def _tell_lines(path: Path, found: CheckedCertificate) -> Iterator[str]:
     """Yield the lines on a certificate, in its language; what differs is told in English."""
     identity, signature = found.identity, found.signature
     say = partial(said, language=identity.language)
@@ -136,7 +136,7 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
         yield from _own_words(found.own_words, say)
 
 
-def _tell_verdict(found: Verification, say: _Say) -> str:
+def _tell_verdict(found: CheckedCertificate, say: _Say) -> str:
     outcome, count = say(_SAID[found.outcome]), found.differences
     match found.outcome:
         case VerificationOutcome.HOLDS if found.is_trusted:
@@ -291,7 +291,7 @@ def _write_value(value: object, digits: int) -> str:
     return f"'{text}'" if len(text) <= _LONGEST_TEXT else f"'{text[: _LONGEST_TEXT - 1]}…'"
 
 
-def _collect_values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
+def _collect_values(path: Path, found: CheckedCertificate, exit_code: int) -> dict[str, Any]:
     """Return all that was found; values are in the units of the results file."""
     return {
         "schema": SCHEMA,

@@ -22,6 +22,7 @@ from zlmreport.job.circle_keys import CircleKeys
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
+from zlmreport.job.measurement_keys import is_same_serial
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
@@ -159,7 +160,7 @@ def _find_other_method(keys: JobKeys, measurements: MeasurementSet) -> Iterator[
 def _find_one_serial(keys: JobKeys) -> Iterator[Words]:
     """Yield a serial number that is stated of the machine and of what measured it."""
     machine, instrument = keys.machine.serial, keys.instrument.serial if keys.instrument else None
-    if machine and instrument and machine.casefold() == instrument.casefold() and is_reference(machine):
+    if machine and instrument and is_same_serial(machine, instrument) and is_reference(machine):
         yield _SERIALS.given(serial=same(machine))
 
 

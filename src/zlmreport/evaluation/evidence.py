@@ -22,7 +22,7 @@ from zlmreport.evaluation.turned_runs import (
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, estimate_robust_deviation
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import (
     CONDITION_NAMES,
@@ -118,7 +118,6 @@ _LEAST_SPAN, _LEAST_ACROSS, _LONG = 1e-7, 2e-8, 1e-2
 _LARGEST_SPAN, _LARGEST_PART = {AxisKind.LINEAR: 3e-4, AxisKind.ROTARY: 5e-3}, 5e-4
 _TEMPERATURES_AGREE = 0.5
 _MOST_DECIMALS = 3
-_NORMAL_MAD = 1.4826
 
 
 def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
@@ -213,7 +212,7 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
         return
     step = _find_step(measurements)
     # Half of the readings of a small cell lie nearer to its median than to its mean.
-    scale = max(_NORMAL_MAD * float(np.median(np.abs(known[known != 0.0]))) if known.any() else 0.0, step)
+    scale = max(estimate_robust_deviation(known[known != 0.0]) if known.any() else 0.0, step)
     # Of readings that scatter from place to place as they may, a large one among large ones is none.
     far = [
         (int(direction), int(position), int(run))

@@ -221,14 +221,14 @@ def _find_lesson(certificate: Certificate, job: Job, effects: Sequence[Effect]) 
     diagnosis = certificate.diagnosis
     if diagnosis is None:
         return None
-    from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict  # noqa: PLC0415 - only where there is a model
     from zlmreport.model.diagnosis.study import Study  # noqa: PLC0415
     from zlmreport.model.fitting.priors import Lesson  # noqa: PLC0415
 
     if job.sessions or job.priors:
         alone = replace(job, sessions=(), priors=None)
         diagnosis = Study.of(alone, certificate.measurements, effects).diagnose(effects)
-    return Lesson.of(diagnosis.fit).as_json() if diagnosis.verdict is Verdict.ADEQUATE else None
+    return Lesson.of(diagnosis.fit).as_json() if diagnosis.verdict is DiagnosisVerdict.ADEQUATE else None
 
 
 def _are_alike(before: Iterable[RecordedParameter], now: Iterable[RecordedParameter]) -> bool:

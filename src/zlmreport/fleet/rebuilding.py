@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import contextlib
-import json
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from zlmreport.document.certificate.results_file import RESULTS, read_results
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError, count_in_words
 from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256, write_path_in
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
@@ -25,7 +25,7 @@ from zlmreport.fleet.records import (
 from zlmreport.job.fleet import FleetFile, list_job_files, number_of
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import SCHEMA, find_stated_by
+from zlmreport.verification.attached import find_stated_by
 from zlmreport.verification.carrier import open_pdf, read_file
 
 
@@ -118,8 +118,8 @@ def _read_results(files: list[Path]) -> Mapping[str, Any]:
     """Return what a certificate states: its results file, or the one that its PDF carries."""
     by_suffix = {path.suffix: path for path in files}
     if ".json" in by_suffix:
-        results: Mapping[str, Any] = json.loads(by_suffix[".json"].read_bytes())
-        if results.get("schema") == SCHEMA:
+        results = read_results(by_suffix[".json"].read_bytes())
+        if isinstance(results, dict) and results.get("schema") == RESULTS:
             return results
     if ".pdf" in by_suffix:
         path = by_suffix[".pdf"]

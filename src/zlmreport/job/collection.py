@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.job.measurement_keys import is_same_serial
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, make_keys_of, merge
 from zlmreport.job.types import resolve_path_named
 from zlmreport.measurement.axis import Axis
@@ -107,7 +108,7 @@ def make_part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
         for each in (own, document)
         if isinstance(node := find_at(each, ("machine", "serial")), Scalar) and not node.is_nothing
     ]
-    if len(set(serials)) > 1:
+    if len(serials) > 1 and not is_same_serial(*serials):
         raise InputError.at(
             named_at,
             f"this job is on machine {quoted(serials[0])}, and the document on {quoted(serials[1])}: it is "

@@ -28,11 +28,11 @@ from zlmreport.job.list_edits import (
     change_item,
     drop_item,
     find_own_list,
-    write_as_text,
 )
 from zlmreport.job.loading import load
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Items, Node, Scalar, walk
+from zlmreport.job.yaml_text import write_as_text
 
 #: The list of a model.
 EFFECTS, CANDIDATES = ListKey("model", "effects"), ListKey("model", "candidates")

@@ -25,11 +25,12 @@ from zlmreport.job.edit import (
 from zlmreport.job.extents import ValueForm, Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
-from zlmreport.job.list_edits import ListKey, UneditableError, add_member, find_members, insert, write_as_text
+from zlmreport.job.list_edits import ListKey, UneditableError, add_member, find_members, insert
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.job.parse import decode
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, make_keys_of
+from zlmreport.job.yaml_text import write_as_text
 
 #: What means the same with and without quotes, and is written without.
 _DATE = re.compile(r"\d{4}-\d\d-\d\d", re.ASCII)

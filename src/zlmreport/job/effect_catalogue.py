@@ -11,7 +11,6 @@ from pydantic import Field
 
 from zlmreport.errors import InputError, Problem, did_you_mean
 from zlmreport.job.contradictions import validate
-from zlmreport.job.extends import write_yaml_lines
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter, Phrase
 from zlmreport.job.formula_parts import Formula, find_kinds_of
@@ -19,6 +18,7 @@ from zlmreport.job.parse import parse
 from zlmreport.job.sentences import show_value
 from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, make_keys_of, place_of
 from zlmreport.job.types import JobPart, Text
+from zlmreport.job.yaml_text import write_lines
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
 
@@ -191,7 +191,7 @@ def write_as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
             for each in parameters.entries.values()
         )
         entries["parameters"] = replace(entries["parameters"], value=make_keys_of(parameters.place, kept))
-    first, *rest = write_yaml_lines(make_keys_of(item.place, tuple(entries.values())), "    ")
+    first, *rest = write_lines(make_keys_of(item.place, tuple(entries.values())), "    ")
     return "\n".join(("schema: zlmreport/effects/1", "effects:", f"  - {first.lstrip()}", *rest, ""))
 
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 import os
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.files import demand
 from zlmreport.job.parse import LARGEST, SUFFIXES, parse
-from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of, merge
+from zlmreport.job.tree import Items, Keys, Scalar, make_keys_of, merge
 from zlmreport.job.types import resolve_path_named
+from zlmreport.job.yaml_text import write_lines
 from zlmreport.measurement.provenance import SourceFile
 
 
@@ -57,9 +57,6 @@ def refuse_other_format(
             )
 
 
-_PLAIN_KEY = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
-
-
 @dataclass(frozen=True, slots=True)
 class Defaults:
     """Default keys of jobs."""
@@ -80,33 +77,7 @@ class Defaults:
 
     def as_yaml(self) -> str:
         """Return the keys as a file of their own."""
-        return "".join(f"{line}\n" for line in write_yaml_lines(self.keys, ""))
-
-
-def write_yaml_lines(node: Keys | Items, indent: str) -> Iterator[str]:
-    """Yield the lines of a group or a list as YAML, a value a line."""
-    if isinstance(node, Items):
-        labelled: list[tuple[str, Node]] = [("-", item) for item in node.items]
-    else:
-        labelled = [(f"{_write_key(entry.key)}:", entry.value) for entry in node.entries.values()]
-    for label, value in labelled:
-        if isinstance(value, Scalar):
-            yield f"{indent}{label} {_write_scalar(value)}".rstrip()
-        elif list(write_yaml_lines(value, "")):
-            yield f"{indent}{label}"
-            yield from write_yaml_lines(value, f"{indent}  ")
-        else:
-            yield f"{indent}{label} {'[]' if isinstance(value, Items) else '{}'}"
-
-
-def _write_key(key: str) -> str:
-    return key if _PLAIN_KEY.fullmatch(key) else json.dumps(key, ensure_ascii=False)
-
-
-def _write_scalar(value: Scalar) -> str:
-    """Write a value as it was written: whether it stands in quotes tells a number from a text."""
-    is_plain = value.plain and "\n" not in value.text
-    return value.text if is_plain else json.dumps(value.text, ensure_ascii=False)
+        return "".join(f"{line}\n" for line in write_lines(self.keys, ""))
 
 
 #: How the name of a file ends that holds shared keys.

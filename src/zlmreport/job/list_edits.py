@@ -13,14 +13,14 @@ blanks at line ends, the line ``...``, blanks within brackets and last commas, a
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from zlmreport.job.extents import ValueForm, Written, WrittenValue
-from zlmreport.job.tree import Items, Node, Scalar
+from zlmreport.job.tree import Node
+from zlmreport.job.yaml_text import quote_text, write_as_text
 
 _SPACES = re.compile(r" +")
 _LINE_BREAK = re.compile(r"[\r\n]")
@@ -110,9 +110,6 @@ def insert(text: str, index: int, piece: str) -> str:
 
 
 _INDENT = 2
-#: Text that means nothing but itself without quotes, wherever it stands.
-_PLAIN = re.compile(r"[^\W\d_]((?:[\w ./()+-]|:(?=[\w./-]))*[\w).])?")
-_WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
 _END_OF_DOCUMENT = re.compile(r"^\.\.\.", re.MULTILINE)
 
 
@@ -201,11 +198,11 @@ def add_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
     root = written.root
     quote = _quote_of(text, root.parts[0])
     bracketed = f"[{', '.join(write_as_text(item, quote) for item in items)}]"
-    pair = f"{_quote(where.key, quote)}: {bracketed}"
+    pair = f"{quote_text(where.key, quote)}: {bracketed}"
     group = root.find_entry(where.group)
     if group is None:
         if root.form is ValueForm.BRACES:
-            pair = f"{_quote(where.group, quote)}: {{{pair}}}"
+            pair = f"{quote_text(where.group, quote)}: {{{pair}}}"
             return add_member(written, root, find_members(root.parts, 2), pair)
         return _add_last_key(written, where, items, quote)
     listed = group[1].find_entry(where.key)
@@ -238,43 +235,6 @@ def _add_value(
     end = written.line_end(colon)
     line_break = written.break_at(end)
     return insert(text, end, "".join(line_break + line for line in lines))
-
-
-def write_as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
-    """Return a value as it is written within a line.
-
-    `quote`: The quotation mark of text; empty for none where none is needed.
-    `in_lines`: Whether a single key needs no braces.
-    """
-    if isinstance(node, Scalar):
-        if node.is_nothing:
-            return "null"
-        return node.text if node.is_number else _quote(node.text, quote)
-    if isinstance(node, Items):
-        return f"[{', '.join(write_as_text(item, quote) for item in node.items)}]"
-    pairs = ", ".join(
-        f"{_quote(key, quote)}: {write_as_text(entry.value, quote)}" for key, entry in node.entries.items()
-    )
-    return pairs if in_lines and len(node.entries) == 1 else f"{{{pairs}}}"
-
-
-def _quote(text: str, quote: str) -> str:
-    if quote == "'" and "'" not in text and "\n" not in text:
-        return f"'{text}'"
-    is_plain = _PLAIN.fullmatch(text) and text.casefold() not in _WORDS_OF_YAML
-    return text if is_plain and not quote else json.dumps(text, ensure_ascii=False)
-
-
-def write_in_a_line(value: Any) -> str:
-    """Return a value of Python in YAML, on one line: text without quotation marks where that is safe."""
-    if isinstance(value, Mapping):
-        pairs = (f"{write_in_a_line(name)}: {write_in_a_line(each)}" for name, each in value.items())
-        return f"{{{', '.join(pairs)}}}"
-    if isinstance(value, list | tuple):
-        return f"[{', '.join(map(write_in_a_line, value))}]"
-    if isinstance(value, str):
-        return _quote(value, "")
-    return json.dumps(int(value) if isinstance(value, float) and value.is_integer() else value)
 
 
 def _quote_of(text: str, neighbour: WrittenValue) -> str:
@@ -311,7 +271,7 @@ def _add_last_key(written: Written, where: ListKey, items: Sequence[Node], quote
     line_break = written.break_at(len(text))
     block = line_break.join(
         [
-            f"{' ' * column}{_quote(where.group, quote)}:",
+            f"{' ' * column}{quote_text(where.group, quote)}:",
             *_write_lines(items, column + _INDENT, quote, key=where.key),
         ]
     )
@@ -326,6 +286,6 @@ def _write_lines(items: Sequence[Node], column: int, quote: str, *, key: str) ->
     """Return the list an item a line, below its key if that is not there yet."""
     heading = []
     if key:
-        heading = [f"{' ' * column}{_quote(key, quote)}:{'' if items else ' []'}"]
+        heading = [f"{' ' * column}{quote_text(key, quote)}:{'' if items else ' []'}"]
         column += _INDENT
     return heading + [f"{' ' * column}- {write_as_text(item, quote, in_lines=True)}" for item in items]

@@ -101,6 +101,15 @@ class ExclusionKeys(JobPart):
     )
 
 
+def is_same_serial(one: str, other: str) -> bool:
+    """Whether two serial numbers are one, be it in capitals or in small letters.
+
+    >>> is_same_serial("vm-4711a", "VM-4711A"), is_same_serial("VM-4711", "VM-4712")
+    (True, False)
+    """
+    return one.strip().casefold() == other.strip().casefold()
+
+
 class MachineUnderTest(JobPart):
     """The machine under test."""
 
@@ -123,7 +132,7 @@ class MachineUnderTest(JobPart):
 
     def is_other_than(self, machine: Self) -> bool:
         """Whether serial numbers are stated of both, and tell them apart."""
-        return bool(self.serial and machine.serial and self.serial != machine.serial)
+        return bool(self.serial and machine.serial and not is_same_serial(self.serial, machine.serial))
 
 
 class AxisKeys(JobPart):

@@ -6,16 +6,16 @@ a test share is carried on as shared: along the length, at each position, betwee
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field
 
 from zlmreport import pipeline
+from zlmreport.document.certificate.results_file import RESULTS, ResultsFile, ResultsPart, read_results
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.files import demand
@@ -165,11 +165,7 @@ def _find_scale(contributions: Iterable[tuple[Acts, float]], readings: FloatArra
     return math.sqrt(squares) / largest if largest else 0.0
 
 
-class _Lenient(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-
-class _Position(_Lenient):
+class _Position(ResultsPart):
     target: float
     mean_fwd: float | None = None
     mean_bwd: float | None = None
@@ -179,7 +175,7 @@ class _Position(_Lenient):
     n_bwd: int = 1
 
 
-class _Parameter(_Lenient):
+class _Parameter(ResultsPart):
     symbol: str
     value: float
     unit: str = ""
@@ -187,34 +183,29 @@ class _Parameter(_Lenient):
     coverage_factor: float | None = None
 
 
-class _Evaluation(_Lenient):
+class _Evaluation(ResultsPart):
     parameters: tuple[_Parameter, ...] = ()
     positions: tuple[_Position, ...] = ()
 
 
-class _Contribution(_Lenient):
+class _Contribution(ResultsPart):
     acts: Acts
     standard_uncertainty: float
 
 
-class _Uncertainty(_Lenient):
+class _Uncertainty(ResultsPart):
     contributions: tuple[_Contribution, ...] = ()
 
 
-class _Measurements(_Lenient):
+class _Measurements(ResultsPart):
     axis: str
     error: str | None = None
     at: _Line | None = None
 
 
-class _Certificate(_Lenient):
-    number: str
-
-
-class _Results(_Lenient):
+class _Results(ResultsFile):
     """A results file as far as a machine needs it."""
 
-    certificate: _Certificate
     measurements: _Measurements
     evaluations: tuple[_Evaluation, ...] = Field(min_length=1)
     uncertainty: _Uncertainty = _Uncertainty()
@@ -234,10 +225,10 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
             )
         content = carried
     try:
-        found = _Results.model_validate(json.loads(content))
-    except (ValidationError, ValueError, RecursionError) as error:
+        found = _Results.of(read_results(content))
+    except ValueError as error:
         raise InputError.at(
-            place, f"{path.name} is no results file of this program (zlmreport/results/1)"
+            place, f"{path.name} is no results file of this program ({RESULTS}): {error}"
         ) from error
     name = found.measurements.error or f"E{found.measurements.axis}{found.measurements.axis}"
     if name not in ERRORS:

@@ -15,7 +15,7 @@ from zlmreport.machines.forms import (
     make_form_at,
     make_whole_form,
 )
-from zlmreport.machines.machine import Machine
+from zlmreport.machines.machine import MachineModel
 from zlmreport.machines.study import Chosen, CircleStudy, study_bare
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_effect import CircleEffect, Searched, SearchedParameter
@@ -31,7 +31,7 @@ _PRICE_OF_TERM = 2.0
 
 
 def study_circles(
-    machine: Machine, circles: Sequence[CircularTest], effects: Iterable[CircleEffect] = ()
+    machine: MachineModel, circles: Sequence[CircularTest], effects: Iterable[CircleEffect] = ()
 ) -> CircleStudy:
     """Return the study of circles; effects that search for a value get the one that fits best."""
     study = study_bare(machine, circles)

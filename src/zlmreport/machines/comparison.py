@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.design import join_side_by_side
-from zlmreport.machines.machine import Machine, TestPrediction, predict
+from zlmreport.machines.machine import MachineModel, TestPrediction, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import (
     Stretch,
@@ -22,6 +22,7 @@ from zlmreport.machines.residual import (
 )
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
 
 
@@ -60,8 +61,10 @@ class ComparedTest:
     rms
         Root mean squares; of circles about the centre of each turn and, unless the bar is calibrated, without
         the mean radius, of lines without the mean.
-    of_axes, of_effects
-        What each error and each effect makes of the test, RMS, m, by name.
+    of_axes
+        What each error makes of the test, RMS, m, by name.
+    of_effects
+        Each effect of the model with what it makes of the test, RMS, m.
     numbers
         Of the standards that the test's job names.
     fails
@@ -73,7 +76,7 @@ class ComparedTest:
     left: FloatArray
     rms: Sizes
     of_axes: Mapping[str, float]
-    of_effects: Mapping[str, float]
+    of_effects: tuple[tuple[CircleEffect, float], ...]
     numbers: tuple[StandardNumbers, ...]
     fails: tuple[Stretch, ...]
 
@@ -84,7 +87,7 @@ class ComparedTest:
 
 
 def compare_circles(
-    machine: Machine,
+    machine: MachineModel,
     circles: Sequence[MeasuredCircle],
     registry: Registry,
     study: CircleStudy | None = None,
@@ -95,15 +98,19 @@ def compare_circles(
 
 
 def _compare_circle(
-    machine: Machine,
+    machine: MachineModel,
     measured: MeasuredCircle,
     index: int,
     registry: Registry,
-    made: Sequence[Mapping[str, FloatArray]],
+    made: Sequence[Sequence[tuple[CircleEffect, FloatArray]]],
 ) -> ComparedTest:
     circle, effects = measured.circle, made[index]
     prediction = predict(machine, circle.make_course())
-    left = circle.deviation - prediction.values - sum(effects.values(), np.zeros(len(circle.angle)))
+    left = (
+        circle.deviation
+        - prediction.values
+        - sum((curve for _, curve in effects), np.zeros(len(circle.angle)))
+    )
     shown = centre(circle, left)
     standard = np.hypot(prediction.standard_uncertainty, estimate_scatter_within(circle, shown))
     numbers = tuple(
@@ -126,7 +133,7 @@ def _compare_circle(
         left,
         Sizes(*(compute_root_mean_square(centre(circle, each)) for each in sizes)),
         {name: compute_root_mean_square(centre(circle, each)) for name, each in prediction.shares.items()},
-        {name: compute_root_mean_square(each) for name, each in effects.items()},
+        tuple((effect, compute_root_mean_square(curve)) for effect, curve in effects),
         numbers,
         find_stretches(circle, shown, standard),
     )
@@ -134,9 +141,9 @@ def _compare_circle(
 
 def _compute_made_by_effects(
     circles: Sequence[CircularTest], study: CircleStudy | None
-) -> tuple[dict[str, FloatArray], ...]:
+) -> tuple[list[tuple[CircleEffect, FloatArray]], ...]:
     """Return what each effect of a study makes of each circle, at all of its readings, m."""
-    found: tuple[dict[str, FloatArray], ...] = tuple({} for _ in circles)
+    found: tuple[list[tuple[CircleEffect, FloatArray]], ...] = tuple([] for _ in circles)
     if study is None:
         return found
     design = join_side_by_side(circles)
@@ -148,11 +155,11 @@ def _compute_made_by_effects(
             (values[term.name] * term.column for term in terms if term.name in fitted), np.zeros(design.count)
         )
         for index, own in enumerate(found):
-            own[each.effect.identifier] = curve[design.test == index]
+            own.append((each.effect, curve[design.test == index]))
     return found
 
 
-def compare_line(machine: Machine, line: StraightTest) -> ComparedTest:
+def compare_line(machine: MachineModel, line: StraightTest) -> ComparedTest:
     """Return a line against its prediction."""
     prediction = predict(machine, line.course)
     left = line.deviation - prediction.values
@@ -165,7 +172,7 @@ def compare_line(machine: Machine, line: StraightTest) -> ComparedTest:
         left,
         Sizes(*(compute_root_mean_square(each - each.mean()) for each in sizes)),
         {name: compute_root_mean_square(each - each.mean()) for name, each in prediction.shares.items()},
-        {},
+        (),
         (),
         find_stretches_of_line(line, shown, standard),
     )

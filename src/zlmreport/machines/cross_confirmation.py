@@ -20,7 +20,7 @@ from zlmreport.machines.course import CircularTest
 from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import compensate_machine
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
-from zlmreport.machines.machine import Machine, predict
+from zlmreport.machines.machine import MachineModel, predict
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
 from zlmreport.machines.reading import MachineFile
@@ -86,7 +86,7 @@ def confirm(
 
 
 def confirm_circles(
-    machine: Machine,
+    machine: MachineModel,
     tables: Sequence[CrossTable],
     before: Sequence[CircularTest],
     after: Sequence[CircularTest],
@@ -170,7 +170,7 @@ def _compute_means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatA
     return count, np.bincount(where, kept.deviation[own], _ARCS) / np.maximum(count, 1.0)
 
 
-def _compute_taken(machine: Machine, corrected: Machine, circle: CircularTest) -> FloatArray:
+def _compute_taken(machine: MachineModel, corrected: MachineModel, circle: CircularTest) -> FloatArray:
     """Return what tables take away of a circle, (N,), m."""
     course = circle.make_course()
     return np.asarray(predict(machine, course).values - predict(corrected, course).values)

@@ -17,7 +17,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, find_square_slope
-from zlmreport.machines.machine import Machine, predict
+from zlmreport.machines.machine import MachineModel, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import centre, compute_root_mean_square
 from zlmreport.machines.volume import (
@@ -50,7 +50,7 @@ class CrossPlan:
     within_uncertainty: tuple[str, ...]  #: Errors that are no larger than their U.
 
 
-def plan_tables(machine: Machine, place: Place, step: float | None = None) -> CrossPlan:
+def plan_tables(machine: MachineModel, place: Place, step: float | None = None) -> CrossPlan:
     """Return the tables of a machine, one for each pair of axes that has an error worth it.
 
     `step`: Between rows, m; without it that of the measured positions.
@@ -77,7 +77,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     return CrossPlan(tuple(tables), tuple(taken), tuple(sorted(small)))
 
 
-def plan_worthwhile(machine: Machine) -> CrossPlan | None:
+def plan_worthwhile(machine: MachineModel) -> CrossPlan | None:
     """Return the tables of a machine; None if no error is known that is worth one."""
     try:
         return plan_tables(machine, Place("machine"))
@@ -125,7 +125,7 @@ def _make_table(axes: tuple[str, str], curves: Sequence[AxisErrorCurve], positio
 
 
 def _find_stretch(
-    machine: Machine, moving: str, curves: Iterable[AxisErrorCurve], place: Place
+    machine: MachineModel, moving: str, curves: Iterable[AxisErrorCurve], place: Place
 ) -> tuple[float, float, float]:
     """Return over which positions a table goes, m: those that were measured; and how far these are apart."""
     for each in curves:
@@ -142,7 +142,7 @@ def _find_stretch(
     return low, high, (high - low) / (_ROWS - 1)
 
 
-def compensate_machine(machine: Machine, tables: Iterable[CrossTable]) -> Machine:
+def compensate_machine(machine: MachineModel, tables: Iterable[CrossTable]) -> MachineModel:
     """Return a machine whose control takes tables away; what is uncertain stays so."""
     curves = {each.name: each for each in machine.curves}
     for table in tables:
@@ -180,7 +180,7 @@ class CrossForecast:
 
 
 def forecast(
-    machine: Machine, tables: Sequence[CrossTable], circles: Sequence[MeasuredCircle], registry: Registry
+    machine: MachineModel, tables: Sequence[CrossTable], circles: Sequence[MeasuredCircle], registry: Registry
 ) -> CrossForecast:
     """Return what tables, as the control reads them, make of circles, diagonals and the work space."""
     after = compensate_machine(machine, tables)
@@ -196,12 +196,12 @@ def forecast(
     )
 
 
-def _find_largest(machine: Machine, space: Space) -> float:
+def _find_largest(machine: MachineModel, space: Space) -> float:
     return float(map_volume(machine, space).length.max())
 
 
 def _forecast_circle(
-    machine: Machine, after: Machine, measured: MeasuredCircle, registry: Registry
+    machine: MachineModel, after: MachineModel, measured: MeasuredCircle, registry: Registry
 ) -> CircleForecast:
     circle = measured.circle
     taken = predict(machine, circle.make_course()).values - predict(after, circle.make_course()).values

@@ -24,7 +24,7 @@ from zlmreport.machines.forms import CircleForm, list_forms_of, make_whole_form,
 from zlmreport.machines.noise import NoiseModel, Whitened, find_anew
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue
 from zlmreport.model.effects.circle_effect import CircleEffect, Parity
 
@@ -79,7 +79,7 @@ class MachineDiagnosis:
 
     study: CircleStudy  #: Of the model as it is.
     complete: CircleStudy  #: With all that was found.
-    verdict: Verdict
+    verdict: DiagnosisVerdict
     p_value: PValue
     candidates: tuple[CircleCandidate, ...]
     found: tuple[str, ...]  #: What belongs in, first the one to add first; nothing that has an equal.
@@ -157,8 +157,8 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     is_left = last.is_something_left and not is_tied
     remainder = _find_left(last.study, last.outcome) if is_left else None
     complete = last.beside if is_left else last.study
-    verdict = Verdict.UNEXPLAINED if remainder else Verdict.ADEQUATE
-    verdict = Verdict.MISSING if found or is_tied else verdict
+    verdict = DiagnosisVerdict.UNEXPLAINED if remainder else DiagnosisVerdict.ADEQUATE
+    verdict = DiagnosisVerdict.MISSING if found or is_tied else verdict
     return MachineDiagnosis(
         study if found else complete, complete, verdict, first.outcome.p_value, first.shown,
         tuple(found), tuple(steps), remainder, first.hidden, tuple(catalogue), is_tied,

@@ -25,6 +25,7 @@ from zlmreport.document.certificate.attachments import (
 from zlmreport.document.certificate.build import GENERATOR, make_letterhead
 from zlmreport.document.certificate.document import Certificate, PageWords
 from zlmreport.document.certificate.own_look import read_logo
+from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.certificate.statements import write_person
 from zlmreport.language import Words, named
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
@@ -41,7 +42,6 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import Registry
 
-SCHEMA = "zlmreport/machine-results/1"
 #: Tests whose graphs a sheet has room for.
 _ON_A_SHEET = 1
 
@@ -146,7 +146,7 @@ def _write_results(material: _Material, made_from: tuple[Source, ...], generator
     machine, diagnosis = material.machine, material.diagnosis
     stated = machine.file.keys.certificate
     values: dict[str, Any] = {
-        "schema": SCHEMA,
+        "schema": MACHINE_RESULTS,
         "certificate": {
             "number": machine.number,
             "title": _TITLE.in_language(stated.language),

@@ -51,7 +51,7 @@ class Unmeasured:
 
 
 @dataclass(frozen=True, slots=True)
-class Machine:
+class MachineModel:
     """A machine as its file describes it."""
 
     chain: Chain
@@ -101,7 +101,7 @@ class TestPrediction:
         return 2.0 * self.standard_uncertainty
 
 
-def predict(machine: Machine, course: ToolCourse) -> TestPrediction:
+def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
     """Return what the axes predict along a course, with its covariance."""
     count = len(course.position)
     tool = machine.tool if course.tool is None else course.tool
@@ -132,7 +132,11 @@ def predict(machine: Machine, course: ToolCourse) -> TestPrediction:
 
 
 def _compute_gain(
-    name: str, machine: Machine, curve: AxisErrorCurve | None, course: ToolCourse, tool: FloatArray | Point
+    name: str,
+    machine: MachineModel,
+    curve: AxisErrorCurve | None,
+    course: ToolCourse,
+    tool: FloatArray | Point,
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
     line = curve.line if curve else ErrorLine({})

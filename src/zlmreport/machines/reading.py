@@ -26,7 +26,7 @@ from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.curve import AxisErrorCurve, remove_alignment
 from zlmreport.machines.keys import MachineFileKeys, StatedKeys
 from zlmreport.machines.kinematics import Chain
-from zlmreport.machines.machine import Machine, list_missing_errors
+from zlmreport.machines.machine import MachineModel, list_missing_errors
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.provenance import SourceFile
@@ -42,7 +42,7 @@ class MachineFile:
 
     path: Path
     file: KeysFile[MachineFileKeys]
-    machine: Machine
+    machine: MachineModel
     measured: tuple[MeasuredCircle, ...]  #: The circles, each with its job.
     lines: tuple[StraightTest, ...]
     sources: tuple[SourceFile, ...]
@@ -131,7 +131,7 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
     if problems or chain is None:
         raise InputError(sorted(set(problems)))
     tool = file.keys.tool
-    machine = Machine(
+    machine = MachineModel(
         chain,
         (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3),
         tuple(remove_alignment(each) for each in curves.values()),

@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
-from zlmreport.machines.machine import Machine, find_unit_of
+from zlmreport.machines.machine import MachineModel, find_unit_of
 from zlmreport.machines.residual import Stretch
 from zlmreport.machines.volume import (
     Diagonal,
@@ -26,7 +26,7 @@ _MICRO, _MILLI = 1e6, 1e3
 _SENSES = {1: "ccw", -1: "cw"}
 
 
-def collect_prediction(machine: Machine, compared: Iterable[ComparedTest]) -> dict[str, Any]:
+def collect_prediction(machine: MachineModel, compared: Iterable[ComparedTest]) -> dict[str, Any]:
     """Return what the axes predict of each test, of the work space and of its diagonals."""
     space = find_measured_space(machine)
     return {
@@ -39,7 +39,7 @@ def collect_prediction(machine: Machine, compared: Iterable[ComparedTest]) -> di
     }
 
 
-def collect_errors(machine: Machine) -> list[dict[str, Any]]:
+def collect_errors(machine: MachineModel) -> list[dict[str, Any]]:
     """Return the 21 errors: those that are known with their uncertainty, the others with their bounds."""
     unmeasured = {each.name: each for each in machine.unmeasured}
     found: list[dict[str, Any]] = []
@@ -117,7 +117,7 @@ def collect_compared_sizes(found: ComparedTest) -> dict[str, Any]:
         "rms_left": _MICRO * found.rms.left,
         "numbers": [_collect_standard_values(each) for each in found.numbers],
         "of_axes": _write_in_micrometres(found.of_axes),
-        "of_effects": _write_in_micrometres(found.of_effects),
+        "of_effects": _write_in_micrometres({effect.identifier: size for effect, size in found.of_effects}),
         "fails": [
             collect_stretch(each, is_circle=isinstance(found.test, CircularTest)) for each in found.fails
         ],

@@ -8,13 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.machines.course import CircularTest, StraightTest
-from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, estimate_robust_deviation
 from zlmreport.model.effects.circle_design import AXES
 
 #: Correlation length of what is irregular on a circle, rad: what is shorter is no stretch.
 _LENGTH = float(np.radians(10.0))
-#: Median of the amount of a normal deviate of variance one.
-_MEDIAN_OF_NORMAL = 0.6745
 #: Points of an arc at which its coordinates are looked at.
 _POINTS = 50
 
@@ -51,8 +49,8 @@ def estimate_scatter_within(circle: CircularTest, residual: FloatArray) -> float
         _, mean, count = _split_into_arcs(circle.angle[turn], residual[turn])
         there = mean[count > 0]
         bends.append(there[:-2] - 2.0 * there[1:-1] + there[2:])
-    together = np.abs(np.concatenate(bends))
-    return float(np.median(together) / (_MEDIAN_OF_NORMAL * np.sqrt(6.0))) if len(together) else 0.0
+    together = np.concatenate(bends)
+    return estimate_robust_deviation(together) / float(np.sqrt(6.0)) if len(together) else 0.0
 
 
 @dataclass(frozen=True, slots=True)

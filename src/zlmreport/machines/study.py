@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.machines.course import CircularTest, ToolCourse
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.forms import CircleForm
-from zlmreport.machines.machine import Machine, predict
+from zlmreport.machines.machine import MachineModel, predict
 from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, Whitened, find_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
@@ -267,7 +267,7 @@ def list_said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
     ]
 
 
-def study_bare(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
+def study_bare(machine: MachineModel, circles: Sequence[CircularTest]) -> CircleStudy:
     """Return the study of circles with an empty model."""
     circles = [clear_of_reversals(each) for each in circles]
     design = make_thinned_design(circles)

@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 
 from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, weights
-from zlmreport.machines.machine import Machine
+from zlmreport.machines.machine import MachineModel
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_design import AXES
 
@@ -73,13 +73,13 @@ class Diagonal:
         return float(np.ptp(self.deviation))
 
 
-def find_measured_space(machine: Machine) -> Space | None:
+def find_measured_space(machine: MachineModel) -> Space | None:
     """Return the box over which the errors of the axes were measured; None if no axis was."""
     low, high = np.array([find_measured_range(machine, axis) for axis in AXES]).T
     return Space(low, high) if np.any(high > low) and np.all(high >= low) else None
 
 
-def find_measured_range(machine: Machine, axis: str) -> tuple[float, float]:
+def find_measured_range(machine: MachineModel, axis: str) -> tuple[float, float]:
     """Return from where to where all errors of an axis were measured, m.
 
     The end lies below the beginning where their ranges do not overlap. Where none was measured it is one
@@ -92,13 +92,13 @@ def find_measured_range(machine: Machine, axis: str) -> tuple[float, float]:
     return place, place
 
 
-def is_parted(machine: Machine, axis: str) -> bool:
+def is_parted(machine: MachineModel, axis: str) -> bool:
     """Return whether no place of an axis lies within the ranges of all its errors."""
     low, high = find_measured_range(machine, axis)
     return high < low
 
 
-def map_volume(machine: Machine, space: Space) -> VolumeMap:
+def map_volume(machine: MachineModel, space: Space) -> VolumeMap:
     """Return the error over the work space."""
     grids = [
         np.linspace(low, high, _POINTS) if high > low else np.array([low])
@@ -122,7 +122,7 @@ def map_volume(machine: Machine, space: Space) -> VolumeMap:
     )
 
 
-def predict_diagonals(machine: Machine, space: Space, points: int = 21) -> tuple[Diagonal, ...]:
+def predict_diagonals(machine: MachineModel, space: Space, points: int = 21) -> tuple[Diagonal, ...]:
     """Return what the errors predict of the four body diagonals."""
     found = []
     for name in DIAGONALS:
@@ -141,7 +141,7 @@ def predict_diagonals(machine: Machine, space: Space, points: int = 21) -> tuple
 
 
 def _compute_relative(
-    machine: Machine, points: FloatArray, origin: FloatArray
+    machine: MachineModel, points: FloatArray, origin: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return Δ relative to a point, (N, 3), its factor, (N, 3, r), and u of what nobody measured, (N,)."""
     together = np.concatenate([points, origin[np.newaxis]])

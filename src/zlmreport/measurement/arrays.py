@@ -1,4 +1,4 @@
-"""Types of arrays, read-only arrays, decimals of numbers."""
+"""Types of arrays, read-only arrays, decimals and scatter of numbers."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ FloatArray: TypeAlias = NDArray[np.float64]
 IntArray: TypeAlias = NDArray[np.int64]
 #: An array of truth values.
 BoolArray: TypeAlias = NDArray[np.bool_]
+
+#: Standard deviation of a normal variable over its median absolute deviation.
+_NORMAL_OVER_MEDIAN = 1.4826
 
 
 def read_only_floats(values: ArrayLike) -> FloatArray:
@@ -43,3 +46,14 @@ def count_decimals_of(values: FloatArray, most: int) -> int:
         if np.all(np.abs(np.round(finite, decimals) - finite) <= tolerance):
             return decimals
     return most
+
+
+def estimate_robust_deviation(values: FloatArray) -> float:
+    """Return the standard deviation of values about zero by the median of their amounts, in their unit.
+
+    Of normal values; up to half of them may stand off as far as they like.
+
+    >>> estimate_robust_deviation(np.array([-1.0, 1.0, 1.0, 500.0]))
+    1.4826
+    """
+    return _NORMAL_OVER_MEDIAN * float(np.median(np.abs(values)))

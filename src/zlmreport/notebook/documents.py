@@ -25,7 +25,7 @@ from zlmreport.notebook.frames import as_html, frame_of
 from zlmreport.notebook.layout import sections_html
 from zlmreport.notebook.readings import Readings, checked, readings_of, registry
 from zlmreport.notebook.results import Result
-from zlmreport.verification.findings import Verification as Verified
+from zlmreport.verification.findings import CheckedCertificate
 from zlmreport.verification.verify import verify as verify_file
 
 _PLACE = Place("compensate")
@@ -129,7 +129,7 @@ _OUTCOMES = {"holds": "holds", "does-not-hold": "does not hold", "undecided": "n
 class Verification:
     """Whether a certificate holds: each of its numbers against its own data, evaluated again."""
 
-    def __init__(self, file: Path, found: Verified) -> None:
+    def __init__(self, file: Path, found: CheckedCertificate) -> None:
         self.file = file
         self._found = found
 

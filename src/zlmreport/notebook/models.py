@@ -23,7 +23,7 @@ from zlmreport.model.diagnosis.asking import AskedLength, list_lengths_asked
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis as FoundDiagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.report import report, report_error, report_model, write_verdict_statement
 from zlmreport.model.diagnosis.study import Fitted
@@ -110,7 +110,7 @@ class Diagnosis:
         What to state of the axis so that more effects can be tried, in sentences.
     """
 
-    def __init__(self, values: Mapping[str, Any], found: FoundDiagnosis, asks: Sequence[str]) -> None:
+    def __init__(self, values: Mapping[str, Any], found: AxisDiagnosis, asks: Sequence[str]) -> None:
         self._values = values
         self.statement = write_verdict_statement(found).in_language(Language.ENGLISH)
         self.asks = tuple(asks)
@@ -401,7 +401,7 @@ class Model:
         """Return the model that comes of adding, step by step, every effect with evidence of its own."""
         installed = registry().effects
 
-        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> FoundDiagnosis:
+        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
             return diagnose(model, self._observed, installed, self._assumptions, may_go=may_go, told=told)
 
         try:

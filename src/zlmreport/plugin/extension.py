@@ -39,6 +39,7 @@ from zlmreport.job.keys_file import KeysFile, read_keys_file
 from zlmreport.job.measurement_keys import (
     InstrumentKeys as JobInstrument,
 )
+from zlmreport.job.parse import is_named_as_yaml
 from zlmreport.job.tree import (
     Step as KeyStep,
 )
@@ -76,6 +77,7 @@ __all__ = [
     "ProgramKeys",
     "calibration_in_words",
     "expanded_uncertainty_in_words",
+    "is_named_as_yaml",
     "of_the_reading",
     "read_keys_file",
     "take_names",

@@ -36,7 +36,7 @@ from zlmreport.document.figures.figure import (
     Figure,
     Level,
     Panel,
-    Readings,
+    PlottedReadings,
     Role,
 )
 from zlmreport.errors import Place
@@ -269,7 +269,7 @@ def _make_figure(evaluation: Evaluation, text: str) -> Figure:
         curves=tuple(Curve("x̄_{i}", role, x, mean) for role in Role),
         bands=(Band("x̄_{i} ± 1", Role.SPREAD, x, mean - 1, mean + 1),),
         readings=tuple(
-            Readings(
+            PlottedReadings(
                 approach,
                 x[measurements.target[measurements.approach == approach]],
                 axis.deviation_unit.from_si(measurements.deviation[measurements.approach == approach]),

@@ -14,7 +14,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.programs import Motion, plan_motion_of
 from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram
@@ -102,7 +102,7 @@ def sample_motion(
     """
     axis = axis or Axis("X")
     to_si = axis.position_unit.to_si
-    plan = Plan(
+    plan = AxisPlan(
         targets=read_only_floats([to_si(target) for target in targets]),
         method=method,
         runs=runs,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
+from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, PlottedReadings
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import (
     Basis,
@@ -301,13 +301,13 @@ def _figures(
             yield f"{standard.identifier}: figure '{figure.key}' of {name}", figure, evaluation
 
 
-def _list_marks(panel: Panel) -> tuple[Curve | Band | Readings, ...]:
+def _list_marks(panel: Panel) -> tuple[Curve | Band | PlottedReadings, ...]:
     """Return what has a value at each of many positions."""
     return (*panel.curves, *panel.bands, *panel.readings)
 
 
-def _name(mark: Curve | Band | Readings) -> str:
-    if isinstance(mark, Readings):
+def _name(mark: Curve | Band | PlottedReadings) -> str:
+    if isinstance(mark, PlottedReadings):
         return f"the readings {mark.approach.arrow}"
     return f"{type(mark).__name__.lower()} {write_plain(mark.notation)}"
 

@@ -15,17 +15,18 @@ from io import BytesIO
 from pathlib import Path
 
 from zlmreport import pipeline
+from zlmreport.document.certificate.results_file import MACHINE_RESULTS, RESULTS
 from zlmreport.errors import InputError, Place
 from zlmreport.job.loading import load
 from zlmreport.language import Words
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import MACHINE_RESULTS, SCHEMA, find_stated_by, lay_out
+from zlmreport.verification.attached import find_stated_by, lay_out
 from zlmreport.verification.carrier import find_results_in, open_pdf, read_file
 from zlmreport.verification.findings import (
+    CheckedCertificate,
     CheckedStatement,
     Identity,
-    Verification,
     VerificationOutcome,
     VerificationVerdict,
 )
@@ -58,7 +59,7 @@ _KINDS: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
     (
         "json",
         lambda head: (
-            head.startswith(b"{") and any(f'"{each}"'.encode() in head for each in (SCHEMA, MACHINE_RESULTS))
+            head.startswith(b"{") and any(f'"{each}"'.encode() in head for each in (RESULTS, MACHINE_RESULTS))
         ),
     ),
     ("dcc", lambda head: head.startswith(b"<") and b"https://ptb.de/dcc" in head),
@@ -77,8 +78,8 @@ def format_of(content: bytes) -> str | None:
 
 
 def verify_alone(
-    path: Path, content: bytes, made_by: str, registry: Registry, verify: Callable[[Path], Verification]
-) -> Verification:
+    path: Path, content: bytes, made_by: str, registry: Registry, verify: Callable[[Path], CheckedCertificate]
+) -> CheckedCertificate:
     """Say of a file of a certificate what can be said.
 
     `made_by`: The format that makes such files.
@@ -89,7 +90,7 @@ def verify_alone(
     """
     digest = _find_digest(content) if made_by not in {"csv", "xlsx"} else ""
     beside = path.with_suffix(".pdf")
-    found = Verification(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
+    found = CheckedCertificate(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
     if not beside.is_file():
         told = [_BY_DIGEST.given(digest=digest)] if digest else []
         unknown = CheckedStatement(path.name, VerificationVerdict.OPEN, _NO_PDF.given(name=beside.name))
@@ -124,7 +125,7 @@ def _find_digest(content: bytes) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
-def _decide_verdict(found: Verification) -> VerificationVerdict:
+def _decide_verdict(found: CheckedCertificate) -> VerificationVerdict:
     return {
         VerificationOutcome.HOLDS: VerificationVerdict.HOLDS,
         VerificationOutcome.DOES_NOT_HOLD: VerificationVerdict.DIFFERS,
@@ -132,7 +133,7 @@ def _decide_verdict(found: Verification) -> VerificationVerdict:
     }[found.outcome]
 
 
-def _find_first(found: Verification) -> Words | str:
+def _find_first(found: CheckedCertificate) -> Words | str:
     """Return the first that does not hold of a certificate."""
     findings = (*found.files, *found.pages, *found.document)
     wanted = VerificationVerdict.DIFFERS if found.differences else VerificationVerdict.OPEN

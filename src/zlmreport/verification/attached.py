@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import math
 import os
 import posixpath
@@ -20,27 +19,23 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field
 
+from zlmreport.document.certificate.results_file import (
+    MACHINE_RESULTS,
+    RESULTS,
+    ResultsFile,
+    ResultsPart,
+    read_results,
+)
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.files import confine
 from zlmreport.job.types import Enclosure, enclose
-from zlmreport.language import Language
 from zlmreport.verification.carrier import Carried, Carrier
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
 
-SCHEMA = "zlmreport/results/1"
-#: Results of a document on a whole machine.
-MACHINE_RESULTS = "zlmreport/machine-results/1"
 
-
-class _Lenient(BaseModel):
-    """Keys of a results file that are needed here; others are compared, not read."""
-
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-
-class StatedSource(_Lenient):
+class StatedSource(ResultsPart):
     """A file that the certificate was made from."""
 
     role: str
@@ -50,23 +45,15 @@ class StatedSource(_Lenient):
     size: int
 
 
-class _Certificate(_Lenient):
-    number: str
-    title: str = ""
-    issued: str = ""
-    language: Language = Language.ENGLISH
-
-
-class _Provenance(_Lenient):
+class _Provenance(ResultsPart):
     generator: str
     plugins: dict[str, str]
     sources: tuple[StatedSource, ...] = Field(min_length=1)
 
 
-class Results(_Lenient):
+class Results(ResultsFile):
     """A results file as far as a verification needs to understand it."""
 
-    certificate: _Certificate
     provenance: _Provenance
 
 
@@ -88,43 +75,12 @@ def find_stated_by(carrier: Carrier) -> StatedResults | None:
         if file.relationship != "Data" or not file.name.endswith(".json"):
             continue
         try:
-            tree = json.loads(
-                file.content,
-                object_pairs_hook=_refuse_doubles,
-                parse_float=_require_finite,
-                parse_int=_read_whole,
-                parse_constant=_require_finite,
-            )
-        except (ValueError, RecursionError) as error:
-            raise ValueError(f"{file.name}: no JSON: {error}") from error
-        if isinstance(tree, dict) and tree.get("schema") in {SCHEMA, MACHINE_RESULTS}:
-            try:
-                return StatedResults(file.name, tree, Results.model_validate(tree))
-            except ValidationError as error:
-                first = error.errors()[0]
-                where = ".".join(map(str, first["loc"]))
-                raise ValueError(f"{file.name}: {where}: {first['msg']}") from error
+            tree = read_results(file.content)
+            if isinstance(tree, dict) and tree.get("schema") in {RESULTS, MACHINE_RESULTS}:
+                return StatedResults(file.name, tree, Results.of(tree))
+        except ValueError as error:
+            raise ValueError(f"{file.name}: {error}") from error
     return None
-
-
-def _refuse_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Refuse a key that is there twice: one reader takes the first, and another the last."""
-    found = dict(pairs)
-    if len(found) != len(pairs):
-        raise ValueError("a key is there twice")
-    return found
-
-
-def _require_finite(text: str) -> float:
-    """Refuse what no certificate states: such a value has no difference from another, and no JSON."""
-    if not math.isfinite(value := float(text)):
-        raise ValueError(f"{text[:20]} is no finite number")
-    return value
-
-
-def _read_whole(text: str) -> int:
-    _require_finite(text)
-    return int(text)
 
 
 #: Of a file system, in bytes.

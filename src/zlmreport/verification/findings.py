@@ -96,7 +96,7 @@ class Identity:
 
 
 @dataclass(frozen=True, slots=True)
-class Verification:
+class CheckedCertificate:
     """All that was found of a certificate."""
 
     identity: Identity  #: Of the certificate.

@@ -14,6 +14,7 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.files import demand
@@ -26,7 +27,6 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.verification import attached, pages, readers, structure, table, values
 from zlmreport.verification.alone import format_of, verify_alone
 from zlmreport.verification.attached import (
-    MACHINE_RESULTS,
     Results,
     StatedResults,
     check_digital_certificates,
@@ -35,10 +35,10 @@ from zlmreport.verification.attached import (
 )
 from zlmreport.verification.carrier import LARGEST, Carrier, find_results_in, guard, open_pdf, read_file
 from zlmreport.verification.findings import (
+    CheckedCertificate,
     CheckedStatement,
     Identity,
     QuotedText,
-    Verification,
     VerificationVerdict,
 )
 from zlmreport.verification.own_texts import quote_own_texts, quote_own_texts_of
@@ -102,7 +102,7 @@ def verify(
     *,
     trusted: Sequence[Any] = (),
     require_signature: bool = False,
-) -> Verification:
+) -> CheckedCertificate:
     """Verify a certificate, or a file of one.
 
     `path`: A PDF that this program made, signed or not; or what it made beside one (`alone`).
@@ -127,7 +127,7 @@ def verify(
         )
     carrier = open_pdf(read_file(path), Place(str(path)))
     state = read_signature_state(carrier.content, trusted)
-    found = Verification(
+    found = CheckedCertificate(
         Identity(generator=carrier.creator),
         _find_on_signatures(state, is_required=require_signature),
         is_signed=state.integrity is not Integrity.UNSIGNED,
@@ -284,7 +284,9 @@ def _is_made(renderer: Renderer, certificate: Certificate) -> bool:
     return True
 
 
-def _compare(found: Verification, carrier: Carrier, stated: StatedResults, again: _Again) -> Verification:
+def _compare(
+    found: CheckedCertificate, carrier: Carrier, stated: StatedResults, again: _Again
+) -> CheckedCertificate:
     """Return all that is found of a certificate that could be made again."""
     provenance = stated.results.provenance
     by_same_programs = again.programs == (provenance.generator, provenance.plugins)
@@ -399,7 +401,7 @@ def _name_programs(generator: str, plugins: Mapping[str, str]) -> str:
     return ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
 
 
-def _leave_open(found: Verification) -> Verification:
+def _leave_open(found: CheckedCertificate) -> CheckedCertificate:
     """Return what is found of pages that cannot be printed here as they were: what differs is not decided."""
 
     def left_open(finding: CheckedStatement) -> CheckedStatement:

@@ -14,7 +14,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Said, Words, same
 from zlmreport.model.diagnosis.asking import list_lengths_asked
-from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
@@ -174,7 +174,7 @@ def _name_subject(job: Job, language: Language) -> str:
 
 
 def collect_diagnosed(
-    diagnosis: Diagnosis, study: Study, effects: Sequence[Effect], language: Language
+    diagnosis: AxisDiagnosis, study: Study, effects: Sequence[Effect], language: Language
 ) -> dict[str, Any]:
     """Return a diagnosis in one language."""
     rows = DiagnosisRows.of(diagnosis, language, {each.identifier: each.title for each in effects})

@@ -18,7 +18,7 @@ from zlmreport.document.figures.figure import (
     Figure,
     Level,
     Panel,
-    Readings,
+    PlottedReadings,
     Role,
 )
 from zlmreport.document.figures.layout import measure_figure
@@ -64,8 +64,8 @@ def both_directions() -> Panel:
             Band("x̄_{i}↓ ± 2s_{i}↓", Role.LIMIT_NEGATIVE, TARGETS, BACKWARD - SPREAD, BACKWARD + SPREAD),
         ),
         readings=(
-            Readings(Approach.POSITIVE, every, np.repeat(FORWARD, 3) + scatter),
-            Readings(Approach.NEGATIVE, every, np.repeat(BACKWARD, 3) + scatter),
+            PlottedReadings(Approach.POSITIVE, every, np.repeat(FORWARD, 3) + scatter),
+            PlottedReadings(Approach.NEGATIVE, every, np.repeat(BACKWARD, 3) + scatter),
         ),
         arrows=(Arrow("R_{i}", 250.0, -1.5, 6.5), Arrow("B_{i}", 250.0, 1.0, 4.0)),
         brackets=(
@@ -148,7 +148,7 @@ def _lone(*values: float) -> Panel:
     return Panel(
         curves=(Curve("x̄_{i}", Role.MEAN_BIDIRECTIONAL, x, y),),
         bands=(Band("x̄_{i} ± 2s_{i}", Role.SPREAD, x, y - 1, y + 1),),
-        readings=(Readings(Approach.POSITIVE, x, y),),
+        readings=(PlottedReadings(Approach.POSITIVE, x, y),),
     )
 
 

@@ -19,7 +19,7 @@ from zlmreport.document.subjects.annex import Modelled
 from zlmreport.document.writer import Writer
 from zlmreport.job.job import Job
 from zlmreport.language import Language, same
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 
 GOLDEN = Path(__file__).with_name("golden")
@@ -48,7 +48,7 @@ def text(of: Modelled, language: Language = Language.ENGLISH) -> str:
 
 def with_diagnosis(**changes: object) -> Modelled:
     """Return the example with parts of its diagnosis replaced."""
-    diagnosis: Diagnosis = replace(modelled().diagnosis, **changes)
+    diagnosis: AxisDiagnosis = replace(modelled().diagnosis, **changes)
     return replace(modelled(), diagnosis=diagnosis)
 
 
@@ -101,7 +101,7 @@ def test_the_plugins_of_the_effects_are_named(tmp_path: Path) -> None:
 
 
 def test_an_adequate_model_shows_no_candidates() -> None:
-    shown = text(with_diagnosis(verdict=Verdict.ADEQUATE, candidates=(), failures=()))
+    shown = text(with_diagnosis(verdict=DiagnosisVerdict.ADEQUATE, candidates=(), failures=()))
     assert "may lack" not in shown
     assert "No test of the residuals fails" in shown
 
@@ -124,7 +124,7 @@ def test_a_last_bar_shows_the_error_with_what_the_model_lacks() -> None:
 
 def test_a_remedy_is_only_of_what_the_verdict_names() -> None:
     assert "What to do" in text(modelled())
-    assert "What to do" not in text(with_diagnosis(verdict=Verdict.UNEXPLAINED))
+    assert "What to do" not in text(with_diagnosis(verdict=DiagnosisVerdict.UNEXPLAINED))
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,16 @@ from zlmreport.document.blocks import (
     Verdict,
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
-from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings, Role
+from zlmreport.document.figures.figure import (
+    Arrow,
+    Band,
+    Bracket,
+    Curve,
+    Figure,
+    Panel,
+    PlottedReadings,
+    Role,
+)
 from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import (
@@ -206,7 +215,7 @@ def figure(result: Evaluation, key: str = "means") -> Figure:
                 ),
                 bands=(Band("x̄_{i}↑ ± 2s_{i}↑", Role.SPREAD, x, forward - spread, forward + spread),),
                 readings=(
-                    Readings(
+                    PlottedReadings(
                         Approach.POSITIVE,
                         x[readings.target[readings.approach == 1]],
                         unit.from_si(readings.deviation[readings.approach == 1]),

@@ -14,15 +14,15 @@ from zlmreport.live.capture.records import MOMENTARY
 from zlmreport.live.capture.visits import ListedVisit, Settings, visit_list
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 
 MM, UM = 1e-3, 1e-6
 #: At 100 mm/s the axis cannot run 5 mm over a target and come back within 0.1 s.
 SETTINGS = Settings(tolerance=1 * MM, stability=1 * UM, dwell=1.0, turn=0.1, stay=3.0, feed=100 * MM)
 
 
-def planned(method: Method = Method.LINEAR, targets=(0, 100, 200), runs: int = 1) -> Plan:
-    return Plan(
+def planned(method: Method = Method.LINEAR, targets=(0, 100, 200), runs: int = 1) -> AxisPlan:
+    return AxisPlan(
         targets=np.array(targets) * MM, method=method, runs=runs, overrun=5 * MM, feed=100 * MM, dwell=3.0
     )
 

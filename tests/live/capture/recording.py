@@ -14,13 +14,13 @@ from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import visit_list
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 
 #: Of the clock of `moves.Axis`, when a capture begins.
 BEGIN = 100.0
 
 
-def header(plan: Plan | None = None, datum: float | None = None, **changes) -> Header:
+def header(plan: AxisPlan | None = None, datum: float | None = None, **changes) -> Header:
     plan = plan or planned()
     values = {
         "number": "CAL-7",
@@ -44,7 +44,7 @@ def recorded(readings: Iterable[LiveReading], journal: Journal) -> list[Event]:
     return list(capture(readings, follower, journal, lambda time: time - BEGIN))
 
 
-def written(path: Path, readings: Iterable[LiveReading], plan: Plan | None = None, **changes) -> Path:
+def written(path: Path, readings: Iterable[LiveReading], plan: AxisPlan | None = None, **changes) -> Path:
     """Write the journal of a sitting."""
     with Journal.begin(path, header(plan, **changes)) as journal:
         recorded(readings, journal)

@@ -24,7 +24,7 @@ from zlmreport.model.planning.deciding import (
 )
 from zlmreport.model.planning.experiment import Experiment
 from zlmreport.model.planning.methods import Method, find_half_way
-from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan, propose
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause, propose
 from zlmreport.model.planning.planned_test import choose_model_of
 from zlmreport.model.planning.programs import plan_motion_of
 from zlmreport.model.planning.visibility import expect_design, list_planned_visits
@@ -139,7 +139,7 @@ def test_an_overrun_that_leaves_no_room_does_not_stop_the_experiment(plan: str) 
 
 
 def test_outermost_targets_move_in_by_the_overrun() -> None:
-    plan = Plan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
+    plan = AxisPlan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
     np.testing.assert_allclose(keep_within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])
 
 
@@ -175,11 +175,11 @@ def test_names_that_make_no_question_are_refused(names: str, message: str) -> No
 
 
 def test_pause_lies_between_the_halves_of_the_runs() -> None:
-    plan = Plan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
+    plan = AxisPlan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
     visits = list_planned_visits(plan)
     assert [visit.run for visit in visits[find_half_way(visits) :]] == [2] * 4 + [3] * 4
     design = expect_design(planned_job().axis, plan, ExpectedTest(1e-6, 0.0))
-    without = expect_design(planned_job().axis, Plan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))
+    without = expect_design(planned_job().axis, AxisPlan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))
     np.testing.assert_allclose(design.time - without.time, [0.0] * 4 + [600.0] * 8)
     change = design.conditions["axis_temperature"] - without.conditions["axis_temperature"]
     np.testing.assert_allclose(change, [0.0] * 4 + [3.0] * 8)
@@ -194,7 +194,7 @@ def test_pause_needs_two_runs_one_after_another() -> None:
 
 
 def test_programs_wait_in_the_pause() -> None:
-    plan = Plan(np.array([0.1, 0.3]), runs=2, pause=Pause(600.0, 3.0, "axis_temperature"))
+    plan = AxisPlan(np.array([0.1, 0.3]), runs=2, pause=Pause(600.0, 3.0, "axis_temperature"))
     job = planned_job()
     motion = plan_motion_of("P", job.axis, plan, job.place_of("plan"))
     assert [stop.begins for stop in motion.stops if stop.begins] == ["test", "second half"]

@@ -9,15 +9,15 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.programs import plan_motion_of, write_program_number
 from zlmreport.testing import sample_motion
 
 PLACE = Place("job.yaml", 3, 4)
 
 
-def _slow(**rates: float) -> Plan:
-    return Plan(read_only_floats([0.0, 0.1]), **rates)
+def _slow(**rates: float) -> AxisPlan:
+    return AxisPlan(read_only_floats([0.0, 0.1]), **rates)
 
 
 def test_readings_are_numbered_in_their_order() -> None:

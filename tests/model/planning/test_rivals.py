@@ -18,12 +18,12 @@ from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.planning.deciding import collect_experiment, make_deciding_job, make_question_of
 from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause
 from zlmreport.model.planning.rivals import Question, Rival
 from zlmreport.model.planning.visibility import expect_design
 
 SLOPE, SIGMA = 10e-6, 0.5e-6
-PLAN = Plan(np.linspace(0.03, 0.57, 10), Method.PENDULUM, runs=3)
+PLAN = AxisPlan(np.linspace(0.03, 0.57, 10), Method.PENDULUM, runs=3)
 EXPECTED = ExpectedTest(SIGMA, 0.02)
 WARMER = replace(PLAN, after=Pause(3600.0, 3.0, "axis_temperature"))
 TIED = ("scale-error", "scale-expansion")

@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import Description
 from zlmreport_plugins.effects import zlmreport_effects
 
@@ -21,7 +21,7 @@ def described(
     targets: int = 11, method: Method = Method.LINEAR, runs: int = 5, **changes: Any
 ) -> Description:
     """Return the description of a quiet test of a metre."""
-    plan = Plan(np.linspace(0.0, 1.0, targets), method, runs)
+    plan = AxisPlan(np.linspace(0.0, 1.0, targets), method, runs)
     return replace(Description(Axis("X", travel=(0.0, 1.0)), plan, seed=1), **changes)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
     from zlmreport.language import Language
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +201,7 @@ class Certificate:
     generator: str
     keywords: tuple[str, ...] = ()
     plugins: Mapping[str, str] = field(default_factory=dict)
-    diagnosis: Diagnosis | None = None
+    diagnosis: AxisDiagnosis | None = None
     linked: Linked | None = None
     evaluations_as_found: tuple[Evaluation, ...] = ()
     budget: Budget | NoBudget | None = None

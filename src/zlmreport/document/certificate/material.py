@@ -28,14 +28,14 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
     from zlmreport.language import Words
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 
 
 class Interpretation(Protocol):
     """What the laboratory thinks that the deviations come from: handed in, and no more known of it here."""
 
     @property
-    def diagnosis(self) -> Diagnosis:
+    def diagnosis(self) -> AxisDiagnosis:
         """For renderers of data."""
         ...
 

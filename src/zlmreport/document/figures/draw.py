@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.document.figures.canvas import Canvas, Fill, Run, Segment, Stroke, SvgCanvas
 from zlmreport.document.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, DrawnDimension
-from zlmreport.document.figures.figure import Band, Bar, Curve, Figure, Readings, Role
+from zlmreport.document.figures.figure import Band, Bar, Curve, Figure, PlottedReadings, Role
 from zlmreport.document.figures.layout import (
     TICK_GAP,
     TICK_LENGTH,
@@ -173,7 +173,7 @@ def _place_curve_marks(
 
 
 def _place_reading_marks(
-    kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None
+    kind: str, readings: PlottedReadings, points: FloatArray, frame: Frame | None = None
 ) -> PointMarks:
     """Return the marks of single readings."""
     mark, stroke = READINGS[readings.approach]

@@ -77,7 +77,7 @@ class Band:
 
 
 @dataclass(frozen=True, slots=True)
-class Readings:
+class PlottedReadings:
     """All single readings of one approach, behind the curves: `x` and `y` of shape (N,)."""
 
     approach: Approach
@@ -216,7 +216,7 @@ class Panel:
     heading: Words | None = None
     curves: tuple[Curve, ...] = ()
     bands: tuple[Band, ...] = ()
-    readings: tuple[Readings, ...] = ()
+    readings: tuple[PlottedReadings, ...] = ()
     arrows: tuple[Arrow, ...] = ()
     brackets: tuple[Bracket, ...] = ()
     levels: tuple[Level, ...] = ()

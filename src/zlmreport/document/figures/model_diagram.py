@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Readings, Role
+from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, PlottedReadings, Role
 from zlmreport.document.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE, alternative_text
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
@@ -76,10 +76,10 @@ class ModelDiagram:
         """Return deviations in the unit of the page."""
         return read_only_floats(self.axis.deviation_unit.from_si(values))
 
-    def draw_readings(self, x: FloatArray, values: FloatArray) -> tuple[Readings, ...]:
+    def draw_readings(self, x: FloatArray, values: FloatArray) -> tuple[PlottedReadings, ...]:
         """Return values of single readings, shape (N,), over anything in the unit of the page."""
         return tuple(
-            Readings(
+            PlottedReadings(
                 approach,
                 read_only_floats(x[self.select(approach)]),
                 self.convert_to_printed(values[self.select(approach)]),

@@ -16,7 +16,7 @@ from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.measurement.units import write_behind
-from zlmreport.model.diagnosis.candidate import Candidate
+from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, find_unit_of
@@ -217,7 +217,7 @@ _X_TITLE = Words("Effects, one after another")
 _Y_TITLE = Words("Root mean square error", context="axis of a graph")
 
 
-def draw_fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
+def draw_fall_chart(history: Sequence[Fitted], missing: EffectCandidate | None = None) -> Figure:
     """Return the fall chart of a model, from the readings without a model to the whole of it.
 
     `missing`: What the model lacks: a last bar shows the error with it.

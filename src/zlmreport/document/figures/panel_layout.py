@@ -21,7 +21,7 @@ from zlmreport.document.figures.dimensions import (
     place_margin_columns,
     spread,
 )
-from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, Readings
+from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, PlottedReadings
 from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
 from zlmreport.document.figures.polar import PolarGrid, find_largest_square, make_polar_grid
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, PlacedLabel
@@ -203,7 +203,7 @@ _HEADING_GAP = 14.0
 _READINGS = Words("single readings")
 
 #: What an entry explains; the readings of all approaches share one.
-Explained: TypeAlias = Curve | Band | Level | tuple[Readings, ...]
+Explained: TypeAlias = Curve | Band | Level | tuple[PlottedReadings, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from zlmreport.document.figures.figure import (
     Figure,
     Level,
     Panel,
-    Readings,
+    PlottedReadings,
     Role,
 )
 from zlmreport.evaluation.checks import deviation_in_words, position_in_words, positions_in_words
@@ -112,7 +112,7 @@ class Diagram:
             self._convert_to_printed(upper[shown]),
         )
 
-    def readings(self, *approaches: Approach) -> tuple[Readings, ...]:
+    def readings(self, *approaches: Approach) -> tuple[PlottedReadings, ...]:
         """Return the single readings of each approach that was measured; of all approaches by default."""
         measurements = self.evaluation.measurements
         present = np.isfinite(measurements.deviation)
@@ -122,7 +122,7 @@ class Diagram:
             if of_approach.any():
                 x = self.positions[measurements.target[of_approach]]
                 y = self._convert_to_printed(measurements.deviation[of_approach])
-                found.append(Readings(approach, read_only_floats(x), y))
+                found.append(PlottedReadings(approach, read_only_floats(x), y))
         return tuple(found)
 
     def arrow(self, notation: str, at: int | None, low: FloatArray, high: FloatArray) -> Arrow | None:
@@ -193,7 +193,7 @@ def panel(  # noqa: PLR0913 - one for each kind of mark
     *,
     curves: Iterable[Curve | None] = (),
     bands: Iterable[Band | None] = (),
-    readings: Iterable[Readings] = (),
+    readings: Iterable[PlottedReadings] = (),
     arrows: Iterable[Arrow | None] = (),
     brackets: Iterable[Bracket | None] = (),
     levels: Iterable[Level | None] = (),

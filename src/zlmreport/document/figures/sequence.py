@@ -7,7 +7,7 @@ from itertools import groupby
 
 import numpy as np
 
-from zlmreport.document.figures.figure import Curve, Figure, Panel, Readings, Role
+from zlmreport.document.figures.figure import Curve, Figure, Panel, PlottedReadings, Role
 from zlmreport.document.figures.prescribed import alternative_text
 from zlmreport.evaluation.checks import position_in_words, positions_in_words, readings_in_words
 from zlmreport.language import Words
@@ -58,7 +58,7 @@ def _place_stops(stops: Sequence[ProgramStop]) -> Iterator[float]:
             yield from (number + part for part in np.linspace(0, 1, len(some) + 2)[1:-1].tolist())
 
 
-def _mark_readings(motion: Motion) -> Iterator[Readings]:
+def _mark_readings(motion: Motion) -> Iterator[PlottedReadings]:
     for approach in Approach:
         found = [
             (stop.reading.number, stop.position)
@@ -67,7 +67,7 @@ def _mark_readings(motion: Motion) -> Iterator[Readings]:
         ]
         if found:
             numbers, positions = np.array(found).T
-            yield Readings(approach, read_only_floats(numbers), read_only_floats(positions))
+            yield PlottedReadings(approach, read_only_floats(numbers), read_only_floats(positions))
 
 
 def _describe_in_words(motion: Motion) -> Words:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from zlmreport.document.subjects.forecast import StandardForecast
     from zlmreport.document.writer import Writer
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
     from zlmreport.model.diagnosis.study import Fitted, Study
     from zlmreport.model.planning.experiment import Experiment
 
@@ -58,7 +58,7 @@ class Modelled:
     """The error model of a job, studied."""
 
     history: tuple[Fitted, ...]  #: Its fits, effect by effect; the first without any.
-    diagnosis: Diagnosis  #: What it lacks.
+    diagnosis: AxisDiagnosis  #: What it lacks.
     forecasts: tuple[
         StandardForecast, ...
     ]  #: What each standard would say of a corrected axis, if one can be.

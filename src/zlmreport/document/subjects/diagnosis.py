@@ -35,8 +35,8 @@ from zlmreport.document.writer import NOTHING
 from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
-from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import select_serious_candidates, write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure
@@ -78,9 +78,9 @@ _LOOK = Words("Look at {at}. Measure {measure}.")
 _IMPROBABLE = Words("Hardly missing")
 _SENTENCES = ColumnKind.SENTENCES
 MARKS = {
-    Verdict.ADEQUATE: Mark.MET,
-    Verdict.MISSING: Mark.OPEN,
-    Verdict.UNEXPLAINED: Mark.NOT_MET,
+    DiagnosisVerdict.ADEQUATE: Mark.MET,
+    DiagnosisVerdict.MISSING: Mark.OPEN,
+    DiagnosisVerdict.UNEXPLAINED: Mark.NOT_MET,
 }
 _EXTRAPOLATED = Words("{p} (extrapolated)")
 _VISIBLE = Words("{share} % of it is visible beside this model")
@@ -124,7 +124,7 @@ class CandidateRow:
     is_serious: bool  #: Whether it is worth a word: of the set, one with equals, one that is not improbable.
     is_named: bool  #: Whether the verdict names it.
     question: str  #: What is asked of a value beyond what is usual; empty if none is.
-    candidate: Candidate
+    candidate: EffectCandidate
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,13 +157,13 @@ class DiagnosisRows:
 
     @classmethod
     def of(
-        cls, diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words] | None = None
+        cls, diagnosis: AxisDiagnosis, language: Language, titles: Mapping[str, Words] | None = None
     ) -> DiagnosisRows:
         """Return a diagnosis."""
         axis = diagnosis.fit.design.axis
         serious = select_serious_candidates(diagnosis)
 
-        def rows(candidates: Iterable[Candidate]) -> tuple[CandidateRow, ...]:
+        def rows(candidates: Iterable[EffectCandidate]) -> tuple[CandidateRow, ...]:
             return tuple(
                 _make_candidate_row(each, diagnosis, language, titles or {}, is_serious=each in serious)
                 for each in candidates
@@ -176,13 +176,13 @@ class DiagnosisRows:
             candidates=rows(diagnosis.candidates),
             not_excluded=tuple(diagnosis.not_excluded),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
-            names_candidates=diagnosis.verdict is Verdict.MISSING,
+            names_candidates=diagnosis.verdict is DiagnosisVerdict.MISSING,
             remainder=_lay_out_remainder(diagnosis, language),
         )
 
 
 def lay_out_diagnosis(
-    diagnosis: Diagnosis,
+    diagnosis: AxisDiagnosis,
     language: Language,
     titles: Mapping[str, Words],
     experiment: Experiment | None = None,
@@ -200,7 +200,7 @@ def lay_out_diagnosis(
     serious = [each for each in rows.candidates if each.is_serious]
     others = [each for each in rows.candidates if not each.is_serious]
     excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
-    leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
+    leads = bool(rows.candidates) and diagnosis.verdict is not DiagnosisVerdict.ADEQUATE
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
@@ -247,7 +247,7 @@ def lay_out_diagnosis(
 
 
 def lay_out_unseen(
-    diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]
+    diagnosis: AxisDiagnosis, language: Language, titles: Mapping[str, Words]
 ) -> tuple[Section, ...]:
     """Return what the test cannot see or try: the sections ``hidden``, ``not-tried`` and ``visibility``.
 
@@ -314,7 +314,7 @@ def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: 
     return Table(_CANDIDATES.in_language(language), columns[: len(rows[0])], (RowGroup(rows),))
 
 
-def _lay_out_visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]) -> Table:
+def _lay_out_visibility(diagnosis: AxisDiagnosis, language: Language, titles: Mapping[str, Words]) -> Table:
     """Return how much of each effect the plan of the test can see, the best hidden first."""
     axis = diagnosis.fit.design.axis
     columns = (
@@ -357,8 +357,8 @@ def write_effect_argument(effect: Effect) -> str:
 
 
 def _make_candidate_row(
-    candidate: Candidate,
-    diagnosis: Diagnosis,
+    candidate: EffectCandidate,
+    diagnosis: AxisDiagnosis,
     language: Language,
     titles: Mapping[str, Words],
     *,
@@ -391,13 +391,13 @@ def _make_candidate_row(
     )
 
 
-def _is_named(candidate: Candidate, diagnosis: Diagnosis) -> bool:
+def _is_named(candidate: EffectCandidate, diagnosis: AxisDiagnosis) -> bool:
     """Return whether a candidate is one of the set, or an equal of one."""
     names = {each.identifier for each in diagnosis.together}
     return candidate.identifier in names or bool(names & {*candidate.equals})
 
 
-def _lay_out_remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
+def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | None:
     """Return what is left without a name: its shape, place, size, share and formula."""
     left = diagnosis.remainder
     if left is None:
@@ -414,7 +414,7 @@ def _lay_out_remainder(diagnosis: Diagnosis, language: Language) -> Facts | None
     return Facts(tuple((name.in_language(language), value) for name, value in pairs))
 
 
-def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
+def _look(diagnosis: AxisDiagnosis, language: Language) -> Paragraph | None:
     """Return where to look for what is left, and what to measure."""
     left = diagnosis.remainder
     if left is None:
@@ -423,7 +423,7 @@ def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
     return Paragraph(_LOOK.given(at=look.at, measure=look.measure).in_language(language))
 
 
-def list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
+def list_hidden(diagnosis: AxisDiagnosis, language: Language) -> Iterator[HiddenRow]:
     """Yield the effects that the plan of the test hides beside the model."""
     axis = diagnosis.fit.design.axis
     for each in diagnosis.visibility:
@@ -436,7 +436,7 @@ def list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]
             yield HiddenRow((each.effect,), reason.in_language(language))
 
 
-def list_not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
+def list_not_tested(diagnosis: AxisDiagnosis, language: Language) -> tuple[HiddenRow, ...]:
     """Return the effects that could not be tried, reason by reason."""
     by_reason: dict[str, list[str]] = {}
     for each in diagnosis.not_testable:

@@ -29,7 +29,7 @@ from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Wave, list_one_way, list_waves, list_what_moves_with_time
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, find_unit_of
-from zlmreport.model.fitting.estimate import Estimate, Plausibility
+from zlmreport.model.fitting.estimate import ParameterEstimate, Plausibility
 from zlmreport.model.fitting.fit import Fit
 
 #: Titles of what is said of a model.
@@ -103,7 +103,7 @@ class ParameterRow:
     expected: str = ""  #: The value that follows from the job, without unit; empty where none does.
 
     @classmethod
-    def of(cls, estimate: Estimate, design: Design, language: Language) -> ParameterRow:
+    def of(cls, estimate: ParameterEstimate, design: Design, language: Language) -> ParameterRow:
         """Return an estimated parameter."""
         own, is_counted = estimate.parameter, design.time_is_counted
         unit = find_unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)

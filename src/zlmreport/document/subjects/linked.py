@@ -20,7 +20,7 @@ from zlmreport.model.fitting.curve import shows_reach_only
 
 if TYPE_CHECKING:
     from zlmreport.measurement.arrays import FloatArray
-    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 
 #: Decimals of values that are drawn: finer than any screen.
 _DECIMALS = 6
@@ -75,7 +75,7 @@ _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 
 def link_graphs(
-    section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, language: Language
+    section: str, study: Study, whole: Fitted, diagnosis: AxisDiagnosis, language: Language
 ) -> Linked:
     """Return the linked graphs of a studied model.
 
@@ -91,7 +91,7 @@ def link_graphs(
     )
 
 
-def collect_failure(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[str, Any]:
+def collect_failure(row: FailureRow, diagnosis: AxisDiagnosis, study: Study) -> dict[str, Any]:
     """Return a failure: what is said of it, and the axis and the readings that show it."""
     failure = row.failure
     axis = failure.condition or "position"
@@ -190,7 +190,7 @@ def collect_drawn_values(values: FloatArray) -> list[float | None]:
     return [None if value != value else value for value in np.round(values, _DECIMALS).tolist()]  # noqa: PLR0124 - NaN is what differs from itself
 
 
-def _list_failing_readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]:
+def _list_failing_readings(failure: Failure, diagnosis: AxisDiagnosis, study: Study) -> list[int]:
     """Return the places of the readings that show a failure, in the measurement set; none where all do."""
     if failure.test is ResidualTest.OUTLIERS:
         return [int(each) for each in diagnosis.outliers]

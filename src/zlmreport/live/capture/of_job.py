@@ -26,7 +26,7 @@ from zlmreport.live.capture.visits import (
     visit_list,
 )
 from zlmreport.measurement.axis import Axis, refuse_other_than_positions
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.version import __version__
 
 
@@ -83,7 +83,7 @@ class Assignment:
     settings: Settings  #: When a reading is taken.
     #: Where the axis stands when the datum is taken, m or rad; None for the instrument's own zero.
     datum: float | None
-    plan: Plan  #: Of the test.
+    plan: AxisPlan  #: Of the test.
     visits: tuple[ListedVisit, ...]
 
     def estimate_remaining_time(self, taken: int) -> float:
@@ -98,7 +98,7 @@ def find_options_of(job: Job) -> CaptureOptions | None:
     return options if isinstance(options, CaptureOptions) else None
 
 
-def make_assignment_of(job: Job, plan: Plan) -> Assignment:
+def make_assignment_of(job: Job, plan: AxisPlan) -> Assignment:
     """Return what a job asks to be captured.
 
     Raises `InputError` if its data source is not captured live, or its limits do not fit the plan.
@@ -186,7 +186,7 @@ def _say_difference(header: Header, job: Job, assignment: Assignment) -> str:
     return ""
 
 
-def _make_settings(options: CaptureOptions, plan: Plan, axis: Axis, settle: float | None) -> Settings:
+def _make_settings(options: CaptureOptions, plan: AxisPlan, axis: Axis, settle: float | None) -> Settings:
     unit = axis.position_unit
     largest = _find_largest_tolerance(plan)
     return Settings(
@@ -202,12 +202,12 @@ def _make_settings(options: CaptureOptions, plan: Plan, axis: Axis, settle: floa
     )
 
 
-def _find_largest_tolerance(plan: Plan) -> float:
+def _find_largest_tolerance(plan: AxisPlan) -> float:
     interval = min(later - earlier for earlier, later in pairwise(plan.targets.tolist()))
     return float(min(SHARE_OF_INTERVAL * interval, SHARE_OF_OVERRUN * plan.overrun))
 
 
-def _find_problems(job: Job, settings: Settings, plan: Plan) -> Iterator[Problem]:
+def _find_problems(job: Job, settings: Settings, plan: AxisPlan) -> Iterator[Problem]:
     unit, fine = job.axis.position_unit, job.axis.deviation_unit
     largest = _find_largest_tolerance(plan)
     if settings.tolerance > largest * (1 + 1e-9):
@@ -233,7 +233,7 @@ def _find_problems(job: Job, settings: Settings, plan: Plan) -> Iterator[Problem
         )
 
 
-def _find_datum(options: CaptureOptions, plan: Plan, axis: Axis) -> float | None:
+def _find_datum(options: CaptureOptions, plan: AxisPlan, axis: Axis) -> float | None:
     if options.datum == "instrument":
         return None
     if options.datum == "start":

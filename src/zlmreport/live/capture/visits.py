@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import RUN_BY_RUN, list_visits, plan_path
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class ListedVisit:
     travelled: float  #: The way of the axis since the visit before, m or rad.
 
 
-def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
+def visit_list(plan: AxisPlan) -> tuple[ListedVisit, ...]:
     """Return the visits of a plan in their order."""
     stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     return tuple(
@@ -41,7 +41,7 @@ def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
     )
 
 
-def start_of(plan: Plan) -> float:
+def start_of(plan: AxisPlan) -> float:
     """Return where the axis stands before the test: the start of the path, m or rad."""
     return plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)[0].position
 

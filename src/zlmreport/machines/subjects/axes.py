@@ -10,7 +10,7 @@ from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Sec
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
 from zlmreport.language import Words, list_alternatives, list_in_words, same
 from zlmreport.machines.kinematics import ERRORS
-from zlmreport.machines.machine import Machine, find_unit_of
+from zlmreport.machines.machine import MachineModel, find_unit_of
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.machines.volume import (
     VolumeMap,
@@ -23,7 +23,7 @@ from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
 
 
-def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
+def lay_out_errors(machine: MachineModel, say: Sayer, *, is_full: bool) -> Section:
     """Return the errors that are known, and the others: in one table, or the others in a sentence."""
     known: list[tuple[Cell, ...]] = []
     bounded: list[tuple[Cell, ...]] = []
@@ -66,12 +66,12 @@ def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     return Section("errors", title, tuple(blocks))
 
 
-def say_known(machine: Machine) -> Words:
+def say_known(machine: MachineModel) -> Words:
     """Return how many of the 21 errors are known."""
     return _OF.given(known=len(machine.curves), all=len(ERRORS))
 
 
-def lay_out_space(machine: Machine, say: Sayer) -> Section:
+def lay_out_space(machine: MachineModel, say: Sayer) -> Section:
     """Return the largest error of the work space, slices of it, and the body diagonals."""
     space = find_measured_space(machine)
     if space is None:

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Table
+from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.subjects.diagnosis import CANDIDATES, MARKS, VERDICT
-from zlmreport.language import Words, list_alternatives, list_in_words
+from zlmreport.language import Words, list_alternatives, list_in_words, named
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
@@ -18,7 +18,7 @@ from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.measurement.units import MICROMETRE
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.effects.circle_effect import CircleEffect
 
 _MOST_CANDIDATES = 5
@@ -26,10 +26,10 @@ _MOST_CANDIDATES = 5
 
 def say_verdict(diagnosis: MachineDiagnosis) -> Words:
     """Return the verdict in words."""
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _ADEQUATE
     left = diagnosis.remainder
-    if diagnosis.verdict is Verdict.UNEXPLAINED and left:
+    if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED and left:
         return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
     if not diagnosis.found:
         first = diagnosis.candidates[0]
@@ -147,13 +147,15 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
     if not diagnosis.candidates:
         return None
     rows: list[tuple[Cell, ...]] = []
+    titles = {each.identifier: each.title for each in diagnosis.catalogue}
     for each in diagnosis.candidates[:_MOST_CANDIDATES]:
         note = "" if each.is_plausible else say(_IMPOSSIBLE)
         if each.indistinguishable_from:
-            note = say(_EQUALS.given(effects=", ".join(each.indistinguishable_from)))
+            equals = [say(titles[name]) for name in each.indistinguishable_from]
+            note = say(_EQUALS.given(effects=", ".join(equals)))
         rows.append(
             (
-                each.effect.identifier,
+                say.explain_effect(each.effect),
                 say.write_number(each.evidence, 1),
                 say.write_micrometres(each.rms_after),
                 note,
@@ -167,7 +169,7 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
     )
     blocks: list[Block] = [make_plain_table(say(CANDIDATES), columns, rows)]
     first = diagnosis.candidates[0]
-    blocks.append(lay_out_parameters(first.estimates, say))
+    blocks.append(lay_out_parameters([first.effect], first.estimates, say))
     if first.indistinguishable_from:
         blocks.append(Paragraph(say(_TELL_APART.given(how=say_how_told(first, diagnosis)))))
     return Section("candidates", say(CANDIDATES), tuple(blocks))
@@ -175,35 +177,44 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
 
 def lay_out_model(study: CircleStudy, say: Sayer) -> Section:
     """Return the effects of a model with their parameters."""
-    return Section(
-        "model", say(_MODEL), (lay_out_parameters(study.estimates, say), Paragraph(say(_COVERAGE)))
-    )
+    table = lay_out_parameters([each.effect for each in study.effects], study.estimates, say)
+    return Section("model", say(_MODEL), (table, Paragraph(say(_COVERAGE))))
 
 
-def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
-    """Return parameters with their uncertainties; one that was only tried at some values has none."""
-    rows = []
-    for each in estimates:
-        u = each.expanded_uncertainty
-        value = (
-            say.write_general(each.unit.from_si(each.value))
-            if u is None
-            else say.write_pair(each.value, u, each.unit)
+def lay_out_parameters(
+    effects: Iterable[CircleEffect], estimates: Sequence[EstimatedTerm], say: Sayer
+) -> Table:
+    """Return the parameters of effects with their uncertainties, effect by effect."""
+    columns = (Column(say(_PARAMETER)), make_right_column(say(_VALUE)), Column(say(_UNIT)))
+    groups = tuple(
+        RowGroup(
+            tuple(_lay_out_estimate(each, say) for each in estimates if each.effect == effect.identifier),
+            say(named(effect.identifier, effect.title)),
         )
-        rows.append((each.effect, say(each.title), value, each.unit.symbol))
-    columns = (
-        Column(say(_EFFECT)),
-        Column(say(_PARAMETER)),
-        make_right_column(say(_VALUE)),
-        Column(say(_UNIT)),
+        for effect in effects
     )
-    return make_plain_table(say(_PARAMETERS), columns, rows)
+    return Table(say(_PARAMETERS), columns, groups)
+
+
+def _lay_out_estimate(found: EstimatedTerm, say: Sayer) -> tuple[Cell, ...]:
+    """Return a parameter with its uncertainty; one that was only tried at some values has none."""
+    u = found.expanded_uncertainty
+    value = (
+        say.write_general(found.unit.from_si(found.value))
+        if u is None
+        else say.write_pair(found.value, u, found.unit)
+    )
+    return say(found.title), value, found.unit.symbol
 
 
 def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     """Return how the error fell as the effects came in, one by one; None where none did."""
-    rows = [
-        (each.effect, *map(say.write_micrometres, (each.before, each.after, each.noise)))
+    by_name = {each.identifier: each for each in diagnosis.catalogue}
+    rows: list[tuple[Cell, ...]] = [
+        (
+            say.explain_effect(by_name[each.effect]),
+            *map(say.write_micrometres, (each.before, each.after, each.noise)),
+        )
         for each in diagnosis.steps
     ]
     columns = (
@@ -239,7 +250,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
     if diagnosis.is_tied and planned.proposals:
         first_run = planned.proposals[0]
         return _NEXT_RUN.given(run=first_run.what, number=round(first_run.minutes))
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _NEXT_DOCUMENT
     return _NEXT_LOOK
 

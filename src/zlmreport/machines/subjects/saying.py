@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from zlmreport.document.blocks import Align, Cell, Column, RowGroup, Table
+from zlmreport.document.blocks import Align, Cell, Column, Explained, RowGroup, Table
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import (
     round_pair,
@@ -14,6 +14,7 @@ from zlmreport.language.formatting import (
     write_stated_number,
 )
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, write_behind
+from zlmreport.model.effects.circle_effect import CircleEffect
 
 #: Digits behind the sign of lengths in µm.
 _DECIMALS = 2
@@ -28,6 +29,10 @@ class Sayer:
     def __call__(self, words: Words) -> str:
         """Return a phrase."""
         return words.in_language(self.language)
+
+    def explain_effect(self, effect: CircleEffect) -> Explained:
+        """Return an effect as machine files name it, and what it is."""
+        return Explained(effect.identifier, self(effect.title))
 
     def write_number(self, value: float, decimals: int = _DECIMALS) -> str:
         """Return a number with fixed decimals."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -68,7 +68,8 @@ def lay_out_test(found: ComparedTest, say: Sayer) -> Section:
 
 def _lay_out_test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
     yield lay_out_numbers(found, say)
-    for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
+    of_effects = [(say(effect.title), size) for effect, size in found.of_effects]
+    for words, shares in ((_OF_AXES, found.of_axes.items()), (_OF_EFFECTS, of_effects)):
         listed = _list_shares(shares, say)
         if listed:
             yield Paragraph(say(words.given(shares=listed)))
@@ -112,8 +113,8 @@ def write_title_of(test: CircularTest | StraightTest) -> Words:
     )
 
 
-def _list_shares(shares: Mapping[str, float], say: Sayer) -> str:
-    largest = sorted(shares.items(), key=lambda item: -item[1])[:_MOST_SHARES]
+def _list_shares(shares: Iterable[tuple[str, float]], say: Sayer) -> str:
+    largest = sorted(shares, key=lambda item: -item[1])[:_MOST_SHARES]
     return ", ".join(f"{name} {say.write_micrometres(size)}" for name, size in largest)
 
 

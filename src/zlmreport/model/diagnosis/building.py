@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.effect import Effect
@@ -21,11 +21,11 @@ from zlmreport.model.fitting.fit import fit
 _MOST_ROUNDS = 6
 
 #: Diagnoses a model, the effects that may be taken out of it named; told how far it is.
-Diagnosing: TypeAlias = Callable[[AxisModel, frozenset[str], Told], Diagnosis]
+Diagnosing: TypeAlias = Callable[[AxisModel, frozenset[str], Told], AxisDiagnosis]
 
 
 @dataclass(frozen=True, slots=True)
-class BuildStep:
+class ModelStep:
     """An effect that comes into a model, or goes out of it."""
 
     effect: Effect  #: In the form that fits best.
@@ -44,9 +44,9 @@ class BuildStep:
 class Built:
     """A model that was built."""
 
-    first: Diagnosis  #: Of the model with which it began.
-    steps: tuple[BuildStep, ...]  #: What came in and went out, in order.
-    last: Diagnosis  #: Of the model that came of it.
+    first: AxisDiagnosis  #: Of the model with which it began.
+    steps: tuple[ModelStep, ...]  #: What came in and went out, in order.
+    last: AxisDiagnosis  #: Of the model that came of it.
     model: AxisModel  #: That model.
 
     @property
@@ -75,9 +75,9 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
     """
     own = frozenset(model.identifiers)
     found = [diagnosing(model, frozenset(), _tell_part(told, 0))]
-    steps: list[BuildStep] = []
+    steps: list[ModelStep] = []
     tried = {frozenset(model.identifiers)}
-    while len(found) <= _MOST_ROUNDS and found[-1].verdict is Verdict.MISSING:
+    while len(found) <= _MOST_ROUNDS and found[-1].verdict is DiagnosisVerdict.MISSING:
         extended, taken = _extend_model(model, found[-1])
         # Two models each of which takes the other for the better one are as good as each other.
         if not taken or frozenset(extended.identifiers) in tried:
@@ -105,13 +105,13 @@ def _tell_part(told: Told, rounds: int) -> Told:
     return lambda share: told(done + (1.0 - done) * 0.5 * share)
 
 
-def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[BuildStep]]:
+def _extend_model(model: AxisModel, diagnosis: AxisDiagnosis) -> tuple[AxisModel, list[ModelStep]]:
     """Return the model with the set of a diagnosis, and the steps to it; what cannot be fitted ends it."""
     fitted, error = diagnosis.fit, diagnosis.error
     equals = {each.identifier: each.equals for each in diagnosis.candidates}
     coming = [(each, False) for each in diagnosis.together]
     going = [(term.effect, True) for term in model.terms if term.effect.identifier in diagnosis.makeshift]
-    steps: list[BuildStep] = []
+    steps: list[ModelStep] = []
     # What is much like a makeshift can only be fitted when that is out.
     for effect, is_removed in (*coming, *going, *(coming if going else ())):
         if not is_removed and effect in (term.effect for term in model.terms):
@@ -123,11 +123,11 @@ def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, li
             continue
         model, before, error = changed, error, compute_error_numbers(fitted)
         beside = () if is_removed else equals.get(effect.identifier, ())
-        steps.append(BuildStep(effect, before, error, is_removed, beside))
+        steps.append(ModelStep(effect, before, error, is_removed, beside))
     return model, steps
 
 
-def name_steps(steps: Sequence[BuildStep]) -> tuple[str, ...]:
+def name_steps(steps: Sequence[ModelStep]) -> tuple[str, ...]:
     """Return the effects of steps with those not told from them, what goes out with a minus."""
     return tuple(
         f"− {each.identifier}" if each.is_removed else f"+ {' or '.join((each.identifier, *each.equals))}"

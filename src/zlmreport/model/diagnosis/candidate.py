@@ -17,7 +17,7 @@ from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
 from zlmreport.model.effects.sizes import ask_of, find_usual_range
-from zlmreport.model.fitting.estimate import Estimate
+from zlmreport.model.fitting.estimate import ParameterEstimate
 from zlmreport.model.fitting.fit import Fit
 
 #: Share of the misfit from which on an effect explains it, and does not only contribute.
@@ -34,7 +34,7 @@ _AND = Words("{first}; {second}")
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class EffectCandidate:
     """An effect that the model may lack."""
 
     effect: Effect  #: In the form that fits best.
@@ -44,7 +44,7 @@ class Candidate:
     probability: float
     evidence: float  #: 2·ln of the odds for it against nothing in its place.
     error: ErrorNumbers  #: After adding it alone.
-    estimates: tuple[Estimate, ...]  #: Its own parameters after adding it alone.
+    estimates: tuple[ParameterEstimate, ...]  #: Its own parameters after adding it alone.
     #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
     share: float | None
     explains: Words  #: The same in words.
@@ -62,7 +62,7 @@ class Candidate:
         return self.effect.identifier
 
 
-def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
+def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[EffectCandidate]:
     """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
     seen: set[str] = set()
     for each in finding.named:
@@ -83,7 +83,7 @@ def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[C
 
 def _make_candidate(
     base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
-) -> Iterator[Candidate]:
+) -> Iterator[EffectCandidate]:
     """Yield an effect as a candidate, if the readings determine it beside the job's model."""
     try:
         after = fit_with_member(base, rival.member)
@@ -94,7 +94,7 @@ def _make_candidate(
     question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
     contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
     values = {each.parameter.name: each.value for each in estimates}
-    yield Candidate(
+    yield EffectCandidate(
         effect=rival.member.effect,
         p_value=rival.p_value.value,
         p_value_is_extrapolated=rival.p_value.is_extrapolated,
@@ -112,7 +112,7 @@ def _make_candidate(
     )
 
 
-def _say_question(estimate: Estimate, design: Design) -> Words | None:
+def _say_question(estimate: ParameterEstimate, design: Design) -> Words | None:
     """Return what is asked of a parameter that is beyond doubt far from usual; None of any other."""
     if design.time_is_counted and estimate.parameter.dimension is Dimension.TIME:
         return None
@@ -123,7 +123,7 @@ def _say_question(estimate: Estimate, design: Design) -> Words | None:
     return ask_of(estimate.parameter, estimate.value, design.axis)
 
 
-def _say_contradiction(estimate: Estimate, design: Design) -> Words | None:
+def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | None:
     """Return that the readings contradict a value that follows from the job; None if they do not."""
     if estimate.expected is None or estimate.is_given:
         return None

@@ -3,7 +3,8 @@
 Every column stands as error contrasts: whatever the job's model can imitate is taken out of it. Products of
 columns are computed once and kept; a set of effects beside any amplitudes of what has no name is then a
 matter of small matrices, however many readings there are. The largest part of the covariance, what is
-irregular from position to position, has one column for each target and is eliminated first (M. A. Woodbury).
+irregular from position to position, has one column for each target and is eliminated first (M. A. Woodbury):
+target by target, and then the model among what is left.
 """
 
 from __future__ import annotations
@@ -14,8 +15,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
-from zlmreport.model.fitting.by_target import FactorsByTarget
-from zlmreport.model.fitting.contrasts import Contrasts
+from zlmreport.model.fitting.by_target import FactorsByTarget, find_roots_of_blocks
+from zlmreport.model.fitting.contrasts import Contrasts, SingleReadings
 
 _FIRST_ROOM = 256
 
@@ -48,24 +49,30 @@ class _Table:
 
 
 @dataclass(frozen=True, slots=True)
-class Held:
+class HeldContrasts:
     """Contrasts that are not in a table, held against it under many covariances."""
 
     contrasts: FloatArray  #: (N, k)
-    sums: FloatArray  #: (k, r): Products with the irregular factors.
+    sums: FloatArray  #: (k, r): Products with the irregular factors, target by target.
 
 
 @dataclass(slots=True)
 class _Eliminated:
-    """Irregular shares of given amplitudes, eliminated: products a·b become a·b − (Mᵀa)ᵀ·K·(Mᵀb)."""
+    """Irregular shares of given amplitudes, eliminated: products a·b become a·b − ã·b̃."""
 
     log_determinant: float
-    active: slice  #: Columns of the factors among which all lie that have a share.
-    kernel: FloatArray  #: K of these.
+    active: IntArray  #: (a,) integer: Those of each target's factors that have a share.
+    roots: FloatArray  #: (m, a, a): R of each target.
+    base: FloatArray  #: (q, m·a): The model, what the shares take of it made orthonormal.
     near: _Table  #: Products with the columns of the core.
     kept: _Table  #: Products with all kept columns.
     squares: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of blocks among themselves.
     among: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of sets of columns among themselves.
+
+    def turn(self, sums: FloatArray) -> FloatArray:
+        """Return ã of columns from their products with the irregular factors, shape (k, m·a + q)."""
+        own = _turn_by_target(sums, self.active, self.roots)
+        return np.concatenate([own, own @ self.base.T], axis=1)
 
 
 class Columns:
@@ -85,14 +92,15 @@ class Columns:
         self.space = space
         readings = len(space.scale)
         self._factors = FactorsByTarget(irregular, readings)
-        self._widths = [each.shape[1] for each in irregular]
-        contrasts = space.of(np.concatenate([np.empty((readings, 0)), *irregular], axis=1))
-        self._gram = contrasts.T @ contrasts
+        self._width = sum(each.shape[1] for each in irregular)
+        self._among = _multiply_factors(space.single, irregular)
+        self._base = self._sum(space.base)
         # A row each: to gather some of them then copies whole stretches.
         self._values = np.empty((_FIRST_ROOM, readings))
-        self._sums = np.empty((_FIRST_ROOM, len(self._gram)))
+        self._sums = np.empty((_FIRST_ROOM, self._width))
         self._count = self._core = self._kept = 0
-        self._plain = _Table(np.empty((0, 0)))  # of products with all kept columns, nothing eliminated
+        # Of products with the columns of the core and with all kept ones, nothing eliminated.
+        self._near, self._plain = _Table(np.empty((0, 0))), _Table(np.empty((0, 0)))
         self._eliminated: dict[tuple[float, ...], _Eliminated] = {}
 
     def add(self, contrasts: FloatArray) -> IntArray:
@@ -105,9 +113,9 @@ class Columns:
         self._sums[first : self._count] = self._sum(contrasts)
         return read_only_integers(np.arange(first, self._count))
 
-    def hold(self, contrasts: FloatArray) -> Held:
+    def hold(self, contrasts: FloatArray) -> HeldContrasts:
         """Return contrasts, shape (N, k), ready for products with the columns of the table."""
-        return Held(contrasts, self._sum(contrasts))
+        return HeldContrasts(contrasts, self._sum(contrasts))
 
     def keep(self, core: int) -> None:
         """Say that products of the columns so far will be asked for again and again, most of all of a core.
@@ -116,6 +124,7 @@ class Columns:
         """
         self._core, self._kept = core, self._count
         self._plain = _Table(self._values[:core] @ self._values[: self._count].T)
+        self._near = _Table(self._plain.values[:, :core])
 
     def select_columns(self, places: IntArray) -> FloatArray:
         """Return columns, shape (N, k)."""
@@ -171,11 +180,11 @@ class Columns:
         rows = known.kept.find_rows(one, lambda missing: self._multiply_with_all_kept(known, missing))
         return known.kept.values[rows[:, np.newaxis], kept]
 
-    def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: Held) -> FloatArray:
+    def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: HeldContrasts) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         known = self._of(ratios)
-        turned = held.sums[:, known.active] @ known.kernel
-        return np.asarray(self._values[one] @ held.contrasts - self._sums[one, known.active] @ turned.T)
+        less = known.turn(self._sums[one]) @ known.turn(held.sums).T
+        return np.asarray(self._values[one] @ held.contrasts - less)
 
     def multiply_kept_blocks(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
         """Return products of the columns of each of some kept blocks among themselves, shape (g, k, k)."""
@@ -183,11 +192,11 @@ class Columns:
         if key not in known.squares:
             flat = blocks.ravel()
             known.squares[key] = self._multiply_within(
-                known, Held(self.select_columns(flat), self._sums[flat]), blocks.shape[1]
+                known, HeldContrasts(self.select_columns(flat), self._sums[flat]), blocks.shape[1]
             )
         return known.squares[key]
 
-    def multiply_held_blocks(self, ratios: tuple[float, ...], held: Held, width: int) -> FloatArray:
+    def multiply_held_blocks(self, ratios: tuple[float, ...], held: HeldContrasts, width: int) -> FloatArray:
         """Return the same of contrasts that are not in the table, so many in a block."""
         return self._multiply_within(self._of(ratios), held, width)
 
@@ -195,28 +204,27 @@ class Columns:
         """Return products of contrasts, (N, k), with the irregular factors, shape (k, r)."""
         # Contrasts are at right angles to the model: the factors themselves do for their contrasts.
         sums = self._factors.sum_by_target(self.space.single.apply_transposed(contrasts))
-        return sums.transpose(2, 1, 0).reshape(contrasts.shape[1], len(self._gram))
+        return sums.transpose(2, 0, 1).reshape(contrasts.shape[1], self._width)
 
-    def _multiply_within(self, known: _Eliminated, held: Held, width: int) -> FloatArray:
+    def _multiply_within(self, known: _Eliminated, held: HeldContrasts, width: int) -> FloatArray:
         rows = np.ascontiguousarray(held.contrasts.T).reshape(-1, width, len(held.contrasts))
-        sums = held.sums[:, known.active]
-        turned = (sums @ known.kernel).reshape(len(rows), width, -1)
-        sums = sums.reshape(turned.shape)
-        return np.asarray(rows @ rows.transpose(0, 2, 1) - sums @ turned.transpose(0, 2, 1))
+        turned = known.turn(held.sums).reshape(len(rows), width, -1)
+        return np.asarray(rows @ rows.transpose(0, 2, 1) - turned @ turned.transpose(0, 2, 1))
 
     def _multiply_with_core(self, known: _Eliminated, places: IntArray) -> FloatArray:
         core = slice(0, self._core)
-        less = (self._sums[places, known.active] @ known.kernel) @ self._sums[core, known.active].T
-        return np.asarray(self._values[places] @ self._values[core].T - less)
+        rows = self._near.find_rows(places, lambda missing: self._values[missing] @ self._values[core].T)
+        less = known.turn(self._sums[places]) @ known.turn(self._sums[core]).T
+        return np.asarray(self._near.values[rows] - less)
 
     def _multiply_with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
         kept = slice(0, self._kept)
         rows = self._plain.find_rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
-        less = (self._sums[places, known.active] @ known.kernel) @ self._sums[kept, known.active].T
+        less = known.turn(self._sums[places]) @ known.turn(self._sums[kept]).T
         return np.asarray(self._plain.values[rows] - less)
 
     def _multiply_between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
-        less = (self._sums[one, known.active] @ known.kernel) @ self._sums[other, known.active].T
+        less = known.turn(self._sums[one]) @ known.turn(self._sums[other]).T
         return np.asarray(self._values[one] @ self._values[other].T - less)
 
     def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
@@ -225,22 +233,37 @@ class Columns:
         return self._eliminated[ratios]
 
     def _eliminate(self, ratios: tuple[float, ...]) -> _Eliminated:
-        spread = np.repeat(np.array(ratios), self._widths)
+        spread = np.tile(ratios, self._among.shape[1] // (len(ratios) or 1))
         active = np.flatnonzero(spread)
-        roots = np.sqrt(spread[active])
-        inner = roots[:, np.newaxis] * self._gram[np.ix_(active, active)] * roots
-        factor = np.linalg.cholesky(np.eye(len(active)) + inner)
-        root = np.linalg.inv(factor) * roots
-        first, last = (active[0], active[-1] + 1) if len(active) else (0, 0)
-        kernel = np.zeros((last - first, last - first))
-        kernel[np.ix_(active - first, active - first)] = root.T @ root
-        logarithm = 2.0 * float(np.log(np.diagonal(factor)).sum())
+        roots, logarithm = find_roots_of_blocks(self._among, active, spread[active])
+        base = _turn_by_target(self._base, active, roots)
+        factor = np.linalg.cholesky(np.eye(len(base)) - base @ base.T)
         known = _Eliminated(
-            logarithm,
-            slice(first, last),
-            kernel,
+            logarithm + 2.0 * float(np.log(np.diagonal(factor)).sum()),
+            active,
+            roots,
+            np.linalg.inv(factor) @ base,
             _Table(np.empty((0, self._core))),
             _Table(np.empty((0, self._kept))),
         )
         known.near.find_rows(np.arange(self._core), lambda missing: self._multiply_with_core(known, missing))
         return known
+
+
+def _multiply_factors(single: SingleReadings, irregular: Sequence[FloatArray]) -> FloatArray:
+    """Return ZᵀZ of the irregular factors, single readings made independent, shape (m, p, p).
+
+    A block for each target; where readings are like those before them, one for all: m = 1.
+    """
+    readings = len(single.scale)
+    if single.kept is None or not irregular:
+        return FactorsByTarget([single.whiten(each) for each in irregular], readings).compute_gram()
+    whitened = single.whiten(np.stack(irregular, axis=2).reshape(readings, -1))
+    return (whitened.T @ whitened)[np.newaxis]
+
+
+def _turn_by_target(sums: FloatArray, active: IntArray, roots: FloatArray) -> FloatArray:
+    """Return R of each target times the products (k, m·p) of columns with its factors, shape (k, m·a)."""
+    apart = sums.reshape(len(sums), len(roots), sums.shape[1] // len(roots))[:, :, active]
+    turned = apart.transpose(1, 0, 2) @ roots.transpose(0, 2, 1)
+    return turned.transpose(1, 0, 2).reshape(len(sums), len(roots) * len(active))

@@ -11,7 +11,7 @@ import numpy as np
 from zlmreport.errors import count_in_words
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import IntArray
-from zlmreport.model.diagnosis.candidate import Candidate, list_candidates
+from zlmreport.model.diagnosis.candidate import EffectCandidate, list_candidates
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import NotTestable, list_effects_to_try
 from zlmreport.model.diagnosis.error_numbers import (
@@ -50,7 +50,7 @@ _IMPROBABLE = 1e-3
 _LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
 
 
-class Verdict(StrEnum):
+class DiagnosisVerdict(StrEnum):
     """What a diagnosis comes to.
 
     `ADEQUATE`: nothing is left that the noise does not explain. `MISSING`: at least one installed effect has
@@ -64,18 +64,18 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Diagnosis:
+class AxisDiagnosis:
     """A model held against the readings of a test."""
 
     fit: Fit  #: The model as it is.
     error: ErrorNumbers  #: How far it is from the readings.
-    verdict: Verdict  #: What the diagnosis comes to.
+    verdict: DiagnosisVerdict  #: What the diagnosis comes to.
     p_value: float  #: Chance of such a contest where nothing is missing.
     tests: tuple[Failure, ...]  #: All tests of the residuals.
     failures: tuple[Failure, ...]  #: Those that they did not pass, and flagged readings.
     #: Effects that may be missing: those of the set in the order in which to add them, each followed by its
     #: equals. Where none has evidence of its own, those that explain most; none where the model is adequate.
-    candidates: tuple[Candidate, ...]
+    candidates: tuple[EffectCandidate, ...]
     together: tuple[Effect, ...]  #: The set: effects that belong in, first the one to add first.
     #: The error once the whole set is in the model; that of the model as it is without a set.
     error_after: ErrorNumbers
@@ -110,7 +110,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
     *,
     may_go: frozenset[str] = frozenset(),
     told: Told = tell_nobody,
-) -> Diagnosis:
+) -> AxisDiagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
     `may_go`: Effects of the model that were added on the way to it, and go out where others take their place.
@@ -213,7 +213,7 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     return _Held(asked.observed, fitted, error, finding, complete, after, left)
 
 
-def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
+def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosis:
     """Return what a diagnosis says of what was found; faults of the data come first."""
     observed, fitted, finding = asked.observed, held.fit, held.finding
     complete, candidates = held.complete, tuple(list_candidates(finding, held.error))
@@ -228,7 +228,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     tests = run_residual_tests(find_residuals_of(fitted, finding.noise))
     stand_off = report_flagged(observed.design, aside)
     not_testable = list_effects_to_try(asked.model, fitted.design, asked.effects).not_testable
-    return Diagnosis(
+    return AxisDiagnosis(
         fit=fitted,
         error=held.error,
         verdict=_decide_verdict(held.left, together, faults),
@@ -261,12 +261,12 @@ def _select_of_the_set(readings: IntArray) -> IntArray:
 
 def _decide_verdict(
     left: Remainder | None, together: Sequence[Effect], faults: Iterable[DataFault]
-) -> Verdict:
+) -> DiagnosisVerdict:
     if together:
-        return Verdict.MISSING
+        return DiagnosisVerdict.MISSING
     if left is not None or any(each.comes_first or each.kind is FaultKind.WRONG_UNIT for each in faults):
-        return Verdict.UNEXPLAINED
-    return Verdict.ADEQUATE
+        return DiagnosisVerdict.UNEXPLAINED
+    return DiagnosisVerdict.ADEQUATE
 
 
 def _is_perhaps_noise(error: ErrorNumbers, fitted: Fit) -> bool:
@@ -330,7 +330,7 @@ def _choose_next(fitted: Fit, waiting: Iterable[NamedEffect]) -> tuple[NamedEffe
 
 
 def _list_not_excluded(
-    candidates: Sequence[Candidate], not_testable: Sequence[NotTestable]
+    candidates: Sequence[EffectCandidate], not_testable: Sequence[NotTestable]
 ) -> tuple[str, ...]:
     """Return effects that could not be tried and would look like the first candidate."""
     if not candidates:

@@ -16,7 +16,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, estimate_robust_deviation
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, select_readings
@@ -39,8 +39,6 @@ _ANOTHER_UNIT = 100.0
 _TINY = 1e-7
 #: m or rad: repeats scatter by more on every machine whose deviations are not small as well, and by less.
 _STILL, _SMALL, _WILD = 5e-9, 2e-6, 3e-4
-#: Standard deviation of a normal variable over its median absolute deviation.
-_NORMAL = 1.4826
 #: Of the distance between two targets, how far a reading of the wrong one may be off; and how many times the
 #: scatter of all deviations it must stand off from them.
 _NEAR, _STANDS_OFF = 0.1, 6.0
@@ -346,7 +344,7 @@ def _find_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataF
     spacing = float(np.diff(targets).min())
     off = deviation - np.median(deviation)
     # Where targets lie micrometres apart, any deviation is the distance to some of them.
-    least = max(0.5 * spacing, _STANDS_OFF * _NORMAL * float(np.median(np.abs(off))))
+    least = max(0.5 * spacing, _STANDS_OFF * estimate_robust_deviation(off))
     for place in np.flatnonzero(np.abs(off) > least).tolist():
         other = int(np.argmin(np.abs(targets - design.position[place] - off[place])))
         if abs(targets[other] - design.position[place] - off[place]) < _NEAR * spacing:
@@ -399,7 +397,7 @@ def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[Data
             statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
             yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
     # A single reading at another target is no scatter.
-    floor = _NORMAL * float(np.median(np.abs(find_repeats(design, deviation).centred)))
+    floor = estimate_robust_deviation(find_repeats(design, deviation).centred)
     largest = float(np.abs(deviation).max())
     if 0 < largest < _TINY:
         statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))

@@ -18,7 +18,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.blocks import IMITATED, find_root_of, solve_blocks, take_from
-from zlmreport.model.diagnosis.columns import Columns, Held
+from zlmreport.model.diagnosis.columns import Columns, HeldContrasts
 from zlmreport.model.diagnosis.nameless import CovariancePart
 from zlmreport.model.fitting.contrasts import Contrasts
 from zlmreport.model.fitting.noise import NoiseSource
@@ -288,11 +288,11 @@ class Likelihood:
         left = (products[-1] - reduced.taken @ coordinates) * np.sqrt(self.squares)
         return solve_blocks(take_from(own, coordinates), left.reshape(*own.shape[:2], 1))[0][:, 0]
 
-    def compute_coordinates_of(self, reduced: Reduced, held: Held) -> FloatArray:
+    def compute_coordinates_of(self, reduced: Reduced, held: HeldContrasts) -> FloatArray:
         """Return contrasts that are not in the table in the coordinates of a set, shape (p, B)."""
         return reduced.compute_coordinates(self.columns.multiply_with(reduced.ratios, reduced.places, held))
 
-    def compute_squares_beside(self, reduced: Reduced, held: Held) -> FloatArray:
+    def compute_squares_beside(self, reduced: Reduced, held: HeldContrasts) -> FloatArray:
         """Return what V and a set leave of the squares of contrasts that are not in the table, (B,)."""
         taken = self.compute_coordinates_of(reduced, held)
         whole = self.columns.multiply_held_blocks(reduced.ratios, held, 1)[:, 0, 0]

@@ -90,14 +90,14 @@ _MEASURE = {
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class WhereToLook:
     """What to do about something without a name."""
 
     at: Words  #: Where it shows in what was measured: "the residuals over the position, around 420 mm".
     measure: Words  #: What to measure that would tell more.
 
 
-def look_for(remainder: Remainder, design: Design) -> Look:
+def look_for(remainder: Remainder, design: Design) -> WhereToLook:
     """Return where to look for a remainder, and what to measure."""
     course = remainder.course
     given: dict[str, Words] = {}
@@ -111,7 +111,7 @@ def look_for(remainder: Remainder, design: Design) -> Look:
         }
     elif course.along is Along.TIME:
         given = {"duration": wording.span_of_time(design, design.duration)}
-    return Look(_WHERE[course].given(where=remainder.where), _MEASURE[course].given(**given))
+    return WhereToLook(_WHERE[course].given(where=remainder.where), _MEASURE[course].given(**given))
 
 
 def _choose_stretch(remainder: Remainder, design: Design) -> tuple[float, float, float]:

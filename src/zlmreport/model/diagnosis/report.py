@@ -13,8 +13,8 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.candidate import Candidate
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -24,7 +24,7 @@ from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter, find_unit_of
-from zlmreport.model.fitting.estimate import Estimate
+from zlmreport.model.fitting.estimate import ParameterEstimate
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.profile import find_intervals
@@ -60,7 +60,7 @@ _QUESTION = Words("{statement} {question}")
 
 
 def report(
-    diagnosis: Diagnosis,
+    diagnosis: AxisDiagnosis,
     language: Language = Language.ENGLISH,
     experiment: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
@@ -233,7 +233,7 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
     }
 
 
-def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
+def _estimate(estimate: ParameterEstimate, design: Design) -> dict[str, Any]:
     unit = _choose_unit(estimate.parameter, design)
     found = {
         "name": estimate.parameter.name,
@@ -262,7 +262,7 @@ def _collect_failure(failure: Failure, language: Language) -> dict[str, Any]:
     }
 
 
-def _collect_candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
+def _collect_candidate(candidate: EffectCandidate, design: Design, language: Language) -> dict[str, Any]:
     after = report_error(candidate.error, design.axis)
     discriminate_by, remedy = candidate.discriminate_by, candidate.effect.remedy
     return {
@@ -296,11 +296,11 @@ def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
     }
 
 
-def write_verdict_statement(diagnosis: Diagnosis) -> Words:
+def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
-    if diagnosis.verdict is Verdict.ADEQUATE:
+    if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
         return _ADEQUATE
-    if diagnosis.verdict is Verdict.UNEXPLAINED:
+    if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
     groups = [
@@ -323,7 +323,7 @@ def write_verdict_statement(diagnosis: Diagnosis) -> Words:
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
 
 
-def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
+def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> Words:
     """Return how far the effects that are missing explain the rest."""
     if diagnosis.leaves_noise:
         return _RESTS[is_many].given(missing=missing)
@@ -341,7 +341,7 @@ def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words
     return given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
-def _say_unexplained(diagnosis: Diagnosis) -> Words:
+def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     fault = next((each for each in diagnosis.faults if each.comes_first), None)
     if fault is None and diagnosis.remainder is None:
         fault = next(iter(diagnosis.faults), None)
@@ -352,12 +352,12 @@ def _say_unexplained(diagnosis: Diagnosis) -> Words:
     return _add_remainder(_SHAPE, diagnosis.remainder, diagnosis)
 
 
-def _add_remainder(words: Words, remainder: Remainder, diagnosis: Diagnosis) -> Words:
+def _add_remainder(words: Words, remainder: Remainder, diagnosis: AxisDiagnosis) -> Words:
     size = wording.deviation(diagnosis.fit.design.axis, remainder.rms)
     return words.given(shape=remainder.shape, where=remainder.where, size=size)
 
 
-def select_serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
+def select_serious_candidates(diagnosis: AxisDiagnosis) -> tuple[EffectCandidate, ...]:
     """Return the candidates that are worth a word: those of the set, their equals, what is not improbable."""
     named = {each.identifier for each in diagnosis.together}
     return tuple(

@@ -24,14 +24,14 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_effect, choose_terms
 from zlmreport.model.effects.design import transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape
 from zlmreport.model.effects.harmonic import Harmonic, find_harmonics
 from zlmreport.model.fitting.blunders import find_outliers
-from zlmreport.model.fitting.estimate import Estimate, InstrumentError
+from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.observations import Observations, make_observations_of, select_readings, thin
 from zlmreport.model.fitting.priors import PriorExpectation
@@ -131,7 +131,7 @@ class Study:
         """Return the model fitted to the readings, those that stand off set aside."""
         return self._fit(self.model)
 
-    def diagnose(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Diagnosis:
+    def diagnose(self, effects: Sequence[Effect], told: Told = tell_nobody) -> AxisDiagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
             tried = self.list_tried(effects)
@@ -145,7 +145,7 @@ class Study:
         """Return the model that comes of adding, step by step, what has evidence of its own."""
         tried = self.list_tried(effects)
 
-        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
             expected = self._find_expectation()
             return diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
 
@@ -376,7 +376,7 @@ def _find_waves(fitted: Fit) -> Iterator[Wave]:
         first += solved
         if solved < len(term.effect.linear):
             continue
-        own: list[Estimate] = [
+        own: list[ParameterEstimate] = [
             each
             for each in fitted.estimates
             if each.effect == term.effect.identifier and each.parameter in term.effect.linear

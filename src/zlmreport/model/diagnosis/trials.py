@@ -10,7 +10,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.blocks import average_likelihoods
-from zlmreport.model.diagnosis.columns import Held
+from zlmreport.model.diagnosis.columns import HeldContrasts
 from zlmreport.model.diagnosis.contest import Contest, Group
 from zlmreport.model.diagnosis.likelihood import NOTHING, Amplitudes, Reduced
 
@@ -75,7 +75,7 @@ class Trials:
         return self.contest.reduce_set(self.amplitudes, self.members)
 
     @cached_property
-    def _held(self) -> Held:
+    def _held(self) -> HeldContrasts:
         return self.contest.columns.hold(self.contest.space.of(self.deviations))
 
     @cached_property

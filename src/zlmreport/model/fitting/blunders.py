@@ -12,7 +12,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_only_integers
+from zlmreport.measurement.arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    estimate_robust_deviation,
+    read_only_integers,
+)
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.distributions import normal_tail
 from zlmreport.model.fitting.repeats import number_cells
@@ -21,8 +27,6 @@ from zlmreport.model.fitting.repeats import number_cells
 _LIMIT = 4.5
 #: Neighbours in time whose median tells drift from a single reading.
 _WINDOW = 15
-#: Standard deviation of a normal variable over its median absolute deviation.
-_NORMAL = 1.4826
 #: By 1.35/n the median of n readings draws their median absolute deviation from it towards zero: of an odd
 #: number one reading is the median itself.
 _SHARE_OF_MEDIAN = 1.35
@@ -63,7 +67,7 @@ def find_outliers(design: Design, deviation: FloatArray) -> Outliers:
     judged = count[cell] >= _FEWEST_REPEATS
     typical = float(np.median(count[cell][judged]))
     left = left / _estimate_growth(design.position, left, judged)
-    spread = _NORMAL * float(np.median(np.abs(left[judged]))) / (1.0 - _SHARE_OF_MEDIAN / typical)
+    spread = estimate_robust_deviation(left[judged]) / (1.0 - _SHARE_OF_MEDIAN / typical)
     if spread == 0:
         return none
     sizes = np.where(judged, np.abs(left) / spread, 0.0)
@@ -88,7 +92,9 @@ def _estimate_growth(position: FloatArray, left: FloatArray, judged: BoolArray) 
     slope = float(away[judged] @ logarithms[judged]) / float(away[judged] @ away[judged])
     if abs(slope) * float(np.linalg.norm(away[judged])) < _GROWS * _OF_LOGARITHM:
         return np.ones(len(left))
-    bend = np.polynomial.Polynomial.fit(away[judged], logarithms[judged], 2)
+    # Two positions have no bend.
+    order = min(2, len(np.unique(away[judged])) - 1)
+    bend = np.polynomial.Polynomial.fit(away[judged], logarithms[judged], order)
     grown = np.exp(bend(away))
     return np.asarray(grown / grown[judged].mean(), dtype=np.float64)
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, IntArray
 
 
 class FactorsByTarget:
@@ -37,6 +37,27 @@ class FactorsByTarget:
         return np.asarray(np.sum(self._values.T[:, :, np.newaxis] * sizes[self._target], axis=1))
 
 
+def find_roots_of_blocks(among: FloatArray, active: IntArray, ratios: FloatArray) -> tuple[FloatArray, float]:
+    """Return R of each block of V = 1 + Z·diag(φ)·Zᵀ, shape (m, a, a), and ln|V|.
+
+    A product under V is a·b − (R·Zᵀa)·(R·Zᵀb).
+
+    Parameters
+    ----------
+    among : (m, p, p) array
+        ZᵀZ of each block, between which nothing is shared.
+    active : (a,) integer array
+        The columns of Z that have a share in V.
+    ratios : (a,) array
+        φ of these.
+    """
+    roots = np.sqrt(ratios)
+    inner = roots[:, np.newaxis] * among[:, active[:, np.newaxis], active] * roots
+    factors = np.linalg.cholesky(np.eye(len(active)) + inner)
+    logarithms = np.log(np.diagonal(factors, axis1=1, axis2=2))
+    return np.linalg.inv(factors) * roots, 2.0 * float(logarithms.sum())
+
+
 class ProductsByTarget:
     """Products of columns over the readings under any sizes of what targets have of their own."""
 
@@ -51,14 +72,9 @@ class ProductsByTarget:
         `ratios`, (p,): φ.
         """
         active = np.flatnonzero(ratios)
-        if not len(active):
-            return self._gram, 0.0
-        roots = np.sqrt(ratios[active])[:, np.newaxis]
-        inner = np.eye(len(active)) + roots * self._among[:, active[:, np.newaxis], active] * roots.T
-        factors = np.linalg.cholesky(inner)
-        turned = np.linalg.solve(factors, roots * self._sums[:, active]).reshape(-1, len(self._gram))
-        logarithms = np.log(np.diagonal(factors, axis1=1, axis2=2))
-        return self._gram - turned.T @ turned, 2.0 * float(logarithms.sum())
+        roots, logarithm = find_roots_of_blocks(self._among, active, ratios[active])
+        turned = (roots @ self._sums[:, active]).reshape(-1, len(self._gram))
+        return self._gram - turned.T @ turned, logarithm
 
 
 class RootByTarget:

@@ -120,7 +120,7 @@ class Plausibility(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
+class ParameterEstimate:
     """A parameter of the model as estimated."""
 
     effect: str  #: Identifier of its effect.
@@ -221,7 +221,7 @@ def list_estimates_of(
     solution: Solution,
     places: Sequence[ContinuousParameter],
     uncertainties: Uncertainties,
-) -> tuple[Estimate, ...]:
+) -> tuple[ParameterEstimate, ...]:
     """Return every parameter of a fitted model, in its order, the linear ones of each effect first."""
     count = len(uncertainties.inverse)
     standard, degrees = uncertainties.of(np.eye(count))
@@ -235,26 +235,32 @@ def list_estimates_of(
         )
         for number, place in enumerate(places)
     }
-    found: list[Estimate] = []
+    found: list[ParameterEstimate] = []
     for index, term in enumerate(problem.model.terms):
         found.extend(_add_expected(each, term, problem.design.axis) for each in linear[index])
         searched = term.is_searched(problem.design)
         for column, parameter in enumerate(term.effect.searched):
             value = float(solution.thetas[index][column])
             if not searched[column]:
-                estimate = Estimate(term.effect.identifier, parameter, value, 0.0, inf, is_given=True)
+                estimate = ParameterEstimate(
+                    term.effect.identifier, parameter, value, 0.0, inf, is_given=True
+                )
             else:
                 u, nu = by_place.get((index, column), (0.0, inf))
                 is_scanned = u == 0 or not np.isfinite(u)
                 if is_scanned:
                     low, high = find_scanned_ends(problem, solution, index, column, uncertainties.sigma)
                     u, nu = max(value - low, high - value) / sqrt(3), inf
-                estimate = Estimate(term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned)
+                estimate = ParameterEstimate(
+                    term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned
+                )
             found.append(_add_expected(estimate, term, problem.design.axis))
     return tuple(_link_estimate(each, found, problem) for each in found)
 
 
-def _link_estimate(estimate: Estimate, found: Sequence[Estimate], problem: FitProblem) -> Estimate:
+def _link_estimate(
+    estimate: ParameterEstimate, found: Sequence[ParameterEstimate], problem: FitProblem
+) -> ParameterEstimate:
     """Return the estimate of a parameter that equals another: the value and uncertainty of that."""
     links = {term.effect.identifier: term.links for term in problem.model.terms}[estimate.effect]
     if estimate.parameter.name not in links:
@@ -272,15 +278,17 @@ def _link_estimate(estimate: Estimate, found: Sequence[Estimate], problem: FitPr
 
 def _estimate_linear(
     term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]
-) -> Iterator[Estimate]:
+) -> Iterator[ParameterEstimate]:
     for parameter, value, is_solved in zip(term.effect.linear, gamma.tolist(), term.is_solved, strict=True):
         u, degrees = next(solved) if is_solved else (0.0, inf)
         held = term.find_bound(parameter)
         is_given = not (is_solved or held)
-        yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=is_given, at_bound=held)
+        yield ParameterEstimate(
+            term.effect.identifier, parameter, value, u, degrees, is_given=is_given, at_bound=held
+        )
 
 
-def _add_expected(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
+def _add_expected(estimate: ParameterEstimate, term: Term, axis: Axis) -> ParameterEstimate:
     expected = term.effect.expected(axis).get(estimate.parameter.name)
     if expected is None:
         return estimate

@@ -18,8 +18,8 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter
 from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_root
 from zlmreport.model.fitting.estimate import (
-    Estimate,
     InstrumentError,
+    ParameterEstimate,
     Uncertainties,
     compute_coverage_factors,
     compute_variance_of_variance,
@@ -83,7 +83,7 @@ class Fit:
     deviation: FloatArray
     fitted: FloatArray
     assumptions: Assumptions  #: What was taken for granted.
-    estimates: tuple[Estimate, ...]  #: All parameters, in the order of the model.
+    estimates: tuple[ParameterEstimate, ...]  #: All parameters, in the order of the model.
     noise: Noise  #: What scatters.
     solution: Solution  #: The parameters as arrays.
     places: tuple[ContinuousParameter, ...]  #: The searched parameters that vary continuously.
@@ -227,13 +227,13 @@ def _fit(
     return _finish(problem, solution, space, noise, taken)
 
 
-def _estimate_noise(space: Contrasts, deviation: FloatArray, weights_: FloatArray) -> Noise:
+def _estimate_noise(space: Contrasts, deviation: FloatArray, weights: FloatArray) -> Noise:
     """Return the noise by restricted maximum likelihood."""
     ratios, variance = estimate_restricted(
         space, space.of(deviation), make_coarse_grid(space.parts), np.full(len(space.parts), _LARGEST_RATIO)
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
-    return Noise(float(np.sqrt(variance)), by_source, weights_)
+    return Noise(float(np.sqrt(variance)), by_source, weights)
 
 
 def _open(model: AxisModel, design: Design, deviation: FloatArray, solution: Solution) -> FloatArray:
@@ -315,9 +315,6 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
         problem = FitProblem(model, select_readings(design, kept), deviation[kept], independent)
         start = problem.solve_at(thetas)
         found = refine(problem, start, _SETTLED * start.squares)
-        others = select_readings(design, left_out)
-        predicted = np.zeros(len(left_out))
-        for term, theta, gamma in zip(model.terms, found.thetas, found.coefficients, strict=True):
-            predicted += term.effect.columns(others, theta) @ gamma
+        predicted = _compute_value(model, select_readings(design, left_out), found)
         squares += float(np.sum((deviation[left_out] - predicted) ** 2))
     return float(np.sqrt(squares / len(deviation)))

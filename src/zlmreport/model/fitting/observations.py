@@ -76,9 +76,9 @@ class Observations:
 def thin(observed: Observations) -> Observations:
     """Return the observations of so many targets as a comparison can hold, spread over the whole travel.
 
-    What thousands of targets say of causes, two hundred say as well; the time to compare them grows with the
-    third power of their number. One is taken from each of so many stretches, at uneven places: every tenth of
-    even targets might lie at one phase of the pitch.
+    What thousands of targets say of causes, two hundred say as well, in a fraction of the time. One is taken
+    from each of so many stretches, at uneven places: every tenth of even targets might lie at one phase of
+    the pitch.
     """
     targets = np.unique(observed.design.target)
     if len(targets) <= MOST_TARGETS:

@@ -18,7 +18,7 @@ import numpy as np
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Parameter
 from zlmreport.model.fitting.contrasts import make_root
-from zlmreport.model.fitting.estimate import Estimate, find_scanned_ends
+from zlmreport.model.fitting.estimate import ParameterEstimate, find_scanned_ends
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import list_noise_parts
 from zlmreport.model.fitting.search import FitProblem, descend
@@ -85,7 +85,7 @@ def _list_intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
         yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
 
 
-def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> Interval:
+def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: ParameterEstimate) -> Interval:
     """Return the interval of a parameter of which only the values of a grid are known."""
     term = fitted.model.terms[index]
     column = term.effect.searched.index(estimate.parameter)
@@ -94,7 +94,9 @@ def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Estim
     return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 
-def _find_usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> tuple[float, float]:
+def _find_usual(
+    fitted: Fit, problem: FitProblem, index: int, estimate: ParameterEstimate
+) -> tuple[float, float]:
     """Return k·u of a parameter: what the readings leave, and what the instrument adds."""
     known, own = fitted.uncertainties, (estimate.effect, estimate.parameter)
     if own in fitted.columns:
@@ -110,7 +112,7 @@ def _find_usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate
 
 
 def _make_rise(
-    fitted: Fit, problem: FitProblem, index: int, estimate: Estimate, sign: float
+    fitted: Fit, problem: FitProblem, index: int, estimate: ParameterEstimate, sign: float
 ) -> Callable[[float], float]:
     """Return the root of the rise of the deviance over the distance of a parameter from its best value."""
     terms, thetas = fitted.model.terms, fitted.solution.thetas

@@ -167,10 +167,10 @@ def compute_tangents(
             )
             for thetas in shifted
         ]
-        if np.any(np.ptp(values, axis=0) > 0):
-            found[:, number] = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step)
-        else:  # what rounding leaves of no slope would look like another column
-            found[:, number] = 0.0
+        slope = (values[0] - 8 * values[1] + 8 * values[2] - values[3]) / (12 * step)
+        # What rounding leaves of no slope at all would look like another column.
+        is_flat = all(np.array_equal(each, values[0]) for each in values)
+        found[:, number] = 0.0 if is_flat else slope
     return found
 
 
@@ -196,7 +196,6 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
         damped = np.vstack([slopes / lengths, np.sqrt(damping) * np.eye(len(places))])
         aim = np.concatenate([best.residual, np.zeros(len(places))])
         step = np.linalg.lstsq(damped, aim, rcond=None)[0] / lengths
-        tried = best
         thetas = best.thetas
         for place, shift in zip(places, step * spacings, strict=True):
             thetas = place.move(thetas, float(shift))

@@ -23,7 +23,7 @@ from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
 from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.model.fitting.blunders import find_outliers
-from zlmreport.model.fitting.estimate import Estimate, InstrumentError
+from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, cross_validate, fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.fitting.observations import Observations, select_readings
@@ -219,7 +219,7 @@ class Surface:
     error: ErrorNumbers  #: How far the readings are from it.
     #: The product of both positions, when it is added: the deviation at the corners of the plane that
     #: equation (13) has no term for, m.
-    interaction: Estimate
+    interaction: ParameterEstimate
 
     @property
     def along(self) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from zlmreport.language import Words, list_in_words
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method
-from zlmreport.model.planning.plan import Pause, Plan
+from zlmreport.model.planning.plan import AxisPlan, Pause
 from zlmreport.model.planning.targets import (
     find_periods_at_phases,
     find_usual_overrun,
@@ -69,7 +69,7 @@ class PlanChange:
     #: What is wrong with the plan as it is; None where nothing better is known than that it sees too little.
     reason: Words | None
     advice: Words  #: What to do.
-    changed: Callable[[Plan], Plan]  #: Returns the plan with the change.
+    changed: Callable[[AxisPlan], AxisPlan]  #: Returns the plan with the change.
 
 
 def join_changes(changes: Sequence[PlanChange]) -> PlanChange:
@@ -82,7 +82,7 @@ def join_changes(changes: Sequence[PlanChange]) -> PlanChange:
     )
 
 
-def list_changes(axis: Axis, plan: Plan, seed: int) -> Iterator[PlanChange]:
+def list_changes(axis: Axis, plan: AxisPlan, seed: int) -> Iterator[PlanChange]:
     """Yield changes that let a plan see what it hides: each alone, and in the end all together."""
     of_targets = list(_list_target_changes(axis, plan, seed, _MANY_TARGETS))
     of_sequence = list(_list_sequence_changes(plan, _MANY_RUNS))
@@ -93,7 +93,7 @@ def list_changes(axis: Axis, plan: Plan, seed: int) -> Iterator[PlanChange]:
 
 
 def list_further_changes(
-    axis: Axis, plan: Plan, seed: int, period: float | None, *, goes_on: bool = False
+    axis: Axis, plan: AxisPlan, seed: int, period: float | None, *, goes_on: bool = False
 ) -> Iterator[PlanChange]:
     """Yield each change that may tell effects apart, or show one.
 
@@ -120,7 +120,7 @@ def list_further_changes(
     )
 
 
-def keep_within_travel(axis: Axis, plan: Plan) -> Plan:
+def keep_within_travel(axis: Axis, plan: AxisPlan) -> AxisPlan:
     """Return a plan whose outermost targets leave room to turn round within the travel."""
     if axis.travel is None or makes_whole_turns(axis):
         return plan
@@ -147,7 +147,7 @@ def _change_by_method(method: Method, reason: Words | None) -> PlanChange:
     return PlanChange("method", reason, _MEASURE_BY[method], lambda each: replace(each, method=method))
 
 
-def _list_sequence_changes(plan: Plan, runs: int) -> Iterator[PlanChange]:
+def _list_sequence_changes(plan: AxisPlan, runs: int) -> Iterator[PlanChange]:
     if plan.method is not Method.LINEAR:
         yield _change_by_method(
             Method.LINEAR, None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION
@@ -158,13 +158,13 @@ def _list_sequence_changes(plan: Plan, runs: int) -> Iterator[PlanChange]:
 
 
 def _list_target_changes(
-    axis: Axis, plan: Plan, seed: int, many: int, period: float | None = None
+    axis: Axis, plan: AxisPlan, seed: int, many: int, period: float | None = None
 ) -> Iterator[PlanChange]:
     """Yield other targets; the last change has all that those before it have."""
     spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
     overrun = min(plan.overrun, find_usual_overrun(spread_over))
 
-    def drawn(each: Plan, count: int, own: float | None) -> Plan:
+    def drawn(each: AxisPlan, count: int, own: float | None) -> AxisPlan:
         return replace(each, targets=sample_targets(spread_over, count, overrun, own, seed))
 
     blind = find_periods_at_phases(axis, plan.targets, 1)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import PurePath
@@ -14,11 +13,12 @@ import numpy as np
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
+from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidate import Candidate
+from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
-from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
@@ -54,7 +54,7 @@ _OF_THE_FORM: Mapping[str, Mapping[str, str]] = {
 
 
 def plan_experiment_of_tie(
-    study: Study, diagnosis: Diagnosis, effects: Sequence[Effect], told: Told = tell_nobody
+    study: Study, diagnosis: AxisDiagnosis, effects: Sequence[Effect], told: Told = tell_nobody
 ) -> Experiment | None:
     """Return the experiment that tells the first candidate of a diagnosis from its equals; None without any.
 
@@ -64,7 +64,7 @@ def plan_experiment_of_tie(
     return None if question is None else _plan_of_study(study, diagnosis.fit, question, effects, told)
 
 
-def find_question_of_tie(diagnosis: Diagnosis) -> Question | None:
+def find_question_of_tie(diagnosis: AxisDiagnosis) -> Question | None:
     """Return which of the first candidate and its equals it is; None without any."""
     leading = diagnosis.candidates[0] if diagnosis.candidates else None
     if leading is None or not leading.equals:
@@ -126,7 +126,7 @@ def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
             raise InputError.at(PLACE, f"there is no effect {name[:60]!r}; {did_you_mean(name, list(known))}")
 
 
-def _fit_with(base: Fit, candidate: Candidate) -> Fit:
+def _fit_with(base: Fit, candidate: EffectCandidate) -> Fit:
     """Return the fit of a model with a candidate, where the diagnosis found it."""
     searched = [each.value for each in candidate.estimates if each.parameter in candidate.effect.searched]
     before = dict(zip(base.model.identifiers, base.solution.thetas, strict=True))
@@ -250,7 +250,7 @@ def write_deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
     """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``."""
     statement = experiment.statement.in_language(Language.ENGLISH)
     lines = [f"# {sentence.strip()}." for sentence in statement.rstrip(".").split(". ")]
-    return "\n".join([*lines, *_write_lines(make_deciding_job(experiment, job, extends), "")]) + "\n"
+    return "\n".join([*lines, *write_group(make_deciding_job(experiment, job, extends))]) + "\n"
 
 
 def make_deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, Any]:
@@ -312,13 +312,3 @@ def _make_source_keys(job: Job) -> dict[str, Any]:
         if key in stated:
             usual[key] = {name: value.get(name, name) for name in getattr(options, key)}
     return {"file": f"{number}-readings.csv", **usual}
-
-
-def _write_lines(keys: Mapping[str, Any], indent: str) -> Iterator[str]:
-    """Yield a group of keys as YAML; what is no group as JSON, which YAML contains."""
-    for key, value in keys.items():
-        if isinstance(value, Mapping) and value:
-            yield f"{indent}{key}:"
-            yield from _write_lines(value, f"{indent}  ")
-        else:
-            yield f"{indent}{key}: {json.dumps(value, ensure_ascii=False)}"

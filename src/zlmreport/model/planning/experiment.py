@@ -36,7 +36,7 @@ from zlmreport.model.planning.changes import (
     list_further_changes,
 )
 from zlmreport.model.planning.methods import RUN_BY_RUN
-from zlmreport.model.planning.plan import ExpectedTest, Plan, find_beyond_travel
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, find_beyond_travel
 from zlmreport.model.planning.rivals import Question
 from zlmreport.model.planning.targets import find_usual_overrun, makes_whole_turns
 
@@ -76,7 +76,7 @@ class Experiment:
     """What to measure next."""
 
     effects: tuple[str, ...]  #: Identifiers of those that it tells apart, or of the one that it shows.
-    plan: Plan | None  #: The plan; None where none that was simulated decides more often than not.
+    plan: AxisPlan | None  #: The plan; None where none that was simulated decides more often than not.
     logs: tuple[str, ...]  #: Columns to log beside the readings.
     minutes: float  #: What it takes; 0 without a plan.
     decides: float  #: The probability that it decides.
@@ -88,7 +88,7 @@ class _Option:
     """A plan with what led to it, how often it decides, and by how much of evidence in nine of ten tests."""
 
     changes: tuple[PlanChange, ...]
-    plan: Plan
+    plan: AxisPlan
     decides: float = 0.0
     margin: float = -np.inf
 
@@ -103,7 +103,7 @@ class _Draws:
 
 def plan_next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
     question: Question,
-    plan: Plan,
+    plan: AxisPlan,
     expected: ExpectedTest,
     effects: Sequence[Effect],
     seed: int,
@@ -153,7 +153,7 @@ def _find_surest(option: _Option) -> tuple[float, float]:
     return -option.decides, -option.margin
 
 
-def _make_moderate(axis: Axis, plan: Plan) -> Plan:
+def _make_moderate(axis: Axis, plan: AxisPlan) -> AxisPlan:
     """Return a plan of no more targets and runs than an experiment needs, spread as they were.
 
     An overrun for which the travel has no room is the usual one.
@@ -176,7 +176,7 @@ def _find_longest_period(question: Question) -> float | None:
 
 
 def _list_options(
-    question: Question, plan: Plan, choices: Sequence[Sequence[PlanChange]]
+    question: Question, plan: AxisPlan, choices: Sequence[Sequence[PlanChange]]
 ) -> Iterator[_Option]:
     """Yield the plans that changes lead to: those that the axis can follow, and that are not too long."""
     before = 0 if question.first is None else len(question.first.deviation)

@@ -58,7 +58,7 @@ _ROUNDING = 1e-9
 class Proposal:
     """The plan of a test."""
 
-    plan: Plan  #: Targets, method, runs, overrun, feed and dwell.
+    plan: AxisPlan  #: Targets, method, runs, overrun, feed and dwell.
     expected: ExpectedTest  #: What is expected of the readings.
     seed: int  #: Of random fractions.
     #: Whether the targets were drawn with it: not where the job lists them, or asks for even ones.
@@ -117,18 +117,18 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     return Proposal(plan, expected, seed, has_fractions, _list_assumed(job))
 
 
-def find_measured_plan(job: Job, measurements: MeasurementSet) -> Plan:
+def find_measured_plan(job: Job, measurements: MeasurementSet) -> AxisPlan:
     """Return the plan of a test that has been done, as far as its job and its readings tell it."""
     runs = max(1, int(measurements.run.max(initial=1)))
     return replace(_plan_motion(job), targets=measurements.target_positions, runs=runs)
 
 
-def _plan_motion(job: Job) -> Plan:
+def _plan_motion(job: Job) -> AxisPlan:
     """Return what a job says of a plan, and custom of the rest, but for targets and runs."""
     axis, keys, measured = job.axis, job.keys.plan, job.keys.measurement
     to_si = axis.position_unit.to_si
     pause = keys.pause
-    return Plan(
+    return AxisPlan(
         targets=read_only_floats([]),
         method=Method(measured.method or Method.LINEAR),
         overrun=to_si(keys.overrun) if keys.overrun else find_usual_overrun(axis),
@@ -161,7 +161,7 @@ class ExpectedTest:
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class AxisPlan:
     """How the axis is tested."""
 
     targets: FloatArray  #: (m,): Target positions, rising, m or rad.
@@ -199,7 +199,7 @@ class Plan:
         return self.travelled / self.feed + self.dwell * self.readings + pauses
 
 
-def find_beyond_travel(axis: Axis, plan: Plan) -> tuple[float, float] | None:
+def find_beyond_travel(axis: Axis, plan: AxisPlan) -> tuple[float, float] | None:
     """Return the lowest and highest position of a plan, m or rad, where one lies beyond the travel."""
     if axis.travel is None or makes_whole_turns(axis):
         return None

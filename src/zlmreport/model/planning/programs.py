@@ -15,7 +15,7 @@ from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, list_visits, plan_path
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.targets import convert_to_users_unit
 
 _SECONDS_PER_MINUTE = 60.0
@@ -188,7 +188,7 @@ def _select_moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
         before = stop.position
 
 
-def plan_motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
+def plan_motion_of(number: str, axis: Axis, plan: AxisPlan, place: Place) -> Motion:
     """Return the motion of a plan.
 
     Raises `InputError` if the feed or the dwell is too small for any control.
@@ -226,7 +226,7 @@ def plan_motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     )
 
 
-def _find_what_begins(stops: Sequence[Stop], index: int, plan: Plan) -> Begins:
+def _find_what_begins(stops: Sequence[Stop], index: int, plan: AxisPlan) -> Begins:
     """Return what begins from a stop at which nothing is read."""
     if not index:
         return "test"

@@ -17,7 +17,7 @@ from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import NoisePart, NoiseSource, list_noise_parts, make_ratio_grid
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.sessions import SessionZeros, hold_together
-from zlmreport.model.planning.plan import ExpectedTest, Plan
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest
 from zlmreport.model.planning.visibility import expect_design, list_logs_of
 
 #: Share of the coefficients that shrinking must leave.
@@ -173,7 +173,7 @@ class Question:
         design = None if self.first is None else self.first.design
         return design is not None and not design.time_is_counted and not design.session.any()
 
-    def make_design(self, plan: Plan, expected: ExpectedTest) -> Design:
+    def make_design(self, plan: AxisPlan, expected: ExpectedTest) -> Design:
         """Return a plan as effects see it; the readings of a first session stand below its own."""
         own = self.make_next_design(plan, expected)
         if self.first is None or plan.after is None:
@@ -184,7 +184,7 @@ class Question:
         )
         return replace(hold_together(planned, [("", self.first)]).design, span=own.span)
 
-    def make_next_design(self, plan: Plan, expected: ExpectedTest) -> Design:
+    def make_next_design(self, plan: AxisPlan, expected: ExpectedTest) -> Design:
         """Return a plan by itself, with the logs of the test and those that the rivals ask for.
 
         What was logged begins as it did then.

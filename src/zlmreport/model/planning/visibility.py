@@ -21,7 +21,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, needs_linear_axis, needs_rotary_axis
 from zlmreport.model.planning.changes import list_changes
 from zlmreport.model.planning.methods import Visit, find_half_way, list_visits, make_planned_design, plan_path
-from zlmreport.model.planning.plan import ExpectedTest, Plan, Proposal, expect_conditions
+from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Proposal, expect_conditions
 
 _LIVELIER = Words("measure while there are larger changes of {logs}")
 _IMITATED = Words("{effect} imitates it")
@@ -51,12 +51,12 @@ class SeenEffect:
     logs: tuple[str, ...]  #: Columns that must be logged beside the readings for it to be tried.
 
 
-def list_planned_visits(plan: Plan) -> tuple[Visit, ...]:
+def list_planned_visits(plan: AxisPlan) -> tuple[Visit, ...]:
     """Return the readings of a plan in their order."""
     return list_visits(plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
 
 
-def expect_design(axis: Axis, plan: Plan, expected: ExpectedTest) -> Design:
+def expect_design(axis: Axis, plan: AxisPlan, expected: ExpectedTest) -> Design:
     """Return a planned test with the conditions that are expected, all of them logged."""
     listed, pause = list_planned_visits(plan), plan.pause
     design, second_half = (

@@ -15,7 +15,7 @@ from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Description:
     """A test that is to be simulated."""
 
     axis: Axis  #: The axis, with its tables.
-    plan: Plan  #: How it is tested.
+    plan: AxisPlan  #: How it is tested.
     #: Of everything random: the same description gives the same test. Each random part has a stream of its
     #: own, so that changing one leaves the others as they are.
     seed: int

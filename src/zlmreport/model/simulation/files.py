@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.list_edits import write_in_a_line
 from zlmreport.job.simulation import CourseKeys, SimulatedNoiseKeys, SimulationFile
+from zlmreport.job.yaml_text import write_in_a_line
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -20,7 +20,7 @@ from zlmreport.measurement.units import Scale, Unit
 from zlmreport.model.effects.axis_model import Term, choose_terms
 from zlmreport.model.effects.effect import Effect, find_unit_of
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.planned_test import USUAL_MODEL
 from zlmreport.model.planning.targets import compute_target_positions, make_target_generator
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
@@ -50,7 +50,7 @@ def read_description_of(file: SimulationFile, find: Callable[[str], Effect]) -> 
     position = axis.position_unit
     description = Description(
         axis=axis,
-        plan=Plan(
+        plan=AxisPlan(
             targets=_read_targets(file),
             method=Method(keys.method),
             runs=keys.runs,
@@ -224,7 +224,7 @@ def write_job_text(file: SimulationFile, folder: Path, readings: str) -> str:
     return "\n".join([*_write_job_lines(file, folder, source), _OUTPUT]) + "\n"
 
 
-def write_live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mapping[str, Any]) -> str:
+def write_live_job_text(file: SimulationFile, folder: Path, plan: AxisPlan, source: Mapping[str, Any]) -> str:
     """Return a job that captures the readings of an emulated machine from an instrument, and models them."""
     unit = file.axis.position_unit
     targets = unit.from_si(plan.targets).round(_MEANT_DIGITS).tolist()

@@ -19,7 +19,7 @@ from zlmreport.measurement.provenance import Provenance
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import list_visits, make_planned_design, plan_path
-from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import (
     Description,
     compute_logged_course,
@@ -237,7 +237,7 @@ def _drop_instrument(description: Description) -> Description:
     )
 
 
-def _make_course(plan: Plan, lead: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _make_course(plan: AxisPlan, lead: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return moments, positions where nothing errs, and the indices of the moments of arrival at targets."""
     corners = list(_find_corners(plan, lead))
     visited = [index for index, (_, _, is_arrival) in enumerate(corners) if is_arrival]
@@ -245,7 +245,7 @@ def _make_course(plan: Plan, lead: float) -> tuple[FloatArray, FloatArray, Float
     return np.array(moments), np.array(nominal), np.array(visited)
 
 
-def _find_corners(plan: Plan, lead: float) -> Iterator[tuple[float, float, bool]]:
+def _find_corners(plan: AxisPlan, lead: float) -> Iterator[tuple[float, float, bool]]:
     """Yield each corner of the motion: when, where, and whether the axis arrives at a target there."""
     stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     yield 0.0, stops[0].position, False
