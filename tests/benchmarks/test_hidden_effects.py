@@ -263,7 +263,7 @@ class TestFixedPart:
 
 class TestExperiments:
     def test_a_tie_that_the_advised_test_decides_is_counted_as_right(self) -> None:
-        tie = Case(Kind.EFFECT, ("encoder-interpolation",), Method.PENDULUM, Scatter.REALISTIC, 2.0, 0)
+        tie = Case(Kind.EFFECT, ("reversal-relaxation",), Method.LINEAR, Scatter.REALISTIC, 1.0, 0)
         found = experiments.judged(tie)
         assert found["followed"]["decision"] == "right"
         (row,) = (line for line in of_experiments([found], "state").splitlines() if "| 1 | " in line)

@@ -28,7 +28,7 @@ _VARIANCES = (0.02, 0.1, 0.5, 2.5, 12.0, 60.0, 300.0, 1500.0, 1e4, 1e5, 1e6)
 _IRREGULAR = (0.25, 1.0, 5.0, 25.0, 125.0, 1e3, 1e4, 1e5)
 #: 2·ln of the odds against an axis that is irregular from position to position beyond noise. That is the rule
 #: rather than the exception, and of many names one or two pass through a few targets by chance.
-_PRICE_OF_GEOMETRY = 3.0
+_PRICE_OF_GEOMETRY = 5.0
 #: Variances beyond which a curve is large, and the odds against that: those of an effect that is as large.
 _LARGE = ((30.0, 18.0), (3000.0, 30.0))
 #: By how much each level of a shared noise is rarer than the one below it, 2·ln of the odds.
@@ -82,7 +82,7 @@ def list_parts_of(
         may_be_more = with_nameless and each.source is not NoiseSource.TIME
         further = tuple(level for level in _IRREGULAR if may_be_more and level > each.ratios[-1])
         free = _compute_noise_costs(each, expected)
-        price = _PRICE_OF_GEOMETRY if each.source is NoiseSource.POSITION else PRICE
+        price = _PRICE_OF_GEOMETRY if is_irregular else PRICE
         found.append(
             CovariancePart(
                 _WORDS[each.source],

@@ -43,6 +43,7 @@ _RESTS = {
 _IN_PART = Words("{missing}. With {many} the error falls from {before} to {after}, over a noise of {noise}.")
 _WITHOUT_FLOOR = Words("{missing}. With {many} the error falls from {before} to {after}.")
 _NOT_BY_ITSELF = Words("{missing}. The error is {after} with {many} and {before} without.")
+_STAYS = Words("{missing}. The error stays {after} with {many}.")
 _MANY = {False: Words("it"), True: Words("them")}
 _BESIDE = Words(
     "{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}."
@@ -328,14 +329,14 @@ def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> W
     if diagnosis.leaves_noise:
         return _RESTS[is_many].given(missing=missing)
     axis, after = diagnosis.fit.design.axis, diagnosis.error_after
-    before = wording.deviation(axis, diagnosis.error.rms)
-    if after.rms >= diagnosis.error.rms:  # one takes the place of another, and what is left hides its gain
+    before, with_them = wording.deviation(axis, diagnosis.error.rms), wording.deviation(axis, after.rms)
+    if before.en == with_them.en:
+        words = _STAYS
+    elif after.rms > diagnosis.error.rms:  # one takes the place of another, and what is left hides its gain
         words = _NOT_BY_ITSELF
     else:
         words = _WITHOUT_FLOOR if after.noise_rms is None else _IN_PART
-    given = words.given(
-        missing=missing, many=_MANY[is_many], before=before, after=wording.deviation(axis, after.rms)
-    )
+    given = words.given(missing=missing, many=_MANY[is_many], before=before, after=with_them)
     if words is not _IN_PART or after.noise_rms is None:
         return given
     return given.given(noise=wording.deviation(axis, after.noise_rms))
