@@ -36,15 +36,8 @@ _TOGETHER = {
 
 def watched_main() -> int:
     """Do what the command line says, watched by another process; return the exit code."""
-
-    def use(memory: memoryview) -> None:
-        _settle_environment()
-        from zlmreport.plugin.presence import PRESENCE  # slow to load, and not in the one that waits
-
-        PRESENCE.use(memory)
-
     # who completes a line ends the process by himself, and loads no plugin of anybody
-    code = None if "_ARGCOMPLETE" in os.environ else watch(main, use)
+    code = None if "_ARGCOMPLETE" in os.environ else watch(main)
     return main() if code is None else code
 
 
@@ -53,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _settle_environment()
     # What is loaded and made at the beginning stays, and goes with the process: the collector would walk it
     # again and again for nothing, and at the end most of all.
-    gc.set_threshold(100_000)
+    gc.set_threshold(200_000)
     atexit.register(gc.freeze)
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)

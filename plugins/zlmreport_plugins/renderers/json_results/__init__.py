@@ -330,7 +330,5 @@ def _collect_source(source: CertificateSource) -> Json:
 
 @hookimpl
 def zlmreport_renderers() -> list[Renderer]:
-    """Offer the results file, and its numbers as tables: of one value a row, and as a workbook."""
-    from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer
-
-    return [JsonResultsRenderer(), CsvRenderer(), XlsxRenderer()]
+    """Offer the results file."""
+    return [JsonResultsRenderer()]

@@ -19,7 +19,7 @@ from typing import Any, Self
 
 from zlmreport.errors import NOWHERE, PluginError, Problem, ZlmreportError
 from zlmreport.plugin.kinds import EXTENSION, Kind
-from zlmreport.plugin.presence import PRESENCE
+from zlmreport.presence import PRESENCE
 
 #: What is no fault of a plugin: the user's mistake that it tells of, the user's stop, too little memory.
 _PASSED = (ZlmreportError, KeyboardInterrupt, MemoryError)
