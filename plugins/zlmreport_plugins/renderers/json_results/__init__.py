@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from zlmreport.plugin import (
     MICROMETRE,
@@ -23,7 +23,6 @@ from zlmreport.plugin import (
     Words,
     hookimpl,
 )
-from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import (
     COVERAGE_PROBABILITY,
     Budget,
@@ -36,6 +35,9 @@ from zlmreport.plugin.renderer import (
     report_evaluation,
 )
 from zlmreport.plugin.source import SourceFile
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.extension import Job
 
 SCHEMA = "zlmreport/results/1"
 

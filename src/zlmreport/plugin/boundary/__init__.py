@@ -67,8 +67,8 @@ class Guarded:
         # Whether it can be called is quickly asked, and mostly settles it.
         if not callable(found) or not inspect.isroutine(found):
             return found
-        # The checks of answers load what a listing of names does not need.
-        accept = import_module("zlmreport.plugin.boundary.answers").ACCEPTED.get((self._kind.name, name))
+        # The checks of answers load what a listing of names, or a plugin of another kind, does not need.
+        accept = import_module(f"zlmreport.plugin.boundary.answers.{self._kind.name}").ACCEPTED.get(name)
         method = self.__dict__[name] = self.look_after(name, found, accept)
         return method
 
