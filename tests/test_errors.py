@@ -7,7 +7,7 @@ import pickle
 import pytest
 
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
-from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.model_error import ModelError
 
 
 @pytest.mark.parametrize("kind", [InputError, AccessError])

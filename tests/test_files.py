@@ -17,7 +17,7 @@ EXCEPTIONS = {
     "src/zlmreport/cli/__init__.py": "the null device, for an output that nobody reads any more",
     "src/zlmreport/cli/fleet.py": "a log, added to",
     "src/zlmreport/fleet/database.py": "a lock, which holds who has it",
-    "src/zlmreport/plugin/presence.py": "the null device, for a stream that a plugin closed",
+    "src/zlmreport/presence.py": "the null device, for a stream that a plugin closed",
     "src/zlmreport/testing/sources.py": "damaged copies in a temporary folder",
     "src/zlmreport/verification/attached.py": "a temporary folder",
     "src/zlmreport/verification/readers.py": "a temporary folder, for programs of the system",

@@ -21,8 +21,8 @@ from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measu
 from hidden_effects.weather import wandering
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
-from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
 from zlmreport.model.planning.deciding import find_question_of_tie

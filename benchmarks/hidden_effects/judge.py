@@ -11,7 +11,8 @@ from hidden_effects.cases import Case, Kind
 from hidden_effects.trial import EFFECTS, Trial, drawn_trial
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import Observations, make_observations_of
 
 INSTALLED = tuple(EFFECTS.values())

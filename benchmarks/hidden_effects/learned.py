@@ -17,7 +17,7 @@ from hidden_effects.tables.outcome import judged as of_judged, outcome
 from hidden_effects.tables.shares import Share
 from hidden_effects.trial import ROTARY, drawn_trial
 from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors

@@ -15,8 +15,8 @@ import numpy as np
 
 from hidden_effects.trial import Measured, Trial
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import Observations, make_observations_of
 

@@ -12,7 +12,7 @@ import pytest
 from environments import ROOT
 from processes import PATIENCE, ZLMREPORT, group, run
 from verification.issued import READINGS
-from zlmreport.plugin.presence import SIZE, Presence
+from zlmreport.presence import SIZE, Presence
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="processes are forked and watched")
 _WHO = "standard 'drawn' of plugin drawn ({folder}/drawn.py): arithmetic"

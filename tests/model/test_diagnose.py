@@ -30,8 +30,9 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.report import report
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
 

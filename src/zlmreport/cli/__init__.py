@@ -36,25 +36,16 @@ _TOGETHER = {
 
 def watched_main() -> int:
     """Do what the command line says, watched by another process; return the exit code."""
-
-    def use(memory: memoryview) -> None:
-        _settle_environment()
-        from zlmreport.plugin.presence import PRESENCE  # slow to load, and not in the one that waits
-
-        PRESENCE.use(memory)
-
+    _settle_collector()
     # who completes a line ends the process by himself, and loads no plugin of anybody
-    code = None if "_ARGCOMPLETE" in os.environ else watch(main, use)
+    code = None if "_ARGCOMPLETE" in os.environ else watch(main)
     return main() if code is None else code
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the command line says and return the exit code; messages go to the standard error output."""
     _settle_environment()
-    # What is loaded and made at the beginning stays, and goes with the process: the collector would walk it
-    # again and again for nothing, and at the end most of all.
-    gc.set_threshold(100_000)
-    atexit.register(gc.freeze)
+    _settle_collector()
     for stream in (sys.stdout, sys.stderr):
         _write_what_cannot_be_encoded_as_escapes(stream)
     options = None
@@ -93,6 +84,16 @@ def _settle_environment() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # Pydantic looks for plugins of its own among all distributions before it makes its first model.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+
+
+def _settle_collector() -> None:
+    """Leave alone what is loaded and made at the beginning: it stays, and goes with the process.
+
+    The collector of garbage would walk it again and again for nothing, and at the end most of all. A run that
+    writes results alone makes 110,000 objects that stay.
+    """
+    gc.set_threshold(200_000)
+    atexit.register(gc.freeze)
 
 
 def _write_what_cannot_be_encoded_as_escapes(stream: TextIO) -> None:

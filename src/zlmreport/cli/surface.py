@@ -20,7 +20,7 @@ from zlmreport.language import Language
 from zlmreport.language.formatting import round_pair, write_general_number, write_stated_number
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.effects import wording
-from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.plane.plane import Plane, fit_plane, report
 from zlmreport.model.plane.surface import Surface
 from zlmreport.plugin.registry import Registry, find_plugins

@@ -12,29 +12,23 @@ import os
 import signal
 import sys
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from zlmreport.errors import ZlmreportError
-
-if TYPE_CHECKING:
-    from zlmreport.plugin.presence import Presence
+from zlmreport.presence import PRESENCE, SIZE, Presence
 
 #: Of what the command notes of itself; its first byte says that it came to its end, the second its exit code.
-_HEAD, _ROOM = 2, 2048
+_HEAD = 2
 _FAILED = ZlmreportError.exit_code
 #: Passed on to the command; the others come from the terminal, which tells both.
 _PASSED_ON = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2")
 _DEATH_OF_PARENT = 1
 
 
-def watch(command: Callable[[], int], use: Callable[[memoryview], None]) -> int | None:
-    """Do a command in a process of its own, and return its exit code; None where there is no such thing.
-
-    `use`: Is called in that process, with the memory in which it notes who is at work.
-    """
+def watch(command: Callable[[], int]) -> int | None:
+    """Do a command in a process of its own, and return its exit code; None where there is no such thing."""
     if not hasattr(os, "fork") or not hasattr(signal, "sigwaitinfo"):
         return None
-    memory = mmap.mmap(-1, _HEAD + _ROOM)
+    memory = mmap.mmap(-1, _HEAD + SIZE)
     waited = {signal.SIGCHLD, signal.SIGINT, *(getattr(signal, name) for name in _PASSED_ON)}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, waited)
     parent = os.getpid()
@@ -42,7 +36,7 @@ def watch(command: Callable[[], int], use: Callable[[memoryview], None]) -> int 
     if not child:
         _end_with(parent)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        use(memoryview(memory)[_HEAD:])
+        PRESENCE.use(memoryview(memory)[_HEAD:])
         code = command()
         memory[0:_HEAD] = bytes((1, code % 256))
         sys.exit(code)
@@ -53,8 +47,6 @@ def watch(command: Callable[[], int], use: Callable[[memoryview], None]) -> int 
         signal.signal(ended_by, signal.SIG_DFL)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, waited)
         os.kill(parent, ended_by)
-    from zlmreport.plugin.presence import Presence  # noqa: PLC0415 - only now
-
     presence = Presence(memoryview(memory)[_HEAD:])
     if not memory[0]:
         print(_say_what_ended(presence, status), file=sys.stderr)

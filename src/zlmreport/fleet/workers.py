@@ -21,7 +21,7 @@ from typing import Any, Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.fleet.making import BEAT, Failed, MadeCertificate, Task, make_certificate, report_late, warm
-from zlmreport.plugin.presence import PRESENCE, SIZE, Presence
+from zlmreport.presence import PRESENCE, SIZE, Presence
 
 #: After its task should have been ended by the night, a worker ends itself, s: the night may be gone.
 _GRACE = 60

@@ -15,7 +15,7 @@ from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import demand, rewrite
-from zlmreport.job.choices import EffectChoice, choose_effects_of
+from zlmreport.job.effect_choices import EffectChoice, choose_effects_of
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job

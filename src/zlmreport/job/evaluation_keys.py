@@ -236,7 +236,7 @@ def find_uncertainty_contradictions(
 class StandardKeys(BaseModel):
     """A standard to evaluate by; the plugin's own keys may follow."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     standard: Text = Field(description="Identifier of an installed standard, edition included.")
     tolerances: dict[str, Positive] = Field(
@@ -362,7 +362,7 @@ class PlannedTargetKeys(JobPart):
 class ProgramKeys(BaseModel):
     """A part program; the plugin's own keys may follow."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     program: Text = Field(description="Identifier of an installed writer of part programs.")
 
@@ -376,7 +376,7 @@ class ProgramKeys(BaseModel):
 class ControllerKeys(BaseModel):
     """A control that takes compensation tables; the plugin's own keys may follow."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     controller: Text = Field(description="Identifier of an installed controller.", examples=["linuxcnc"])
 

@@ -127,7 +127,7 @@ class LogKeys(JobPart):
 class NotifyKeys(BaseModel):
     """A way to tell people; the plugin's own keys follow."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     plugin: Text = Field(description="Identifier of an installed notifier.", examples=["mail"])
     tells: list[Literal["digest", "certificate", "failure"]] = Field(

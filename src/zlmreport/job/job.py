@@ -5,16 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport.errors import InputError, Place, quoted
-from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice, SourceChoice
+from zlmreport.job.choices import Choice, ControllerChoice, ExtensionChoice, SourceChoice
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.quantity import convert_places_to_si
 from zlmreport.job.tree import Keys, Step, make_keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
+
+if TYPE_CHECKING:
+    from zlmreport.job.effect_choices import EffectChoice
 
 #: Keys of a measurement that no other one shares with it.
 _OF_ITS_READINGS = frozenset({"source", "date", "end", "excluded", "remarks"})

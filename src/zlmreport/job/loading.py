@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.choices import (
     Choice,
     ControllerChoice,
-    EffectChoice,
     ExtensionChoice,
-    choose_candidates,
     choose_controller_of,
-    choose_effects_of,
     choose_extensions,
     choose_programs_of,
     choose_source,
@@ -50,6 +48,9 @@ from zlmreport.job.tree import Items, Keys, Scalar, find_at, place_of
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import POSITIONING
+
+if TYPE_CHECKING:
+    from zlmreport.job.effect_choices import EffectChoice
 
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
@@ -222,6 +223,8 @@ def _choose_where_stated(tree: Keys, registry: Installed, problems: list[Problem
     """Return the plugins that a job's model, plan, compensation and extensions name, where it has these."""
     chosen = _Chosen(extensions=tuple(choose_extensions(tree, registry, problems)))
     if "model" in tree.entries:
+        from zlmreport.job.effect_choices import choose_candidates, choose_effects_of  # noqa: PLC0415 - brings formulas
+
         stated, within = find_at(tree, _EFFECTS), ".".join(_EFFECTS)
         tried, among = find_at(tree, _CANDIDATES), ".".join(_CANDIDATES)
         chosen = replace(

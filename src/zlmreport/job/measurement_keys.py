@@ -176,7 +176,7 @@ class AxisKeys(JobPart):
 class SourceKeys(BaseModel):
     """Where the readings come from; the plugin's own keys follow `plugin`."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     plugin: Text = Field(description="Identifier of an installed data source.", examples=["laser-csv"])
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport.errors import InputError, Problem, did_you_mean, quoted
-from zlmreport.job.choices import EffectChoice
 from zlmreport.job.evaluation_keys import UNCERTAIN_LENGTHS
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.keys import JobKeys
@@ -24,6 +23,9 @@ from zlmreport.measurement.measurand import (
     list_measurands_of,
 )
 from zlmreport.measurement.units import DEGREE, MILLIMETRE
+
+if TYPE_CHECKING:
+    from zlmreport.job.effect_choices import EffectChoice
 
 _ERROR = ("measurement", "error")
 

@@ -9,8 +9,9 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
-from zlmreport.job.choices import ParameterLimits, group_model
+from zlmreport.job.choices import group_model
 from zlmreport.job.document_keys import Output
+from zlmreport.job.effect_choices import ParameterLimits
 from zlmreport.job.evaluation_keys import (
     AxisModelKeys,
     ControllerKeys,

@@ -11,9 +11,9 @@ from pydantic import AfterValidator, Field
 
 from zlmreport.errors import InputError, Place, Problem, count_in_words, quoted
 from zlmreport.job.axis import convert_axis_to_si
-from zlmreport.job.choices import EffectChoice, choose_effects_of
 from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
+from zlmreport.job.effect_choices import EffectChoice, choose_effects_of
 from zlmreport.job.evaluation_keys import AxisModelKeys
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed

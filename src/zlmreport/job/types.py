@@ -358,7 +358,7 @@ def _has_free(annotation: Any) -> bool:
 class LiveInstrumentKeys(BaseModel):
     """A live instrument; its own keys follow `plugin`. A data source that has one declares a key of it."""
 
-    model_config = ConfigDict(extra="allow", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="allow", frozen=True)
 
     plugin: Text = Field(description="Identifier of an installed live instrument.", examples=["umd1"])
 

@@ -14,7 +14,7 @@ from zlmreport.document.blocks import Notice, Section
 from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, lay_out_unseen
 from zlmreport.document.subjects.fit import fit_sections
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.choices import EffectChoice, choose_effects_of, find_next_number
+from zlmreport.job.effect_choices import EffectChoice, choose_effects_of, find_next_number
 from zlmreport.job.evaluation_keys import STATED_COVERAGE_FACTOR
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
@@ -27,9 +27,10 @@ from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.report import report, report_error, report_model, write_verdict_statement
 from zlmreport.model.diagnosis.study import Fitted
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, choose_terms
+from zlmreport.model.effects.axis_model import AxisModel, choose_terms
 from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions
 from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit as fit_model

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from zlmreport.document.certificate.conditions import Described
 from zlmreport.document.writer import Writer
@@ -17,8 +17,10 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.live.emulation.emulator import Emulator
 from zlmreport.measurement.measurement_set import MeasurementSet
+
+if TYPE_CHECKING:
+    from zlmreport.live.emulation.emulator import Emulator
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from zlmreport import pipeline
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.evaluation.correction.corrections import drop_excluded
-from zlmreport.job.choices import EffectChoice
+from zlmreport.job.effect_choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language

@@ -10,7 +10,7 @@ import pytest
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
 from zlmreport.evaluation.uncertainty.monte_carlo import shorten
-from zlmreport.evaluation.uncertainty.sampling import sample_singly, sample_stratified
+from zlmreport.evaluation.uncertainty.sampling import draw_singly, sample_singly, sample_stratified
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less
@@ -70,3 +70,10 @@ def test_without_contributions_there_is_no_error() -> None:
 
 def test_an_uncertainty_keeps_six_digits() -> None:
     assert shorten(1.23456789e-6) == 1.23457e-6
+
+
+def test_errors_are_the_same_whatever_stood_before_where_they_are_drawn() -> None:
+    contributions = [contribution(0.5, Acts.AT_EACH_READING, each) for each in Distribution]
+    total, errors = np.full((2, COUNT), np.nan)
+    draw_singly(contributions, total, errors, np.random.default_rng(7))
+    np.testing.assert_array_equal(total, sample_singly(contributions, (COUNT,), np.random.default_rng(7)))

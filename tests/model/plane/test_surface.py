@@ -12,7 +12,7 @@ from model.plane.planes import COEFFICIENTS, DESIGN, LINES, LOST_MOTION, fitted,
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
-from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.plane.surface import Surface, SurfaceLine, join_side_by_side, list_coefficient_names

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from zlmreport.plugin import (
     MICROMETRE,
@@ -23,7 +23,6 @@ from zlmreport.plugin import (
     Words,
     hookimpl,
 )
-from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import (
     COVERAGE_PROBABILITY,
     Budget,
@@ -36,6 +35,9 @@ from zlmreport.plugin.renderer import (
     report_evaluation,
 )
 from zlmreport.plugin.source import SourceFile
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.extension import Job
 
 SCHEMA = "zlmreport/results/1"
 
@@ -330,7 +332,5 @@ def _collect_source(source: CertificateSource) -> Json:
 
 @hookimpl
 def zlmreport_renderers() -> list[Renderer]:
-    """Offer the results file, and its numbers as tables: of one value a row, and as a workbook."""
-    from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer
-
-    return [JsonResultsRenderer(), CsvRenderer(), XlsxRenderer()]
+    """Offer the results file."""
+    return [JsonResultsRenderer()]

@@ -22,8 +22,8 @@ from xml.sax.handler import feature_namespaces
 from xml.sax.saxutils import XMLGenerator
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
-from zlmreport.plugin.renderer import Certificate, rounded_pair
+from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words, hookimpl
+from zlmreport.plugin.renderer import Certificate, Renderer, rounded_pair
 from zlmreport_plugins.renderers.json_results import Json, collect_results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
@@ -455,3 +455,9 @@ class _NamesAtRoot(XMLGenerator):
 
     def endPrefixMapping(self, prefix: str | None) -> None:  # noqa: N802 - the same
         """Leave it."""
+
+
+@hookimpl
+def zlmreport_renderers() -> list[Renderer]:
+    """Offer the numbers of the results file as tables: of one value a row, and as a workbook."""
+    return [CsvRenderer(), XlsxRenderer()]

@@ -13,7 +13,7 @@ where x̄_j↑ lies above x̄_j↓, the general form x̄_j ± ½(U_j + P_sj) is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -134,8 +134,8 @@ class VdiGuideline:
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the guideline's parameters, and U_j and P_sj by position."""
-        factor = self.guideline.factor
-        return Arithmetic(parameters(statistics, factor), positions(statistics, factor))
+        by_position = positions(statistics, self.guideline.factor)
+        return Arithmetic(parameters(statistics, by_position), by_position)
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterator[Figure]:  # noqa: ARG002 - no keys of its own
         """Yield both diagrams, as far as the test defines what they show."""
@@ -166,11 +166,15 @@ def half_width(reversal: FloatArray, spread: FloatArray, statistics: PositionSta
     return np.where(bidirectional, reversal + spread, spread) / 2
 
 
-def parameters(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
-    """Return the parameters of the axis by symbol, each of shape (...)."""
+def parameters(
+    statistics: PositionStatistics, by_position: Mapping[str, FloatArray]
+) -> dict[str, FloatArray]:
+    """Return the parameters of the axis by symbol, each of shape (...).
+
+    `by_position`: The columns, as from `positions`.
+    """
     mean = mean_deviation(statistics)
-    spread = position_spread(statistics, k)
-    reversal = reversal_span(statistics)
+    spread, reversal = by_position["Ps"], by_position["U"]
     half = half_width(reversal, spread, statistics)
     return {
         "P": range_over_positions(mean + half, mean - half),

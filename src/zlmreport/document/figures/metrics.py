@@ -11,8 +11,6 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
-import uharfbuzz
-
 from zlmreport.document.figures.canvas import Label, Run, TypeFace
 from zlmreport.language.formatting import Span, split_spans
 
@@ -48,11 +46,15 @@ def has_letter(letter: str, face: TypeFace) -> bool:
 
 @cache
 def _load_font(face: TypeFace) -> Any:
+    import uharfbuzz  # noqa: PLC0415 - only where a text is set
+
     return uharfbuzz.Font(uharfbuzz.Face(uharfbuzz.Blob.from_file_path(str(find_font_file(face)))))
 
 
 def _shape_text(text: str, face: TypeFace, **features: bool) -> Any:
     """Return the glyphs of a text in the order of the line: mixed directions have no place on a graph."""
+    import uharfbuzz  # noqa: PLC0415 - the same
+
     buffer = uharfbuzz.Buffer()
     buffer.add_str(text)
     buffer.direction, buffer.script, buffer.language = "ltr", "Latn", "en"

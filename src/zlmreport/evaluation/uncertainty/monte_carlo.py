@@ -44,7 +44,7 @@ from zlmreport.evaluation.uncertainty.instrument_curves import (
 )
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
 from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_rounding
-from zlmreport.evaluation.uncertainty.sampling import sample_singly, sample_stratified
+from zlmreport.evaluation.uncertainty.sampling import draw_singly, sample_singly, sample_stratified
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -87,6 +87,24 @@ class _Ways:
     form: CurveForm = CurveForm.AT_EACH_POSITION  #: Of the instrument's error at each position.
 
 
+@dataclass(frozen=True, slots=True)
+class _Draws:
+    """What simulated tests are drawn by, and where."""
+
+    generator: np.random.Generator
+    #: Of each measured line: where its tests, their errors and those of one contribution stand, (3, trial,
+    #: approach, position, run). The system hands out new memory page by page, so this is made once for all.
+    rooms: tuple[FloatArray, ...]
+
+    @classmethod
+    def of(cls, measurements: MeasurementSet, trials: int) -> _Draws:
+        """Return the draws of a test: the same test gives the same ones."""
+        readings = [each.deviations() for each in measurements.lines]
+        at_once = max(1, _AT_ONCE // sum(each.size for each in readings))
+        rooms = tuple(np.empty((3, max(1, min(at_once, trials)), *each.shape)) for each in readings)
+        return cls(np.random.Generator(np.random.PCG64(make_seed_of(measurements))), rooms)
+
+
 def propagate(
     budget: Budget,
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
@@ -119,15 +137,15 @@ def propagate(
     measurements = evaluations[0][0].measurements
     if not any(np.isfinite(each.deviation).any() for each in measurements.lines):
         return tuple({} for _ in evaluations)
-    generator = np.random.Generator(np.random.PCG64(make_seed_of(measurements)))
     least = _NOTHING * max(each.standard_uncertainty for each in budget.lines)
     found: list[dict[str, Expanded]] = [{} for _ in evaluations]
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
     kinds: Sequence[Drift | None] = choose_drift_kinds(measurements) if drifts else (None,)
     asked = [_Ways(kind, form) for form in list_forms(budget, measurements) for kind in kinds]
     each_of = trials // len(asked)
+    draws = _Draws.of(measurements, each_of)
     for ways in asked:
-        distances = _measure_distances(budget, evaluations, ways, each_of, generator)
+        distances = _measure_distances(budget, evaluations, ways, each_of, draws)
         for so_far, (evaluation, _), values in zip(found, evaluations, distances, strict=True):
             symbols = (each.quantity.symbol for each in evaluation.parameters)
             for symbol, expanded in zip(symbols, _expand(np.abs(values), least), strict=True):
@@ -136,7 +154,7 @@ def propagate(
     flatter = [_evaluate_readings(each, evaluations) for each in make_flatter_axes(measurements, budget)]
     for kind in kinds if flatter else ():
         fewer = max(1, each_of // _FLATTER_SHARE)
-        reached = _find_reached(budget, evaluations, flatter, _Ways(kind), fewer, generator)
+        reached = _find_reached(budget, evaluations, flatter, _Ways(kind), fewer, draws)
         found = [
             {symbol: _raise_to_reach(each, far[symbol]) for symbol, each in so_far.items()}
             for so_far, far in zip(found, reached, strict=True)
@@ -160,7 +178,7 @@ def _find_reached(  # noqa: PLR0913, PLR0917 - what a simulation of a test is ma
     flatter: Sequence[Sequence[tuple[Evaluation, StandardArithmetic]]],
     ways: _Ways,
     trials: int,
-    generator: np.random.Generator,
+    draws: _Draws,
 ) -> list[dict[str, float]]:
     """Return how far the farthest axis lies of which the readings may be a test, by symbol.
 
@@ -168,7 +186,7 @@ def _find_reached(  # noqa: PLR0913, PLR0917 - what a simulation of a test is ma
     """
     away, allowed = [], []
     for axis in flatter:
-        distances = _measure_distances(budget, axis, ways, trials, generator)
+        distances = _measure_distances(budget, axis, ways, trials, draws)
         allowed.append([_find_half_widths(np.abs(each)) for each in distances])
         away.append(
             [
@@ -276,13 +294,13 @@ def _measure_distances(
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
     ways: _Ways,
     trials: int,
-    generator: np.random.Generator,
+    draws: _Draws,
 ) -> list[FloatArray]:
     """Return y* − y in simulated tests, for each evaluation: (parameter, trial)."""
     distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
     done = 0
     for statistics, shown, count in _simulate_statistics(
-        budget, evaluations[0][0].measurements, ways, trials, generator
+        budget, evaluations[0][0].measurements, ways, trials, draws
     ):
         chunk = slice(done, done + count)
         done = chunk.stop
@@ -300,16 +318,16 @@ def _simulate_statistics(
     measurements: MeasurementSet,
     ways: _Ways,
     trials: int,
-    generator: np.random.Generator,
+    draws: _Draws,
 ) -> Iterator[tuple[PositionStatistics, PositionStatistics | None, int]]:
     """Yield the statistics of simulated tests, so many at a time, those of what was shown, and how many.
 
     Of several measured lines each has errors of its own, drawn from its own budget.
     """
-    at_once = max(1, _AT_ONCE // sum(each.deviations().size for each in measurements.lines))
+    generator = draws.generator
     if not measurements.tests:
         positions = measurements.target_positions
-        alone = _simulate_tests(budget, measurements, ways, trials, generator, at_once)
+        alone = _simulate_tests(budget, measurements, ways, trials, generator, draws.rooms[0])
         for tests, shown in alone:
             of_shown = None if shown is None else position_statistics(shown, positions)
             yield position_statistics(tests, positions), of_shown, len(tests)
@@ -318,8 +336,8 @@ def _simulate_statistics(
     of_lines = _sample_errors_of_lines(budget, trials, generator)
     for together in zip(
         *(
-            _simulate_tests(budget.tests[name], each, ways, trials, generator, at_once, of_lines)
-            for name, each in lines.items()
+            _simulate_tests(budget.tests[name], each, ways, trials, generator, room, of_lines)
+            for (name, each), room in zip(lines.items(), draws.rooms, strict=True)
         ),
         strict=True,
     ):
@@ -345,13 +363,15 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
     ways: _Ways,
     trials: int,
     generator: np.random.Generator,
-    at_once: int,
+    room: FloatArray,
     of_lines: Mapping[str, FloatArray] = MappingProxyType({}),
 ) -> Iterator[tuple[FloatArray, FloatArray | None]]:
     """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad.
 
     With each the readings that were shown of them without any other error; None where these are the readings
-    of the test itself. `of_lines`: Errors, in units of u, that this line shares with others, by their names.
+    of the test itself. The tests last until the next ones are asked for, which stand in the same room.
+
+    `of_lines`: Errors, in units of u, that this line shares with others, by their names.
     """
     readings = measurements.deviations()
     along = sample_stratified(budget.steady(Acts.ALONG_THE_LENGTH), trials, generator)
@@ -373,8 +393,10 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
     times = compute_reading_times(measurements)
     effect = compute_effect_along(measurements.target_positions)
     parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
+    at_once = room.shape[1]
     for first in range(0, trials, at_once):
         count = min(at_once, trials - first)
+        tests, own, of_one = room[:, :count]
         errors = along[first : first + count, np.newaxis] * effect
         at_positions = budget.acting(Acts.AT_EACH_POSITION)
         formed = [each for each in at_positions if ways.form.half_waves and is_of_the_instrument(each)]
@@ -385,7 +407,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
-        own = sample_singly(independent, (count, *readings.shape), generator)
+        draw_singly(independent, own, of_one, generator)
         rounded = sample_rounding(hiding, readings, count, generator) if hiding else None
         if ways.drift:
             for each in drifting:
@@ -396,7 +418,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
         shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
         shared += sample_singly(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
-        tests = (rounded.before if rounded else readings) + shared[..., np.newaxis]
+        np.add(rounded.before if rounded else readings, shared[..., np.newaxis], out=tests)
         tests += own
         for draws, effects in changing:
             tests += np.multiply.outer(draws[trial], effects)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from statistics import NormalDist
 
 import numpy as np
 
 from zlmreport.evaluation.uncertainty.budget import Contribution, Distribution
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 
 
 def sample_stratified(
@@ -20,10 +21,9 @@ def sample_stratified(
     Each contribution takes the middles of `count` equally probable parts of its distribution once each, in
     an order of its own (Latin hypercube): the tails are as full as they should be, and not as chance has it.
     """
-    middles = (np.arange(count) + 0.5) / count
     total = np.zeros(count)
     for distribution, standard_uncertainty in _combine_distributions(contributions):
-        total += standard_uncertainty * generator.permutation(_compute_quantiles(distribution, middles))
+        total += standard_uncertainty * generator.permutation(_compute_middles(distribution, count))
     return total
 
 
@@ -31,15 +31,26 @@ def sample_singly(
     contributions: Sequence[Contribution], shape: tuple[int, ...], generator: np.random.Generator
 ) -> FloatArray:
     """Return sums of one error of each contribution, each element drawn for itself, m or rad."""
-    total = np.zeros(shape)
+    total, errors = np.empty(shape), np.empty(shape)
+    draw_singly(contributions, total, errors, generator)
+    return total
+
+
+def draw_singly(
+    contributions: Sequence[Contribution],
+    total: FloatArray,
+    errors: FloatArray,
+    generator: np.random.Generator,
+) -> None:
+    """Fill an array with such sums; `errors`, of the same shape, is where those of one are drawn."""
+    total.fill(0.0)
     for distribution, standard_uncertainty in _combine_distributions(contributions):
         if distribution is Distribution.NORMAL:
-            errors = generator.standard_normal(shape)
+            drawn = generator.standard_normal(out=errors)
         else:
-            errors = _compute_quantiles(distribution, generator.random(shape))
-        errors *= standard_uncertainty
-        total += errors
-    return total
+            drawn = _compute_quantiles(distribution, generator.random(out=errors))
+        drawn *= standard_uncertainty
+        total += drawn
 
 
 def _combine_distributions(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
@@ -50,6 +61,12 @@ def _combine_distributions(contributions: Sequence[Contribution]) -> Iterator[tu
     for each in contributions:
         if each.distribution is not Distribution.NORMAL:
             yield each.distribution, each.standard_uncertainty
+
+
+@lru_cache(maxsize=16)
+def _compute_middles(distribution: Distribution, count: int) -> FloatArray:
+    """Return the middles of so many equally probable parts; kept, for each simulation asks for them."""
+    return read_only_floats(_compute_quantiles(distribution, (np.arange(count) + 0.5) / count))
 
 
 def _compute_quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:

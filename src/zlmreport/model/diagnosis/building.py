@@ -13,8 +13,9 @@ from typing import TypeAlias
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 
 #: Diagnoses of one build: each adds a whole set, so a second mostly finds nothing more.

@@ -13,9 +13,9 @@ from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
 from zlmreport.model.effects import wording
-from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.effects.sizes import ask_of, find_usual_range
 from zlmreport.model.fitting.estimate import ParameterEstimate
 from zlmreport.model.fitting.fit import Fit

@@ -27,8 +27,9 @@ from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagg
 from zlmreport.model.diagnosis.residuals import Failure, find_residuals_of
 from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.diagnosis.visibility import Visibility
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect, is_of_another_axis
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import Outliers, find_outliers
 from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from zlmreport.job.choices import part_number
+from zlmreport.job.effect_choices import part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes

@@ -6,9 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from zlmreport.language import Words
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, refuse_collisions
+from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.model_error import ModelError
 
 _IMITATED = Words("at these targets {effect} imitates it entirely")
 _THE_MODEL = Words("the model")

@@ -19,10 +19,9 @@ from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, estimate_robust_deviation
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import Observations, select_readings
+from zlmreport.model.fitting.observations import Observations, select_of_the_job, select_readings
 from zlmreport.model.fitting.pauses import find_pauses
 from zlmreport.model.fitting.repeats import estimate_noise_floor, find_repeats
-from zlmreport.model.fitting.sessions import select_of_the_job
 
 if TYPE_CHECKING:
     from zlmreport.model.effects.effect import Effect

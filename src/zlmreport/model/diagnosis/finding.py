@@ -30,9 +30,10 @@ from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.priors import PriorExpectation

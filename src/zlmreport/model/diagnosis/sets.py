@@ -15,7 +15,7 @@ from itertools import chain, combinations
 
 import numpy as np
 
-from zlmreport.job.choices import number_effect, part_number
+from zlmreport.job.effect_choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.climbing import BROAD, FOLLOWED, GAIN, PROMISING, Breadth, Climb, Scope
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody

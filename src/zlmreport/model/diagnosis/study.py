@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.choices import EffectChoice, find_next_number, number_effect
 from zlmreport.job.edit import CANDIDATES, WrittenEffect, list_items_written, read_named_effect
+from zlmreport.job.effect_choices import EffectChoice, find_next_number, number_effect
 from zlmreport.job.formula import find_names_in, parse_formula
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed
@@ -26,16 +26,23 @@ from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_effect, choose_terms
+from zlmreport.model.effects.axis_model import AxisModel, Term, choose_effect, choose_terms
 from zlmreport.model.effects.design import transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape
 from zlmreport.model.effects.harmonic import Harmonic, find_harmonics
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
-from zlmreport.model.fitting.observations import Observations, make_observations_of, select_readings, thin
+from zlmreport.model.fitting.observations import (
+    Observations,
+    make_observations_of,
+    select_of_the_job,
+    select_readings,
+    thin,
+)
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.sessions import add_zeros, hold_together, select_of_the_job
+from zlmreport.model.fitting.sessions import add_zeros, hold_together
 
 #: The effect that is a full polynomial over the position.
 _POLYNOMIAL = "polynomial"

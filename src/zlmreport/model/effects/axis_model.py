@@ -9,7 +9,7 @@ from itertools import count
 import numpy as np
 
 from zlmreport.errors import InputError, count_in_words, did_you_mean
-from zlmreport.job.choices import EffectChoice, number_effect
+from zlmreport.job.effect_choices import EffectChoice, number_effect
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
@@ -18,27 +18,13 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, find_unit_of
 from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.effects.model_error import ModelError
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
 _ROUNDING = 1e-10
 _TAKES_PART = 0.05
 #: Its square is a double.
 _LARGEST = 1e150
-
-
-class ModelError(Exception):
-    """A model that these readings cannot carry.
-
-    `sentences`: What is wrong and what would be right, each fit to stand behind a place in a file.
-    """
-
-    def __init__(self, sentences: Sequence[str]) -> None:
-        self.sentences = tuple(sentences)
-        super().__init__("; ".join(self.sentences))
-
-    def __reduce__(self) -> tuple[type[ModelError], tuple[tuple[str, ...]]]:
-        """Let the error reach another process as it is."""
-        return type(self), (self.sentences,)
 
 
 @dataclass(frozen=True, slots=True)

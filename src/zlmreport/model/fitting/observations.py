@@ -13,8 +13,8 @@ from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats,
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import write_behind
-from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.model_error import ModelError
 
 #: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
 OVERRUN = {AxisKind.LINEAR: 5e-3, AxisKind.ROTARY: radians(1.0)}
@@ -165,6 +165,11 @@ def select_readings(design: Design, readings: IntArray) -> Design:
         rates={name: read_only_floats(rate[readings]) for name, rate in design.rates.items()},
         session=read_only_integers(design.session[readings]),
     )
+
+
+def select_of_the_job(observed: Observations) -> Observations:
+    """Return the readings of the job's own session."""
+    return observed.without(np.flatnonzero(observed.design.session > 0))
 
 
 def _measure_since_reversal(position: FloatArray, direction: FloatArray, overrun: float) -> FloatArray:

@@ -15,9 +15,10 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import Observations
 
 _HELD_TOGETHER = Words(
@@ -129,8 +130,3 @@ def hold_together(own: Observations, others: Sequence[tuple[str, Observations]])
         ),
         tuple(remarks),
     )
-
-
-def select_of_the_job(observed: Observations) -> Observations:
-    """Return the readings of the job's own session."""
-    return observed.without(np.flatnonzero(observed.design.session > 0))

@@ -15,7 +15,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.report import report_error
 from zlmreport.model.diagnosis.study import find_instrument_error
-from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.plane.surface import (
     Surface,

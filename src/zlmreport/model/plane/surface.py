@@ -19,9 +19,10 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
+from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, cross_validate, fit

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Place, did_you_mean
-from zlmreport.job.choices import EffectChoice
+from zlmreport.job.effect_choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
@@ -21,9 +21,10 @@ from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
-from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import list_noise_parts
 from zlmreport.model.fitting.observations import Observations

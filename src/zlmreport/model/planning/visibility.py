@@ -16,9 +16,10 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.visibility import Visibility, plan_visibility
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, refuse_collisions
+from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, needs_linear_axis, needs_rotary_axis
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.planning.changes import list_changes
 from zlmreport.model.planning.methods import Visit, find_half_way, list_visits, make_planned_design, plan_path
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Proposal, expect_conditions

@@ -19,7 +19,7 @@ from typing import Any, Self
 
 from zlmreport.errors import NOWHERE, PluginError, Problem, ZlmreportError
 from zlmreport.plugin.kinds import EXTENSION, Kind
-from zlmreport.plugin.presence import PRESENCE
+from zlmreport.presence import PRESENCE
 
 #: What is no fault of a plugin: the user's mistake that it tells of, the user's stop, too little memory.
 _PASSED = (ZlmreportError, KeyboardInterrupt, MemoryError)
@@ -67,8 +67,8 @@ class Guarded:
         # Whether it can be called is quickly asked, and mostly settles it.
         if not callable(found) or not inspect.isroutine(found):
             return found
-        # The checks of answers load what a listing of names does not need.
-        accept = import_module("zlmreport.plugin.boundary.answers").ACCEPTED.get((self._kind.name, name))
+        # The checks of answers load what a listing of names, or a plugin of another kind, does not need.
+        accept = import_module(f"zlmreport.plugin.boundary.answers.{self._kind.name}").ACCEPTED.get(name)
         method = self.__dict__[name] = self.look_after(name, found, accept)
         return method
 

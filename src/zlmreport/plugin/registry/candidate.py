@@ -17,7 +17,7 @@ from zlmreport.plugin import hooks
 from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.hooks import PROJECT
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugin.presence import PRESENCE
+from zlmreport.presence import PRESENCE
 
 #: Environment variable that switches plugins off.
 DISABLE = "ZLMREPORT_DISABLE_PLUGINS"

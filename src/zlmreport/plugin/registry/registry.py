@@ -255,7 +255,7 @@ class Registry:
 
     def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
         """Return an effect, as `find` does; ``scale-joint-2`` is the second of those that may be several."""
-        from zlmreport.job.choices import part_number  # noqa: PLC0415 - a listing of names needs no jobs
+        from zlmreport.job.effect_choices import part_number  # noqa: PLC0415 - a listing of names needs no jobs
 
         name, number = part_number(identifier)
         if number > 1 and name in self.list_identifiers(kinds.EFFECT):

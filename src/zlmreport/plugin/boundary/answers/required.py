@@ -1,0 +1,82 @@
+"""What every check of an answer is made of: refuses what is not of a kind, of a shape, or no number."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.plugin.boundary import Guarded, Unacceptable
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.arrays import FloatArray
+
+
+_DOUBLE = np.dtype(np.float64)
+
+
+def real(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
+    """Return numbers as doubles; refuse what is none, complex, infinite, or of another shape."""
+    # First the usual answers, in a hurry: one value, or an array in which nothing is amiss.
+    if type(values) is np.float64 and not shape and not math.isinf(values):
+        return values  # type: ignore[return-value]
+    is_as_expected = type(values) is np.ndarray and values.dtype is _DOUBLE and values.shape == shape
+    if is_as_expected and math.isfinite(np.add.reduce(values, None)):
+        return values  # type: ignore[no-any-return]
+    array = require_numbers(values, what)
+    if array.shape != shape:
+        raise Unacceptable(f"gives {what} of the shape {array.shape}; {shape} is expected")
+    if np.isinf(array).any():
+        raise Unacceptable(f"gives {what} that is infinite; NaN stands for what is not defined")
+    return array
+
+
+def require_numbers(values: Any, what: str) -> FloatArray:
+    """Return numbers as doubles; refuse what is none, or complex."""
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise Unacceptable(f"gives {what} that is no array: {error}") from None
+    if array.dtype.kind not in "iuf":
+        named = "complex" if array.dtype.kind == "c" else f"{type(values).__name__} and no number"
+        raise Unacceptable(f"gives {what} that is {named}; a real number is expected")
+    return array if array.dtype == _DOUBLE else array.astype(np.float64)
+
+
+def require_finite(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
+    """Return numbers as doubles, as `real`; refuse NaN too."""
+    array = real(values, shape, what)
+    if not math.isfinite(np.add.reduce(array, None)) and np.isnan(array).any():
+        raise Unacceptable(f"gives {what} that is NaN; a number is expected")
+    return array
+
+
+def require_kind(kind: type, answer: Any) -> Any:
+    """Return an answer that is of a kind; refuse any other."""
+    if not isinstance(answer, kind):
+        raise Unacceptable(f"returns {name_answer(answer)}; {kind.__name__} is expected")
+    return answer
+
+
+def name_answer(answer: object) -> str:
+    """Return what messages call an answer that is of another kind."""
+    return "nothing" if answer is None else f"an object of type {type(answer).__name__}"
+
+
+def require_all_of(kind: type, answer: Any) -> tuple[Any, ...]:
+    """Return everything of an iterable; refuse one with something else in it."""
+    if not isinstance(answer, Iterable) or isinstance(answer, str | bytes):
+        raise Unacceptable(f"returns {name_answer(answer)}; several {kind.__name__} are expected")
+    found = tuple(answer)
+    for each in found:
+        if not isinstance(each, kind):
+            raise Unacceptable(f"returns {name_answer(each)} among others; each must be {kind.__name__}")
+    return found
+
+
+def sentences(_plugin: Guarded, answer: Any, *_: Any) -> tuple[Words, ...]:
+    """Take every sentence."""
+    return require_all_of(Words, answer)
