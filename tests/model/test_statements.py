@@ -64,6 +64,15 @@ def test_nothing_falls_where_the_error_does_not() -> None:
     assert "The error is" in statement
 
 
+def test_an_error_that_is_the_same_to_the_digits_that_are_printed_stays() -> None:
+    before = example_diagnosis().error.rms
+    for share in (0.9999, 1.0001):
+        after = replace(
+            example_diagnosis().error_after, rms=share * before, noise_rms=0.1 * before, chi2_per_dof=99.0
+        )
+        assert re.search(r"The error stays \S+ µm with it\.", said(error_after=after))
+
+
 def test_the_rest_is_explained_only_where_what_is_left_is_noise() -> None:
     after = replace(example_diagnosis().error_after, rms=1.4e-6, noise_rms=0.7e-6, chi2_per_dof=4.0)
     statement = said(error_after=after)

@@ -330,7 +330,7 @@ def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> W
         return _RESTS[is_many].given(missing=missing)
     axis, after = diagnosis.fit.design.axis, diagnosis.error_after
     before, with_them = wording.deviation(axis, diagnosis.error.rms), wording.deviation(axis, after.rms)
-    if before.en == with_them.en:
+    if before.in_language(Language.ENGLISH) == with_them.in_language(Language.ENGLISH):
         words = _STAYS
     elif after.rms > diagnosis.error.rms:  # one takes the place of another, and what is left hides its gain
         words = _NOT_BY_ITSELF
