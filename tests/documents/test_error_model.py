@@ -8,6 +8,7 @@ import pytest
 
 from documents.pages import DOCS
 from zlmreport.model.diagnosis import (
+    believing,
     candidate,
     diagnosis,
     families,
@@ -30,9 +31,9 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
         (r"The first has a level of (\d+) %", 100 * repeats._LEVEL),
         (r"Each effect pays (\d+) units of 2·ln for being one of some thirty", families.PRICE),
         (r"for being one of some thirty, each form and each curve (\d+)", nameless.PRICE),
-        (r"in one place within odds of 20 to 1 \((\d+) units\)", finding.TOLD_APART),
-        (r"something without a name instead, and lacks less than (\d+) units", finding.TOLD_APART),
-        (r"Of those within (\d+) units the one stands first", finding.MENTION),
+        (r"in one place within odds of 20 to 1 \((\d+) units\)", believing.TOLD_APART),
+        (r"something without a name instead, and lacks less than (\d+) units", believing.TOLD_APART),
+        (r"Of those within (\d+) units the one stands first", believing.MENTION),
         (r"A value beyond what is usual costs (\d+) units", set_costs.UNUSUAL),
         (
             r"a hundredth of the misfit, and ([\d.]+) % of what the model explains",

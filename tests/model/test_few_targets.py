@@ -8,6 +8,7 @@ import pytest
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -20,8 +21,8 @@ def _draw_geometry(design: Design, seed: int, size: float) -> FloatArray:
     return np.asarray(errors[np.searchsorted(targets, design.position)])
 
 
-def _diagnose(design: Design, deviation: FloatArray) -> AxisDiagnosis:
-    return diagnose(_MODEL, observations(design, deviation), INSTALLED)
+def _diagnose(design: Design, deviation: FloatArray, model: AxisModel = _MODEL) -> AxisDiagnosis:
+    return diagnose(model, observations(design, deviation), INSTALLED)
 
 
 @pytest.mark.parametrize(("targets", "seed"), [(6, 1), (6, 4), (7, 2), (9, 4), (11, 0), (11, 11)])
@@ -30,6 +31,17 @@ def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targe
     deviation = _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50)
     found = _diagnose(design, deviation)
     assert found.verdict is DiagnosisVerdict.UNEXPLAINED
+    assert found.remainder is not None
+    assert found.remainder.shape.en.startswith("irregular from position to position")
+
+
+@pytest.mark.parametrize(("targets", "seed"), [(6, 0), (6, 3), (7, 2), (7, 3), (7, 5), (9, 0), (9, 3)])
+def test_beside_lost_motion_such_geometry_is_given_no_name_either(targets: int, seed: int) -> None:
+    design = linear_test(targets, 5, seed=seed)
+    geometry = _draw_geometry(design, seed, 3 * SIGMA)
+    deviation = geometry + 2 * SIGMA * design.direction + noise(design, seed=seed + 50)
+    found = _diagnose(design, deviation, model_of("offset", "scale-error"))
+    assert [each.identifier for each in found.together] == ["backlash"]
     assert found.remainder is not None
     assert found.remainder.shape.en.startswith("irregular from position to position")
 

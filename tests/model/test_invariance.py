@@ -22,9 +22,9 @@ from model.axis_tests import (
 )
 from model.hidden_effect import study
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.believing import MENTION
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
-from zlmreport.model.diagnosis.finding import MENTION
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport_plugins.effects.polynomial import Polynomial

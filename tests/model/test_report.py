@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from model.axis_tests import hidden, linear_test, model_of, noise
-from zlmreport.model.diagnosis.report import report_model, report_precision
+from model.axis_tests import INSTALLED, SIGMA, hidden, linear_test, model_of, noise, observations
+from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.diagnosis.report import report, report_model, report_precision
 from zlmreport.model.fitting.fit import fit
 
 _DESIGN = linear_test(11, 3)
@@ -51,3 +52,18 @@ def test_residuals_are_what_the_model_leaves_of_each_reading() -> None:
     found = report_precision(_FIT)["residuals"]
     assert [each["residual"] for each in found] == pytest.approx((_FIT.residual * 1e6).tolist())
     assert (found[0]["direction"], found[0]["run"]) == ("+", 1)
+
+
+def test_what_may_be_left_instead_of_something_without_a_name_is_reported_with_its_odds() -> None:
+    design = linear_test(11, 5, seed=0)
+    runs = np.select([design.cycle == design.cycle.min(), design.cycle == design.cycle.min() + 2], [3, 2])
+    found = diagnose(
+        model_of("offset"), observations(design, SIGMA * runs + noise(design, seed=50)), INSTALLED
+    )
+    assert found.remainder is not None
+    assert found.remainder.shape.en == "every run displaced as a whole"
+    instead = report(found)["remainder"]["instead"]
+    assert instead["effects"] == ["first-run"]
+    assert 1 / 20 <= instead["odds"] < 1
+    certain = observations(design, 4 * SIGMA * (design.position > 0.4) + noise(design, seed=50))
+    assert report(diagnose(model_of("offset"), certain, ()))["remainder"]["instead"] is None

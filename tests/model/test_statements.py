@@ -13,7 +13,7 @@ from zlmreport.language import Language, Words, list_in_words, same
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
-from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.report import write_verdict_statement
 
 LEFT = Remainder(
@@ -105,6 +105,19 @@ def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
     assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=LEFT) == (
         "Something is left that no installed effect explains: a bump, around 250 mm; root mean square 1.2 µm."
     )
+
+
+@pytest.mark.parametrize(("odds", "said_odds"), [(0.06, "1 to 17"), (0.9, "1 to 1"), (2.4, "2 to 1")])
+def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(
+    odds: float, said_odds: str
+) -> None:
+    effects = (EFFECTS["first-run"], EFFECTS["run-displaced"])
+    left = replace(LEFT, instead=NamesInstead(effects, odds))
+    statement = said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=left)
+    assert statement.startswith("Something is left that no installed effect explains for sure: a bump")
+    assert statement.endswith(f"At odds of {said_odds} it is first-run and run-displaced instead.")
+    assert "explains for sure" not in said(remainder=left)
+    assert said(remainder=left).endswith(f"At odds of {said_odds} it is first-run and run-displaced instead.")
 
 
 def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:

@@ -13,8 +13,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, name_steps
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.diagnosis.report import write_verdict_statement
-from zlmreport.model.effects import wording
+from zlmreport.model.diagnosis.report import describe_remainder, write_verdict_statement
 
 _ENGLISH = Language.ENGLISH
 _LEFT = Words("Beside that something is left without a name: {shape}, {where}; root mean square {size}.")
@@ -59,5 +58,4 @@ def _say_what_is_left(last: AxisDiagnosis, names: tuple[str, ...]) -> Words:
     left = last.remainder
     if left is None or not names or last.verdict is not DiagnosisVerdict.UNEXPLAINED:
         return write_verdict_statement(last)
-    size = wording.deviation(last.fit.design.axis, left.rms)
-    return _LEFT.given(shape=left.shape, where=left.where, size=size)
+    return describe_remainder(_LEFT, left, last.fit.design.axis)

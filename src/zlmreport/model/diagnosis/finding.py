@@ -7,14 +7,13 @@ it where the odds between them are less than twenty to one.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Set as AbstractSet
 from dataclasses import dataclass, replace
-from itertools import chain
 
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.believing import BEHIND, MENTION, TOLD_APART, believe_set
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
@@ -40,21 +39,6 @@ from zlmreport.model.fitting.priors import PriorExpectation
 from zlmreport.model.fitting.repeats import find_resolution
 from zlmreport.model.fitting.search import Thetas
 
-# Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
-# to 10 strong (R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773).
-
-#: Evidence that anything must have to be worth a mention.
-MENTION = 2.0
-#: Evidence of its own, prior odds counted, that an effect needs to be named; and beside others, where without
-#: it there is nothing but noise: chance is asked about the first, of those beside it nobody asks (9 to 1).
-NAMED, NAMED_BESIDE = 1.4, 4.4
-#: Evidence within which two effects are not told apart: odds of 20 to 1.
-TOLD_APART = 6.0
-#: How many names one curve without a name replaces, and what evidence the set with it may lack, that they are
-#: not told: of many at odds up to 20 to 1, of two where it is a toss-up.
-_REPLACED = ((3, TOLD_APART), (2, MENTION))
-#: What a rival may lack that is told of.
-_BEHIND = 40.0
 #: Share of a column that must be left beside the model: less, where its searched parameters are only known
 #: within their uncertainty.
 _LEAST_VISIBLE, _LEAST_VISIBLE_LATER = 1e-6, 1e-3
@@ -250,7 +234,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, 0.0, visible), None)
     found = search.find_best(start.members, lambda share: told(0.2 + 0.6 * share))
-    found = search.renumber(_keep_what_stands(search, _believe_set(search, found), stated.may_go))
+    found = search.renumber(believe_set(search, found, stated.may_go))
     named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
@@ -277,124 +261,6 @@ def _estimate_memory(stated: _Stated, found: EffectSet) -> float:
     scores = {share * step: stated.score(base, share * step) for share in (0.0, *(_MEMORIES if step else ()))}
     best = min(scores, key=scores.__getitem__)
     return best if scores[best] < scores[0.0] - _REMEMBERS else 0.0
-
-
-def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
-    """Return a set without those that have no evidence of their own."""
-    kept = _drop_needless(search, found)
-    # What is unusual, or took long to be found, costs evidence, but makes the same shape no other thing.
-    while (alike := search.find_named_alike(kept, _BEHIND, MENTION)) is not None:
-        kept = _drop_needless(search, alike)
-    if search.has_nameless(found):
-        # Beside names a form or a curve has to be better than a toss-up with one name more.
-        alone = search.find_names_alone(kept, MENTION) if kept.named else None
-        if alone is None:
-            return _keep_sure(search, kept)
-        kept = _drop_needless(search, alone)
-    # With enough names any curve is described: several that one curve replaces are not told.
-    for names, within in _REPLACED:
-        fewer = None if search.has_nameless(kept) else search.find_fewer_beside_curve(kept, names, within)
-        kept = kept if fewer is None else _drop_needless(search, fewer)
-    # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
-    return kept
-
-
-def _keep_what_stands(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
-    """Return a set in which no effect of the model gives way to one that is no better.
-
-    `standing`: The effects of the model that may go.
-    """
-    gone = standing - {each.identifier for each in found.named}
-    for number, each in enumerate(found.members if gone else ()):
-        if each.family.is_named and each.identifier not in standing:
-            rivals = search.list_rivals(found, search.without(found, number), MENTION)
-            back = [other for other in rivals if gone > standing - {own.identifier for own in other.named}]
-            if back:
-                return _keep_what_stands(search, back[0], standing)
-    return found
-
-
-def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
-    """Return a set without those that the readings do not ask for, one after another.
-
-    Where several could stand in a place, it is their evidence together that something stands there.
-    """
-    while found.members:
-        without = [search.without(found, number) for number in range(len(found.members))]
-        order = sorted(range(len(without)), key=lambda each: without[each].score)
-        needless = next((each for each in order if not _is_needed(search, found, each, without[each])), None)
-        if needless is None:
-            break
-        found = without[needless]
-    return found
-
-
-def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:
-    """Return whether the readings ask for a member of a set, or for another in its place.
-
-    `rest`: The set without it.
-    """
-    lost, is_named = rest.score - found.score, found.members[number].family.is_named
-    needed = NAMED
-    if is_named and len(found.named) > 1:
-        if not search.has_nameless(rest):
-            needed = NAMED_BESIDE
-        elif not search.has_nameless(found):
-            # Where names explain all, none of them goes for a curve that is no better.
-            needed = -MENTION
-    if 0.0 < lost < needed and is_named:
-        # Each must be better than nothing by itself: many that are not make no cause together.
-        rivals = search.list_rivals(found, rest, lost)
-        lost += 2.0 * float(
-            np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
-        )
-    return lost >= needed
-
-
-def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
-    """Return a set without those that another set does as well, beside something that has no name.
-
-    Of what has no name only the kind is known. A set that is told from the same set without an effect may be
-    as likely as one in which other effects and another curve do the same; then that effect is not told.
-    """
-    kept, several = found, set[str]()
-    while kept.named:
-        # The least sure goes first, and what is then looked at may tell of the others; but each is held
-        # against the whole set: what little is left of it says nothing of what was in it.
-        for each in kept.named:
-            _list_rivals_of(search, kept, each)
-        rivals = [_list_rivals_of(search, kept, each) for each in kept.named]
-        # What could stand in the place of several is one cause instead of them, and none's equal.
-        several |= {name for name, count in Counter(chain(*rivals)).items() if count > 1}
-        evidence = [
-            _compute_evidence_of(search, found, each, own - several)
-            for each, own in zip(kept.named, rivals, strict=True)
-        ]
-        if min(evidence) >= NAMED_BESIDE:
-            break
-        one = search.find_one_instead(kept, several, TOLD_APART)
-        if one is not None:
-            kept = one
-            continue
-        least = evidence.index(min(evidence))
-        kept = search.find_best_holding(kept, [*kept.named[:least], *kept.named[least + 1 :]])
-    return kept
-
-
-def _list_rivals_of(search: SetSearch, kept: EffectSet, member: SetMember) -> frozenset[str]:
-    """Return the effects that are not told from a member of a set, as they are installed."""
-    number = next(place for place, each in enumerate(kept.members) if each is member)
-    rivals = search.list_rivals(kept, search.without(kept, number), TOLD_APART)
-    return frozenset(find_installed_name(each.members[-1].effect) for each in rivals)
-
-
-def _compute_evidence_of(
-    search: SetSearch, found: EffectSet, member: SetMember, rivals: frozenset[str]
-) -> float:
-    """Return the evidence of a member of a set, or of it and its rivals together, against all other sets."""
-    name = find_installed_name(member.effect)
-    own = search.compute_evidence_of(found, {name})
-    return own if own >= NAMED_BESIDE else search.compute_evidence_of(found, rivals | {name})
 
 
 def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
@@ -436,7 +302,7 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
     """
     rest = search.without(found, number)
     member = found.members[number]
-    sets = [found, *search.list_rivals(found, rest, _BEHIND)]
+    sets = [found, *search.list_rivals(found, rest, BEHIND)]
     scores = np.array([rest.score, *(each.score for each in sets)])
     weights = np.exp(-0.5 * (scores - scores.min()))
     members = [member, *(each.members[-1] for each in sets[1:])]

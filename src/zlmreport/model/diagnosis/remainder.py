@@ -15,13 +15,15 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember
+from zlmreport.model.diagnosis.believing import TOLD_APART
+from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
 from zlmreport.model.diagnosis.forms import CARRIERS, FADING, IN_TIME, LOCAL, UnnamedForm
 from zlmreport.model.diagnosis.random_curves import Along, Course
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit
 
 #: Evidence that what has no name must have, prior odds counted.
@@ -32,6 +34,8 @@ _FOLLOWS = 0.5
 _DEPENDENT = 1e-9
 #: Of the squares of what is left, how much its place holds; and of what was measured, a stretch that is all.
 _MOST, _ALL = 0.8, 0.75
+#: Effects that may be what is left: more of them describe any curve.
+_MOST_NAMES = 2
 #: Of forms, by their carrier; along the axis otherwise.
 _COURSES = {"D": Course.REVERSAL, "time": Course.TIME, "lever": Course.SLOPE}
 _SECOND = Unit("s", "s", 1.0)
@@ -40,6 +44,14 @@ _BETWEEN = Words("{first} to {last}")
 _MOST_AT = Words("most at {place}")
 _IRREGULAR = Words("more than the repeats scatter, but neither smooth nor of a form")
 _RUN = Words("most in run {run}")
+
+
+@dataclass(frozen=True, slots=True)
+class NamesInstead:
+    """Installed effects that may be what is left without a name."""
+
+    effects: tuple[Effect, ...]  #: All of them together.
+    odds: float  #: Of these against something without a name; at least 1 to 20.
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +73,7 @@ class Remainder:
     #: was found; None where no form does.
     formula: FormulaKeys | None
     course: Course  #: With what it changes.
+    instead: NamesInstead | None = None  #: What may stand in its place; None where nothing is near.
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +122,18 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
         size=float(whole[int(np.argmax(np.abs(whole)))]),
         formula=proposed,
         course=main.course,
+        instead=_find_names_instead(search, found),
     )
+
+
+def _find_names_instead(search: SetSearch, found: EffectSet) -> NamesInstead | None:
+    """Return the few effects that may be what a set leaves, where they are not told from it."""
+    instead = search.find_names_instead(found, _MOST_NAMES, TOLD_APART)
+    if instead is None:
+        return None
+    (alone, lacking), own = instead, list_names(found.named)
+    further = tuple(each.effect for each in alone.named if find_installed_name(each.effect) not in own)
+    return NamesInstead(further, float(np.exp(-0.5 * lacking)))
 
 
 def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArray], FloatArray]:

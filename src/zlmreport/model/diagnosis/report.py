@@ -18,7 +18,7 @@ from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
@@ -56,6 +56,11 @@ _UNEXPLAINED = Words("Something is left that no installed effect explains.")
 _SHAPE = Words(
     "Something is left that no installed effect explains: {shape}, {where}; root mean square {size}."
 )
+_UNSURE = Words(
+    "Something is left that no installed effect explains for sure: {shape}, {where}; root mean square {size}."
+)
+_INSTEAD = Words("{statement} At odds of {odds} it is {effects} instead.")
+_ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _QUESTION = Words("{statement} {question}")
 
@@ -128,9 +133,16 @@ def report_remainder(
         "unit": remainder.unit.ascii,
         "shape": remainder.shape.in_language(language),
         "formula": None if remainder.formula is None else write_formula_entry(remainder.formula),
+        "instead": _collect_names_instead(remainder.instead),
         "look_at": look.at.in_language(language),
         "measure": look.measure.in_language(language),
     }
+
+
+def _collect_names_instead(instead: NamesInstead | None) -> dict[str, Any] | None:
+    if instead is None:
+        return None
+    return {"effects": [each.identifier for each in instead.effects], "odds": instead.odds}
 
 
 def write_formula_entry(keys: FormulaKeys) -> str:
@@ -317,7 +329,8 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
         if question is not None:
             statement = _QUESTION.given(statement=statement, question=question)
     if diagnosis.remainder is not None:
-        statement = _add_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
+        words = _BESIDE.given(statement=statement)
+        statement = describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
     unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
     if unit is None:
         return statement
@@ -350,12 +363,20 @@ def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
     if diagnosis.remainder is None:
         return _UNEXPLAINED
-    return _add_remainder(_SHAPE, diagnosis.remainder, diagnosis)
+    words = _SHAPE if diagnosis.remainder.instead is None else _UNSURE
+    return describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
 
 
-def _add_remainder(words: Words, remainder: Remainder, diagnosis: AxisDiagnosis) -> Words:
-    size = wording.deviation(diagnosis.fit.design.axis, remainder.rms)
-    return words.given(shape=remainder.shape, where=remainder.where, size=size)
+def describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:
+    """Return a sentence with what is left, its place and size, and what may stand in its place."""
+    size = wording.deviation(axis, remainder.rms)
+    statement = words.given(shape=remainder.shape, where=remainder.where, size=size)
+    if (instead := remainder.instead) is None:
+        return statement
+    those, this = (str(max(1, round(each))) for each in (instead.odds, 1.0 / instead.odds))
+    odds = _ODDS.given(those=those, this=this)
+    effects = list_in_words([each.identifier for each in instead.effects])
+    return _INSTEAD.given(statement=statement, odds=odds, effects=effects)
 
 
 def select_serious_candidates(diagnosis: AxisDiagnosis) -> tuple[EffectCandidate, ...]:

@@ -280,6 +280,49 @@ class SetSearch:
         ]
         return min(fewer, key=find_score, default=None)
 
+    def find_irregular_instead(self, found: EffectSet, within: Sequence[float]) -> EffectSet | None:
+        """Return the best of all sets looked at in which what is irregular has the place of names.
+
+        `within`: What evidence it may lack in the place of one name, of two and so on, the last also of more;
+        None where all lack more.
+        """
+        forms, loud = list_unnamed(found), set(self._list_loud(found))
+        irregular = {number for number, part in enumerate(self.contest.parts) if part.irregular is not None}
+        instead = []
+        for (_, unnamed), each in self._sets.best.items():
+            more, fewer = set(self._list_loud(each)) - loud, len(found.named) - len(each.named)
+            is_irregular = more and more <= irregular and unnamed <= forms
+            if not is_irregular or fewer < 1:
+                continue
+            if each.score < found.score + within[min(fewer, len(within)) - 1]:
+                instead.append(each)
+        return min(instead, key=find_score, default=None)
+
+    def find_names_instead(
+        self, found: EffectSet, names: int, within: float
+    ) -> tuple[EffectSet, float] | None:
+        """Return the set in which fewest names more do all that forms and curves do, and what it lacks.
+
+        Parameters
+        ----------
+        names
+            How many more at most: with enough names any curve is described.
+        within
+            What evidence it may lack of the best set that has something without a name.
+        """
+        own, known = list_names(found.named), self._sets.best.values()
+        best = min((each.score for each in known if self.has_nameless(each)), default=np.inf)
+        alone = [
+            each
+            for each in known
+            if own < list_names(each.named)
+            and len(each.named) <= len(found.named) + names
+            and not self.has_nameless(each)
+            and each.score < best + within
+        ]
+        instead = min(alone, key=lambda each: (len(each.named), find_score(each)), default=None)
+        return None if instead is None else (instead, instead.score - best)
+
     def find_names_alone(self, found: EffectSet, within: float) -> EffectSet | None:
         """Return the best of all sets looked at in which one name each does what forms and curves do.
 

@@ -19,10 +19,10 @@ from zlmreport.language import Words, list_in_words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
+from zlmreport.model.diagnosis.believing import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
-from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.random_curves import PRICE as NAMELESS_PRICE
 from zlmreport.model.diagnosis.trials import Trials, average_evidence
