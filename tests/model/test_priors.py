@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 import pytest
+import yaml
 
 from model.axis_tests import AXIS, EFFECTS, SIGMA, linear_test, model_of, noise
 from zlmreport.job.evaluation_keys import PriorsKeys
@@ -15,7 +16,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts, make_ratio_grid
-from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors, write_as_text
+from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors, write_priors
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 _DESIGN = linear_test(targets=11, runs=3, seed=4)
@@ -80,7 +81,15 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
 def test_what_a_ledger_keeps_of_a_test_teaches_the_same() -> None:
     lessons = [Lesson.of(each) for each in _fits(0.3, 3)]
     kept = [Lesson.from_json(json.loads(json.dumps(each.as_json()))) for each in lessons]
-    assert write_as_text(learn_priors(kept), "ledger") == write_as_text(learn_priors(lessons), "ledger")
+    assert write_priors(learn_priors(kept), "ledger") == write_priors(learn_priors(lessons), "ledger")
+
+
+def test_the_file_of_priors_is_one_whatever_the_folder_is_called() -> None:
+    learned = learn_priors([Lesson.of(each) for each in _fits(0.3, 3)])
+    texts = [write_priors(learned, name) for name in ("night", "ni\nght: [", "ni\u2028ght")]
+    assert "in night say" in texts[0]
+    first, *others = (yaml.safe_load(each) for each in texts)
+    assert others == [first, first]
 
 
 def test_axes_with_geometry_of_their_own_teach_it_and_others_teach_that_there_is_none() -> None:

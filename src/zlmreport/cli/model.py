@@ -45,7 +45,7 @@ from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.diagnosis.study import Fitted, Study, read_addition, refuse_useless
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.fitting.priors import Lesson, learn_priors, write_as_text
+from zlmreport.model.fitting.priors import Lesson, learn_priors, write_priors
 from zlmreport.model.planning.deciding import collect_experiment, plan_experiment_of_tie
 from zlmreport.pipeline import choose_standards, read as read_readings, read_sessions
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -255,12 +255,12 @@ def learn(options: Namespace) -> int:
         )
     found = learn_priors(lessons)
     if options.output:
-        write([Document(options.output, write_as_text(found, folder.resolve().name).encode())])
+        write([Document(options.output, write_priors(found, folder.resolve().name).encode())])
     if options.json:
         print_json(found.model_dump(mode="json", by_alias=True))
         return 0
     if not options.output:
-        print(write_as_text(found, folder.resolve().name), end="")
+        print(write_priors(found, folder.resolve().name), end="")
         return 0
     print(*lay_out_table(told, indent="  ", wrapping=1), sep="\n")
     print(f"\n{count_in_words(found.tests, 'test')} taught {show_path(options.output)}")

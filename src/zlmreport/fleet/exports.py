@@ -230,7 +230,7 @@ def make_priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     `taught`: In the order of measurement; a test of a machine without a manufacturer and model teaches
         nobody.
     """
-    from zlmreport.model.fitting.priors import Lesson, learn_priors, write_as_text  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.fitting.priors import Lesson, learn_priors, write_priors  # noqa: PLC0415 - only where there is a model
 
     groups: defaultdict[tuple[str, str], list[Taught]] = defaultdict(list)
     seen: set[frozenset[str]] = set()
@@ -244,4 +244,4 @@ def make_priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
         if not path.exists():
             found = learn_priors([Lesson.from_json(each.lesson) for each in tests])
             origin = f"the fleet, of {tests[-1].subject.type} and until {last},"
-            yield Document(path, write_as_text(found, origin).encode())
+            yield Document(path, write_priors(found, origin).encode())

@@ -7,6 +7,7 @@ earlier tests every φ that is tried is as likely as any, and an effect as large
 
 from __future__ import annotations
 
+import json
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -186,7 +187,7 @@ def _learn_population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray
     return found
 
 
-def write_as_text(found: PriorsKeys, origin: str) -> str:
+def write_priors(found: PriorsKeys, origin: str) -> str:
     """Return the file of priors, with what it says beside it; `origin` is where its tests are."""
     return "".join(f"{line}\n" for line in _write_lines(found, origin))
 
@@ -194,7 +195,9 @@ def write_as_text(found: PriorsKeys, origin: str) -> str:
 def _write_lines(found: PriorsKeys, origin: str) -> Iterator[str]:
     unit = "µm" if found.kind == "linear" else "″"
     tests, say = count_in_words(found.tests, "test"), "says" if found.tests == 1 else "say"
-    yield f"# What {tests} in {origin} {say} of noise and sizes of effects: model.priors of a job."
+    # A folder may have any name, and a line that ends in a comment ends the comment.
+    named = origin if origin.isprintable() else json.dumps(origin)
+    yield f"# What {tests} in {named} {say} of noise and sizes of effects: model.priors of a job."
     yield f"schema: {found.schema_}"
     yield f"kind: {found.kind}"
     yield f"tests: {found.tests}"
