@@ -26,7 +26,7 @@ from zlmreport.language.formatting import round_pair, write_general_number, writ
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import write_formula_entry
+from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
@@ -105,11 +105,13 @@ def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
 
 
 def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment | None = None) -> str:
-    """Return the command that a diagnosis asks for next.
+    """Return the command that a diagnosis asks for next, and what comes before it.
 
     `path`: The job as the user types it.
     `experiment`: What would tell effects apart.
     """
+    if find_leading_fault(diagnosis):
+        return f"correct the data, then zlmreport model diagnose {path}"
     if experiment and experiment.plan:
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
     if len(diagnosis.together) > 1:

@@ -10,6 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+from zlmreport.language import Words
+from zlmreport.model.diagnosis.candidate import list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
@@ -65,6 +67,11 @@ class Built:
             for each in self.model.terms
             if (each.effect.identifier, each.effect.settings) not in before
         )
+
+    @property
+    def questions(self) -> tuple[Words, ...]:
+        """What is asked of the effects that were added: values far from usual, or against the job."""
+        return list_questions(self.last.fit, {each.identifier for each in self.added})
 
 
 def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) -> Built:

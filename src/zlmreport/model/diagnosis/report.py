@@ -16,7 +16,7 @@ from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
-from zlmreport.model.diagnosis.faults import FaultKind
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.residuals import Failure
@@ -342,10 +342,18 @@ def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> W
     return given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
+def find_leading_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
+    """Return the fault of the data that is said in place of a cause; None if none is."""
+    if diagnosis.verdict is not DiagnosisVerdict.UNEXPLAINED:
+        return None
+    first = next((each for each in diagnosis.faults if each.comes_first), None)
+    if first is None and diagnosis.remainder is None:
+        return next(iter(diagnosis.faults), None)
+    return first
+
+
 def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
-    fault = next((each for each in diagnosis.faults if each.comes_first), None)
-    if fault is None and diagnosis.remainder is None:
-        fault = next(iter(diagnosis.faults), None)
+    fault = find_leading_fault(diagnosis)
     if fault is not None:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
     if diagnosis.remainder is None:

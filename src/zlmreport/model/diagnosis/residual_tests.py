@@ -257,7 +257,9 @@ def _find_strongest_wave(
         best, _ = residuals.find_best_block(_make_waves(where, finer))
         period = float(finer[best])
     amplitude = np.hypot(*_fit_coefficients(residuals, _make_waves(where, np.array([period]))[0]))
-    return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))
+    # What a wave does between targets half a period apart, nobody saw.
+    seen = min(float(amplitude), float(np.abs(residuals.fit.residual).max()))
+    return period, p_value, wording.deviation(residuals.design.axis, seen)
 
 
 def _make_waves(where: FloatArray, periods: FloatArray) -> FloatArray:

@@ -1,0 +1,18 @@
+"""What a diagnosis asks for next on a terminal."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from model.hidden_effect import example_diagnosis
+from zlmreport.cli.model_lines import find_next_step
+from zlmreport.language import same
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+
+
+def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:
+    swapped = DataFault(FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3"), same("correct it"))
+    found = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, together=(), faults=(swapped,))
+    assert find_next_step(found, "job.yaml") == "correct the data, then zlmreport model diagnose job.yaml"
+    assert find_next_step(replace(found, faults=()), "job.yaml") == "zlmreport job.yaml"
