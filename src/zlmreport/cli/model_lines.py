@@ -24,6 +24,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
+from zlmreport.model.diagnosis.building import is_outstanding
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
@@ -175,7 +176,7 @@ def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[st
     if change.added:
         own = [each for each in make_parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
         yield from wrap(f"{change.added}: {', '.join(write_in_a_sentence(each, _ENGLISH) for each in own)}")
-        if not _is_outstanding(change.added, after.fit):
+        if not is_outstanding(change.added, after.fit):
             yield f"  {Colour.YELLOW.set('nothing')} of it exceeds its uncertainty: it may not be there"
     yield from _draw_fall(change.history, change.forecasts, writer)
     yield ""
@@ -193,10 +194,3 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
         yield from wrap(f"held together with {', '.join(held)}")
     if job.priors:
         yield from wrap(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
-
-
-def _is_outstanding(identifier: str, fit: Fit) -> bool:
-    """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
-    (effect,) = (term.effect for term in fit.model.terms if term.effect.identifier == identifier)
-    sizes = [each for each in fit.estimates if each.effect == identifier and each.parameter in effect.linear]
-    return any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes)

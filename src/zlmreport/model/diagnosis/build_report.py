@@ -30,6 +30,7 @@ def build_values(built: Built) -> dict[str, Any]:
             for each in built.steps
         ],
         "questions": [each.in_language(Language.ENGLISH) for each in built.questions],
+        "needless": list(built.needless),
         "verdict": last.verdict.value,
         "remainder": report_remainder(last.remainder, last.fit.design),
         "model": report_model(last.fit),
