@@ -29,6 +29,7 @@ from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
+from zlmreport.model.effects.effect import is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
 
@@ -82,7 +83,7 @@ def tell_diagnosis(
         if each.key == "verdict":
             yield from measure_lines(diagnosis, "  ")
             yield f"  {following}"
-    unseen = {each.effect for each in diagnosis.not_testable}
+    unseen = {each.effect for each in diagnosis.not_testable if not is_of_another_axis(each.reason)}
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
     if unseen:
         yield ""

@@ -51,6 +51,7 @@ VERDICT = Words("Verdict")
 FAILURES = Words("Where the model fails")
 CANDIDATES = Words("What may be missing")
 HIDDEN = Words("What this test cannot see")
+_CAN_SEE = Words("What this test can see")
 LEFT = Words("What is left without a name")
 REMEDY = Words("What to do if this is the cause")
 EXPERIMENT = Words("The next experiment")
@@ -261,7 +262,7 @@ def lay_out_unseen(
         section(
             "not-tried", NOT_TRIED, notice(NOT_TRIED, (_write_reason(each, language) for each in not_tested))
         ),
-        section("visibility", HIDDEN, _lay_out_visibility(diagnosis, language, titles)),
+        section("visibility", _CAN_SEE, _lay_out_visibility(diagnosis, language, titles)),
     )
     return tuple(each for each in sections if each.blocks)
 
