@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
-from model.hidden_effect import example_diagnosis
+from model.hidden_effect import example as study_of_example, example_diagnosis
+from zlmreport.cli.model_build import build_lines
+from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import build, name_steps
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
@@ -79,3 +81,38 @@ def test_what_is_much_like_a_makeshift_comes_in_once_that_is_out() -> None:
     found = build(model_of("offset", "cosine-error"), diagnosing)
     assert asked == [("offset", "cosine-error"), ("offset", "scale-error")]
     assert name_steps(found.steps) == ("− cosine-error", "+ scale-error")
+
+
+def test_what_is_far_from_usual_is_asked_once_it_was_added() -> None:
+    found = example_diagnosis()
+    design = found.fit.design
+    said = iter(
+        [
+            replace(found, together=(EFFECTS["backlash"],)),
+            replace(found, together=(), verdict=DiagnosisVerdict.ADEQUATE),
+        ]
+    )
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        return replace(next(said), fit=fit(model, design, 400e-6 * design.direction + noise(design)))
+
+    built = build(model_of("offset"), diagnosing)
+    (question,) = build_values(built)["questions"]
+    assert question.startswith("800 µm: 20 times what is usual for a screw;")
+    assert question in " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True))
+
+
+def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None:
+    example = example_diagnosis()
+    design = example.fit.design
+    deviation = 3e-6 * design.direction + noise(design)
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        fitted = fit(model, design, deviation)
+        return replace(example, fit=fitted, together=(), verdict=DiagnosisVerdict.ADEQUATE)
+
+    built = build(model_of("offset", "backlash", "first-run"), diagnosing)
+    assert built.needless == ("first-run",)
+    assert build_values(built)["needless"] == ["first-run"]
+    lines = " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True))
+    assert "zlmreport model remove job.yaml first-run" in " ".join(lines.split())

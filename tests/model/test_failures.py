@@ -131,6 +131,25 @@ def test_drift_is_said_with_its_size() -> None:
     assert float(_english(found).split("by ")[1].split(" µm")[0]) == pytest.approx(4.0, abs=0.4)
 
 
+def test_what_is_there_in_the_middle_alone_comes_and_goes() -> None:
+    found = _tests(5e-6 * (DESIGN.run == 3))[ResidualTest.TIME_ORDER]
+    before, _, after = _english(found).partition(", by ")
+    assert before.endswith("something comes and goes with time")
+    # Three fifths of the middle third are displaced by 5 µm.
+    assert float(after.split(" µm")[0]) == pytest.approx(3.0, abs=0.3)
+
+
+def test_a_wave_is_no_larger_than_what_was_seen_of_it() -> None:
+    # Of a straight line on eleven targets a wave of nearly two distances describes most, and is far larger.
+    design = pendulum_test(11, 5)
+    slope = 40e-6 * design.position
+    fitted = fit(model_of("offset"), design, slope + noise(design), Assumptions(parts=()))
+    tests = run_residual_tests(find_residuals_of(fitted, fitted.noise))
+    (found,) = (each for each in tests if each.test is ResidualTest.PERIOD_IN_POSITION)
+    amplitude = float(_where(found).partition("amplitude ")[2].partition(" µm")[0])
+    assert amplitude <= 1.05e6 * np.abs(fitted.residual).max()
+
+
 def test_the_residual_repeats_with_the_pitch() -> None:
     found = _tests(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))[ResidualTest.PERIOD_IN_POSITION]
     assert found.p_value < 0.005

@@ -10,6 +10,7 @@ import pytest
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
@@ -211,10 +212,23 @@ def test_repeats_that_no_machine_has_are_asked_for_their_unit() -> None:
     assert "millimetres" in fault.statement.in_language(Language.ENGLISH)
 
 
+def test_repeats_that_no_rotary_table_has_look_like_degrees() -> None:
+    design = linear_test(axis=Axis("C", AxisKind.ROTARY))
+    (fault,) = find_recorded_faults(design, 1e-6 * design.position + noise(design, sigma=1e-9))
+    assert fault.statement.in_language(Language.ENGLISH).endswith("as if they stood in degrees")
+
+
 def test_a_fault_that_the_rows_show_is_out_of_the_contest() -> None:
     found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
     assert found.faults[0].comes_first
     assert (found.together, found.candidates) == ((), ())
+
+
+def test_beside_a_fault_that_is_sure_nothing_without_a_name_is_told() -> None:
+    bump = 6e-6 * np.exp(-(((_DESIGN.position - 0.4) / 0.05) ** 2))
+    found = diagnose(_MODEL, observations(_swapped(), _TRUE + bump), INSTALLED)
+    assert found.faults[0].comes_first
+    assert found.remainder is None
 
 
 def test_a_run_that_stands_off_from_all_others_is_no_noise() -> None:

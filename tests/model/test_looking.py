@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from model.axis_tests import linear_test
@@ -35,6 +36,18 @@ def test_irregular_at_the_end_stays_within_what_was_measured() -> None:
     at_end = replace(LEFT, course=Course.IRREGULAR, low=DESIGN.span[1], high=DESIGN.span[1])
     last = float(DESIGN.target_positions[-1]) * 1e3
     assert f"to {last:.4g} mm" in look_for(at_end, DESIGN).measure.in_language(Language.ENGLISH)
+
+
+def test_of_two_targets_a_fine_run_stays_between_them() -> None:
+    design = linear_test(2, places=np.array([0.1, 0.4]))
+    measure = look_for(replace(LEFT, course=Course.IRREGULAR), design).measure.in_language(Language.ENGLISH)
+    assert "from 100.0 mm to 400.0 mm" in measure
+
+
+def test_at_a_single_target_there_is_no_distance_of_targets() -> None:
+    design = linear_test(1, places=np.array([0.1]))
+    measure = look_for(replace(LEFT, course=Course.TARGET), design).measure.in_language(Language.ENGLISH)
+    assert measure.startswith("this target ten times")
 
 
 @pytest.mark.parametrize(

@@ -24,8 +24,9 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
-from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
+from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of, make_remainder_of_run
 from zlmreport.model.diagnosis.sets import SetSearch
+from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.formula import FormulaEffect
@@ -181,3 +182,12 @@ def test_a_lever_that_comes_and_goes_is_placed_over_the_time_in_which_it_does() 
     # At the middle of the travel it is nothing, and there the stretch does not end.
     assert left.low == pytest.approx(0.53 * DESIGN.duration, abs=0.06 * DESIGN.duration)
     assert left.high == pytest.approx(0.87 * DESIGN.duration, abs=0.06 * DESIGN.duration)
+
+
+def test_a_place_in_time_is_in_readings_where_there_are_no_times() -> None:
+    counted = replace(DESIGN, time=np.arange(float(len(DESIGN.time))), time_is_counted=True)
+    for design, unit in ((DESIGN, "s"), (counted, "readings")):
+        fitted = fit(model_of("offset"), design, 20 * UM * (design.cycle == 3) + noise(design))
+        run = find_single_run(design, fitted.residual, SIGMA)
+        assert run is not None
+        assert make_remainder_of_run(fitted, run).unit.ascii == unit

@@ -128,3 +128,9 @@ def test_where_it_scatters_most_is_named() -> None:
     by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
     assert by_run.widest == 3
     assert by_run.p_value < 0.01
+
+
+def test_of_two_runs_none_scatters_more_than_the_other() -> None:
+    design = linear_test(runs=2)
+    found = spread_tests(design, noise(design) * np.where(design.run == 2, 4.0, 1.0))
+    assert SpreadFactor.RUN not in {each.factor for each in found}

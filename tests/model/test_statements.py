@@ -45,6 +45,13 @@ def test_effects_that_look_alike_are_named_together() -> None:
     )
 
 
+def test_alternatives_beside_others_stand_in_brackets() -> None:
+    first = replace(example_diagnosis().candidates[0], equals=("periodic", "scale-joint"))
+    other = replace(first, effect=EFFECTS["abbe"], equals=())
+    statement = said(together=(first.effect, other.effect), candidates=(first, other))
+    assert statement.startswith("Missing effects: (screw-pitch, periodic or scale-joint) and abbe, which")
+
+
 def test_effects_that_belong_together_are_named_together() -> None:
     first = example_diagnosis().candidates[0]
     others = [EFFECTS["first-run"], EFFECTS["abbe"]]

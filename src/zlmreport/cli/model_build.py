@@ -25,6 +25,14 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap(_write_staircase(built), "")
     yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
+    for question in built.questions:
+        yield from wrap(question.in_language(_ENGLISH), "")
+    for each in built.needless:
+        yield from wrap(
+            f"{each}: nothing of it exceeds its uncertainty, it may not be there; without it: "
+            f"zlmreport model remove {path} {each}",
+            "",
+        )
     if edit is None:
         yield f"{path}: nothing to change"
     elif is_tried:

@@ -24,10 +24,12 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
+from zlmreport.model.diagnosis.building import is_outstanding
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import write_formula_entry
+from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
+from zlmreport.model.effects.effect import is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
 
@@ -81,7 +83,7 @@ def tell_diagnosis(
         if each.key == "verdict":
             yield from measure_lines(diagnosis, "  ")
             yield f"  {following}"
-    unseen = {each.effect for each in diagnosis.not_testable}
+    unseen = {each.effect for each in diagnosis.not_testable if not is_of_another_axis(each.reason)}
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
     if unseen:
         yield ""
@@ -105,11 +107,13 @@ def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
 
 
 def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment | None = None) -> str:
-    """Return the command that a diagnosis asks for next.
+    """Return the command that a diagnosis asks for next, and what comes before it.
 
     `path`: The job as the user types it.
     `experiment`: What would tell effects apart.
     """
+    if find_leading_fault(diagnosis):
+        return f"correct the data, then zlmreport model diagnose {path}"
     if experiment and experiment.plan:
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
     if len(diagnosis.together) > 1:
@@ -173,7 +177,7 @@ def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[st
     if change.added:
         own = [each for each in make_parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
         yield from wrap(f"{change.added}: {', '.join(write_in_a_sentence(each, _ENGLISH) for each in own)}")
-        if not _is_outstanding(change.added, after.fit):
+        if not is_outstanding(change.added, after.fit):
             yield f"  {Colour.YELLOW.set('nothing')} of it exceeds its uncertainty: it may not be there"
     yield from _draw_fall(change.history, change.forecasts, writer)
     yield ""
@@ -191,10 +195,3 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
         yield from wrap(f"held together with {', '.join(held)}")
     if job.priors:
         yield from wrap(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
-
-
-def _is_outstanding(identifier: str, fit: Fit) -> bool:
-    """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
-    (effect,) = (term.effect for term in fit.model.terms if term.effect.identifier == identifier)
-    sizes = [each for each in fit.estimates if each.effect == identifier and each.parameter in effect.linear]
-    return any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes)

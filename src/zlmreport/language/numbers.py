@@ -6,7 +6,13 @@ from dataclasses import dataclass
 from math import floor, isfinite, log10
 
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number, write_stated_number
+from zlmreport.language.formatting import (
+    DecimalSign,
+    round_pair,
+    write_fixed_number,
+    write_percentage,
+    write_stated_number,
+)
 
 _SIGNIFICANT_DIGITS = 3
 _NUMBER, _BELOW = Words("{number}"), Words("< {least}")
@@ -27,6 +33,11 @@ class _Rounded:
 def number_words(value: float, decimals: int) -> Words:
     """Return a number with fixed decimals."""
     return _NUMBER.given(number=_Rounded(write_fixed_number(value, decimals)))
+
+
+def write_share(share: float) -> Words:
+    """Return a share in whole per cent, without the sign %, as `write_percentage` does."""
+    return _NUMBER.given(number=_Rounded(write_percentage(share)))
 
 
 def say_stated_number(value: float) -> Words:

@@ -12,8 +12,9 @@ import pytest
 
 from document.certificate.documents import lines_of
 from model.hidden_effect import CONFIG, LAST, job, registry, written
+from model.test_statements import LEFT
 from zlmreport import pipeline
-from zlmreport.document.blocks import Graph, Section
+from zlmreport.document.blocks import Facts, Graph, Section
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.subjects.annex import Modelled
 from zlmreport.document.writer import Writer
@@ -120,6 +121,26 @@ def test_a_last_bar_shows_the_error_with_what_the_model_lacks() -> None:
     *_, last = fall.panels[0].bars
     assert last.label.in_language(Language.ENGLISH) == f"with {missing.identifier}"
     assert last.y == pytest.approx(1e6 * missing.error.rms)
+
+
+def test_what_has_no_name_stands_behind_the_verdict_under_its_title() -> None:
+    unexplained = with_diagnosis(
+        verdict=DiagnosisVerdict.UNEXPLAINED, together=(), candidates=(), remainder=LEFT
+    )
+    blocks = section(unexplained).blocks
+    headings = [each.heading for each in blocks if isinstance(each, Facts)]
+    assert headings[:2] == ["Error of the model", "What is left without a name"]
+    shown = text(unexplained)
+    assert shown.index("a bump") < shown.index("Where the model fails")
+
+
+def test_where_nothing_has_a_name_no_bar_shows_what_is_lacking() -> None:
+    (fall,) = (
+        block.figure
+        for block in section(with_diagnosis(verdict=DiagnosisVerdict.UNEXPLAINED)).blocks
+        if isinstance(block, Graph) and block.figure.key == "fall"
+    )
+    assert fall.panels[0].bars[-1].label.in_language(Language.ENGLISH) == "+ backlash"
 
 
 def test_a_remedy_is_only_of_what_the_verdict_names() -> None:

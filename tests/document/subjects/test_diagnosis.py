@@ -7,6 +7,7 @@ from dataclasses import replace
 from model.hidden_effect import example_diagnosis, example_history
 from zlmreport.document.subjects.diagnosis import (
     DiagnosisRows,
+    lay_out_unseen,
     list_hidden,
     list_not_tested,
     make_failure_row,
@@ -47,6 +48,14 @@ def test_only_what_the_plan_hides_is_called_hidden() -> None:
     assert [row.effects for row in list_hidden(diagnosis, ENGLISH)] == [
         (each.effect,) for each in diagnosis.visibility if each.is_hidden
     ]
+
+
+def test_a_second_joint_beside_the_one_in_the_model_has_the_title_of_the_first() -> None:
+    diagnosis = example_diagnosis()
+    seen = replace(diagnosis.visibility[0], effect="scale-joint-2")
+    title = Words(en="Step at a joint of the scale", de="Sprung")
+    (*_, table) = lay_out_unseen(replace(diagnosis, visibility=(seen,)), ENGLISH, {"scale-joint": title})
+    assert table.blocks[0].groups[0].rows[0][:2] == ("scale-joint-2", title.en)  # type: ignore[union-attr]
 
 
 def test_a_condition_that_the_residuals_follow_is_named_in_words() -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from model.axis_tests import linear_test, model_of, noise
 from model.hidden_effect import LAST, example_history, study, written
 from zlmreport.document.blocks import Paragraph, Table, write_cell_text
 from zlmreport.document.subjects.fit import (
@@ -17,6 +18,7 @@ from zlmreport.document.subjects.fit import (
     write_polynomial,
 )
 from zlmreport.language import Language
+from zlmreport.model.fitting.fit import fit
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 
@@ -86,3 +88,10 @@ def test_a_sign_of_seconds_touches_the_value_and_follows_both_numbers_of_a_pair(
 def test_a_polynomial_has_the_decimal_sign_of_its_language() -> None:
     powers = [("X", 0), ("X", 1)]
     assert write_polynomial([-0.5, 2e-5], powers, GERMAN) == "−0,5 + 2e−5·X"
+
+
+def test_the_number_of_a_run_is_a_whole_number() -> None:
+    design = linear_test(11, 4)
+    displaced = fit(model_of("offset", "run-displaced"), design, 5e-6 * (design.run == 2) + noise(design))
+    (row,) = (each for each in make_parameter_rows(displaced, GERMAN) if each.name == "which")
+    assert (row.value, row.uncertainty, row.number) == ("2", "0", 2.0)

@@ -6,10 +6,10 @@ An opinion, and marked as one (ISO/IEC 17025:2017, 7.8.7): it stands on pages of
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from zlmreport.document.blocks import Block, Graph, Notice, Paragraph, Section, Table
+from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Section, Table
 from zlmreport.document.certificate.statements import OPINION
 from zlmreport.document.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.document.figures.model_residuals import (
@@ -25,6 +25,7 @@ from zlmreport.document.subjects.fit import lay_out_equations
 from zlmreport.document.subjects.forecast import lay_out_fall, lay_out_left_after_compensation
 from zlmreport.document.subjects.linked import link_graphs
 from zlmreport.language import Words
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 
 if TYPE_CHECKING:
@@ -89,18 +90,20 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
         *lay_out_diagnosis(diagnosis, writer.language, modelled.titles, modelled.experiment),
         *lay_out_unseen(diagnosis, writer.language, modelled.titles),
     )
-    said = {each.key: each.blocks for each in sections}
+    said = {each.key: tuple(_head_facts(each)) for each in sections}
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
     table, *moving = lay_out_fall(modelled.history, next(iter(modelled.forecasts), None), writer).blocks
     yield Notice(writer.say(OPINION), (writer.say(_BASIS),))
     yield from said.pop("verdict")
+    yield from said.pop("remainder", ())
     yield lay_out_equations(whole.fit, writer.language)
     yield Paragraph(writer.say(_SYMBOLS))
     yield from said.pop("assumed", ())
     yield from said.pop("model", ())
     yield Graph(draw_over_position(diagram))
     yield Graph(estimate(diagram))
-    yield Graph(draw_fall_chart(modelled.history, next(iter(diagnosis.candidates), None)))
+    missing = diagnosis.candidates if diagnosis.verdict is DiagnosisVerdict.MISSING else ()
+    yield Graph(draw_fall_chart(modelled.history, next(iter(missing), None)))
     yield table
     if modelled.forecasts:
         yield lay_out_left_after_compensation(modelled.forecasts, writer)
@@ -110,6 +113,15 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     for key, blocks in said.items():
         if key not in _ELSEWHERE:
             yield from blocks
+
+
+def _head_facts(section: Section) -> Iterator[Block]:
+    """Yield the blocks of a section, its title above facts that have none: an annex prints no titles."""
+    for block in section.blocks:
+        if isinstance(block, Facts) and not block.heading:
+            yield replace(block, heading=section.title)
+        else:
+            yield block
 
 
 def _draw_graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figure]:

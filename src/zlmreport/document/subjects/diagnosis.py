@@ -32,6 +32,7 @@ from zlmreport.document.subjects.fit import (
     write_in_a_sentence,
 )
 from zlmreport.document.writer import NOTHING
+from zlmreport.job.effect_choices import part_number
 from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
@@ -50,6 +51,7 @@ VERDICT = Words("Verdict")
 FAILURES = Words("Where the model fails")
 CANDIDATES = Words("What may be missing")
 HIDDEN = Words("What this test cannot see")
+_CAN_SEE = Words("What this test can see")
 LEFT = Words("What is left without a name")
 REMEDY = Words("What to do if this is the cause")
 EXPERIMENT = Words("The next experiment")
@@ -260,7 +262,7 @@ def lay_out_unseen(
         section(
             "not-tried", NOT_TRIED, notice(NOT_TRIED, (_write_reason(each, language) for each in not_tested))
         ),
-        section("visibility", HIDDEN, _lay_out_visibility(diagnosis, language, titles)),
+        section("visibility", _CAN_SEE, _lay_out_visibility(diagnosis, language, titles)),
     )
     return tuple(each for each in sections if each.blocks)
 
@@ -330,7 +332,7 @@ def _lay_out_visibility(diagnosis: AxisDiagnosis, language: Language, titles: Ma
     rows = tuple(
         (
             each.effect,
-            titles[each.effect].in_language(language),
+            _say_title(each.effect, titles, language),
             write_percentage(each.share, language.decimal_sign),
             write_deviation(each.smallest_rms, axis, language),
         )
@@ -368,12 +370,11 @@ def _make_candidate_row(
     p = write_p_value(candidate.p_value, sign, is_extrapolated=candidate.p_value_is_extrapolated)
     if candidate.p_value_is_extrapolated:
         p = _EXTRAPOLATED.given(p=p).in_language(language)
-    title, tell = titles.get(candidate.identifier), candidate.discriminate_by
-    remedy = candidate.effect.remedy
+    tell, remedy = candidate.discriminate_by, candidate.effect.remedy
     return CandidateRow(
         effect=candidate.identifier,
         argument=write_effect_argument(candidate.effect),
-        title=title.in_language(language) if title else "",
+        title=_say_title(candidate.identifier, titles, language),
         probability=write_percentage(candidate.probability, sign),
         p=p,
         error=list_error_facts(candidate.error, design.axis, language),
@@ -389,6 +390,12 @@ def _make_candidate_row(
         question=candidate.question.in_language(language) if candidate.question else "",
         candidate=candidate,
     )
+
+
+def _say_title(effect: str, titles: Mapping[str, Words], language: Language) -> str:
+    """Return what an effect is called, a second joint as the first; empty where nobody says."""
+    title = titles.get(effect) or titles.get(part_number(effect)[0])
+    return title.in_language(language) if title else ""
 
 
 def _is_named(candidate: EffectCandidate, diagnosis: AxisDiagnosis) -> bool:

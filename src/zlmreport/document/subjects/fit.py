@@ -110,6 +110,8 @@ class ParameterRow:
         value, half, number = _round_with_uncertainty(
             estimate.value, estimate.expanded_uncertainty, unit, language
         )
+        if own.is_counted and estimate.is_scanned:
+            value, half = str(round(estimate.value)), str(int(estimate.expanded_uncertainty))
         if estimate.is_given or estimate.at_bound:
             value, half = write_general_number(unit.from_si(estimate.value), language.decimal_sign), ""
             number = float(f"{unit.from_si(estimate.value):.6g}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from zlmreport.language import Language
 from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.report import report_error, report_model, report_remainder
 
@@ -28,6 +29,8 @@ def build_values(built: Built) -> dict[str, Any]:
             }
             for each in built.steps
         ],
+        "questions": [each.in_language(Language.ENGLISH) for each in built.questions],
+        "needless": list(built.needless),
         "verdict": last.verdict.value,
         "remainder": report_remainder(last.remainder, last.fit.design),
         "model": report_model(last.fit),

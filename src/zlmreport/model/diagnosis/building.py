@@ -10,13 +10,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model.diagnosis.candidate import list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.model_error import ModelError
-from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.fit import Fit, fit
 
 #: Diagnoses of one build: each adds a whole set, so a second mostly finds nothing more.
 _MOST_ROUNDS = 6
@@ -65,6 +69,37 @@ class Built:
             for each in self.model.terms
             if (each.effect.identifier, each.effect.settings) not in before
         )
+
+    @property
+    def needless(self) -> tuple[str, ...]:
+        """Effects that stood in a model that describes the readings, and that may not be there.
+
+        Nothing of them exceeds its uncertainty. A zero is none of them.
+        """
+        last, before = self.last.fit, self.first.fit.model.identifiers
+        if self.last.verdict is not DiagnosisVerdict.ADEQUATE:
+            return ()
+        pairs = zip(last.model.terms, last.solution.thetas, strict=True)
+        moving = [term for term, theta in pairs if np.ptp(term.effect.columns(last.design, theta)) > 0]
+        return tuple(
+            each.effect.identifier
+            for each in moving
+            if each.effect.identifier in before and not is_outstanding(each.effect.identifier, last)
+        )
+
+    @property
+    def questions(self) -> tuple[Words, ...]:
+        """What is asked of the effects that were added: values far from usual, or against the job."""
+        return list_questions(self.last.fit, {each.identifier for each in self.added})
+
+
+def is_outstanding(identifier: str, fitted: Fit) -> bool:
+    """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
+    (effect,) = (term.effect for term in fitted.model.terms if term.effect.identifier == identifier)
+    sizes = [
+        each for each in fitted.estimates if each.effect == identifier and each.parameter in effect.linear
+    ]
+    return any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes)
 
 
 def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) -> Built:

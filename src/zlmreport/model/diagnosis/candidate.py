@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import number_words, write_significant
+from zlmreport.language.numbers import write_share, write_significant
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
@@ -27,6 +27,7 @@ _CONTRADICTS = 0.01
 
 _EXPLAINS = Words("explains {share} % of what the noise leaves open")
 _CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
+_NOTHING = Words("explains nothing by itself of what the noise leaves open")
 _NO_FLOOR = Words("takes the error from {before} to {after}")
 _IN_UNIT = Words("{value}{unit}")
 _JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
@@ -79,6 +80,16 @@ def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[E
                 yield from _make_candidate(finding.fit, other, (), before)
     for other in finding.others:
         yield from _make_candidate(finding.fit, other, (), before)
+
+
+def list_questions(fitted: Fit, effects: Container[str]) -> tuple[Words, ...]:
+    """Return what is asked of parameters of a model that are far from usual, or contradict the job.
+
+    `effects`: Identifiers of those that are asked about.
+    """
+    own = [each for each in fitted.estimates if each.effect in effects]
+    asked = (_say_question(each, fitted.design) or _say_contradiction(each, fitted.design) for each in own)
+    return tuple(filter(None, asked))
 
 
 def _make_candidate(
@@ -174,7 +185,9 @@ def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
         return _NO_FLOOR.given(
             before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
         )
-    percent = number_words(100 * share, 0)
+    if share == 0:
+        return _NOTHING
+    percent = write_share(share)
     if share >= EXPLAINS:
         return _EXPLAINS.given(share=percent)
     return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))

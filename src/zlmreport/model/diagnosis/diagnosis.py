@@ -224,15 +224,17 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
     together = tuple(each for each in leading if each.identifier in known)
     rivals = [complete] if together else []
     faults = find_faults_of(observed, fitted, rivals, asked.effects, changes=finding.changes)
+    left = held.left
     if any(each.comes_first for each in faults):
-        together, candidates, complete = (), (), fitted
+        # No cause is sought before the data are right: what has no name may be the fault.
+        together, candidates, complete, left = (), (), fitted, None
     tests = run_residual_tests(find_residuals_of(fitted, finding.noise))
     stand_off = report_flagged(observed.design, aside)
     not_testable = list_effects_to_try(asked.model, fitted.design, asked.effects).not_testable
     return AxisDiagnosis(
         fit=fitted,
         error=held.error,
-        verdict=_decide_verdict(held.left, together, faults),
+        verdict=_decide_verdict(left, together, faults),
         p_value=finding.p_value.value,
         tests=tests,
         failures=find_failures(tests) + ((stand_off,) if stand_off else ()),
@@ -240,7 +242,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
         together=together,
         error_after=held.error if complete is fitted else held.error_after,
         makeshift=finding.makeshift if together else (),
-        remainder=held.left,
+        remainder=left,
         not_testable=not_testable,
         not_excluded=_list_not_excluded(candidates, not_testable),
         visibility=finding.visible,

@@ -17,6 +17,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, estimate_robust_deviation
+from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, select_of_the_job, select_readings
@@ -402,7 +403,7 @@ def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[Data
         statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))
         yield DataFault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
     elif 0 < floor < _STILL and largest < _SMALL:
-        statement = _STILL_TEST.given(size=wording.deviation(design.axis, floor))
+        statement = _STILL_TEST[design.axis.kind].given(size=wording.deviation(design.axis, floor))
         yield DataFault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
     elif floor > _WILD:
         statement = _WILD_TEST.given(size=wording.deviation(design.axis, floor))
@@ -436,7 +437,14 @@ _EXCLUDE_LOG = Words(
     "leave these values empty in the file; effects that follow them cannot be told otherwise"
 )
 _TINY_TEST = Words("the deviations are no larger than {size}, as if they stood in another unit")
-_STILL_TEST = Words("the readings repeat to {size}, which no machine does, as if they stood in millimetres")
+_STILL_TEST = {
+    AxisKind.LINEAR: Words(
+        "the readings repeat to {size}, which no machine does, as if they stood in millimetres"
+    ),
+    AxisKind.ROTARY: Words(
+        "the readings repeat to {size}, which no machine does, as if they stood in degrees"
+    ),
+}
 _WILD_TEST = Words("the readings scatter by {size}, which no machine does, as if they stood in another unit")
 _STATE_UNITS = Words("state source.units")
 _LAGS_BEHIND = Words("{column} looks as if its sensor lagged about {minutes} min behind")

@@ -120,12 +120,9 @@ def _choose_stretch(remainder: Remainder, design: Design) -> tuple[float, float,
     What is irregular is so everywhere: two distances about its largest place are enough.
     """
     targets = design.target_positions
-    step = float(np.median(np.diff(targets)))
+    step = float(np.median(np.diff(targets))) if len(targets) > 1 else 0.0
+    first, last = remainder.low - step, remainder.high + step
     if remainder.course is Course.IRREGULAR:
         middle = min(max((remainder.low + remainder.high) / 2, targets[0] + step), targets[-1] - step)
-        return float(middle - step), float(middle + step), step
-    return (
-        max(float(targets[0]), remainder.low - step),
-        min(float(targets[-1]), remainder.high + step),
-        step,
-    )
+        first, last = middle - step, middle + step
+    return max(float(targets[0]), first), min(float(targets[-1]), last), step

@@ -23,7 +23,7 @@ from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
 from zlmreport.model.fitting.fit import Fit
 
 #: Evidence that what has no name must have, prior odds counted.
@@ -38,7 +38,6 @@ _MOST, _ALL = 0.8, 0.75
 _MOST_NAMES = 2
 #: Of forms, by their carrier; along the axis otherwise.
 _COURSES = {"D": Course.REVERSAL, "time": Course.TIME, "lever": Course.SLOPE}
-_SECOND = Unit("s", "s", 1.0)
 _ABOUT = Words("around {place}")
 _BETWEEN = Words("{first} to {last}")
 _MOST_AT = Words("most at {place}")
@@ -66,7 +65,7 @@ class Remainder:
     where: Words  #: The place: "around 420 mm".
     low: float  #: Where it begins: a form by its extent, else the shortest stretch with most of it.
     high: float  #: Where it ends.
-    unit: Unit  #: In which both are printed: mm, ° or s.
+    unit: Unit  #: In which both are printed: mm, °, s or readings.
     shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
     size: float  #: Its largest value, with its sign, m or rad.
     #: The form that follows it, as an effect of a job: keys of an item of `model.effects`, ranges around what
@@ -163,7 +162,7 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
         where=found.say_where(design),
         low=float(own.min()),
         high=float(own.max()),
-        unit=_SECOND,
+        unit=_choose_unit(design, is_time=True),
         shape=found.shape,
         size=float(found.values[int(np.argmax(np.abs(found.values)))]),
         formula=None,
@@ -263,10 +262,16 @@ def _make_sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
     return lambda value: wording.length(design.axis, value)
 
 
+def _choose_unit(design: Design, *, is_time: bool) -> Unit:
+    """Return the unit of places on an axis, or that of times: readings where these are counted."""
+    dimension = Dimension.TIME if is_time else Dimension.POSITION
+    return find_unit_of(dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+
+
 def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, float, float, Unit]:
     """Return where something lies: in words, from where to where, and in which unit."""
     is_time = main.course.along is not Along.PLACE
-    say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
+    say, unit = _make_sayer(design, is_time=is_time), _choose_unit(design, is_time=is_time)
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member and form.form is not FADING:
         low, high = form.find_extent(main.member.theta)

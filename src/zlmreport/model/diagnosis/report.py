@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import Any
 
@@ -16,7 +16,7 @@ from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
-from zlmreport.model.diagnosis.faults import FaultKind
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.residuals import Failure
@@ -48,6 +48,7 @@ _MANY = {False: Words("it"), True: Words("them")}
 _BESIDE = Words(
     "{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}."
 )
+_ONE_OF = Words("({names})")
 _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
     "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
@@ -316,10 +317,11 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
+    is_many = len(diagnosis.together) > 1
     groups = [
-        list_alternatives([each.identifier, *by_name[each.identifier].equals]) for each in diagnosis.together
+        _name_group(each.identifier, by_name[each.identifier].equals, is_many=is_many)
+        for each in diagnosis.together
     ]
-    is_many = len(groups) > 1
     missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=list_in_words(groups))
     statement = _say_so_far(diagnosis, missing, is_many=is_many)
     if diagnosis.makeshift:
@@ -335,6 +337,12 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     if unit is None:
         return statement
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
+
+
+def _name_group(effect: str, equals: Sequence[str], *, is_many: bool) -> Words:
+    """Return an effect with its equals; in brackets beside others, or nobody sees where one group ends."""
+    names = list_alternatives([effect, *equals])
+    return _ONE_OF.given(names=names) if equals and is_many else names
 
 
 def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> Words:
@@ -355,10 +363,18 @@ def _say_so_far(diagnosis: AxisDiagnosis, missing: Words, *, is_many: bool) -> W
     return given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
+def find_leading_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
+    """Return the fault of the data that is said in place of a cause; None if none is."""
+    if diagnosis.verdict is not DiagnosisVerdict.UNEXPLAINED:
+        return None
+    first = next((each for each in diagnosis.faults if each.comes_first), None)
+    if first is None and diagnosis.remainder is None:
+        return next(iter(diagnosis.faults), None)
+    return first
+
+
 def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
-    fault = next((each for each in diagnosis.faults if each.comes_first), None)
-    if fault is None and diagnosis.remainder is None:
-        fault = next(iter(diagnosis.faults), None)
+    fault = find_leading_fault(diagnosis)
     if fault is not None:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
     if diagnosis.remainder is None:

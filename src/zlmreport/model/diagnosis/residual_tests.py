@@ -186,11 +186,17 @@ _TIME_ORDER = Words(
     "repeats that follow one another deviate alike: something moves with time, by {size} from the first "
     "third of the test to the last"
 )
+_COMES_BACK = Words(
+    "repeats that follow one another deviate alike: something comes and goes with time, by {size} from one "
+    "third of the test to another"
+)
 _REPEATS = Words("the residual repeats every {period}")
 _ALONG_THE_AXIS = Words("along the whole axis, amplitude {size}")
 _DURING_THE_TEST = Words("during the whole test, amplitude {size}")
 _WHOLE_TEST = Words("during the whole test")
 
+#: Times by which the thirds of a test differ more than the last from the first, that something came back.
+_BACK = 2.0
 _FEWEST_PERIODS = 1.3
 _STEPS_PER_PERIOD = 4
 _MOST_PERIODS = 200
@@ -210,8 +216,11 @@ def examine_time_order(residuals: Residuals) -> Failure | None:
     chance = _compute_ratio(_exchange_repeats(within.centred, within.cell))
     p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
     third = max(1, len(within.centred) // 3)
-    moved = float(within.centred[-third:].mean() - within.centred[:third].mean())
-    statement = _TIME_ORDER.given(size=wording.deviation(residuals.design.axis, moved))
+    parts = np.split(within.centred, [third, len(within.centred) - third])
+    thirds = [float(each.mean()) for each in parts if each.size]
+    moved, widest = thirds[-1] - thirds[0], max(thirds) - min(thirds)
+    words, size = (_COMES_BACK, widest) if widest > _BACK * abs(moved) else (_TIME_ORDER, moved)
+    statement = words.given(size=wording.deviation(residuals.design.axis, size))
     return Failure(ResidualTest.TIME_ORDER, p_value, _WHOLE_TEST, statement)
 
 
@@ -257,7 +266,9 @@ def _find_strongest_wave(
         best, _ = residuals.find_best_block(_make_waves(where, finer))
         period = float(finer[best])
     amplitude = np.hypot(*_fit_coefficients(residuals, _make_waves(where, np.array([period]))[0]))
-    return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))
+    # What a wave does between targets half a period apart, nobody saw.
+    seen = min(float(amplitude), float(np.abs(residuals.fit.residual).max()))
+    return period, p_value, wording.deviation(residuals.design.axis, seen)
 
 
 def _make_waves(where: FloatArray, periods: FloatArray) -> FloatArray:

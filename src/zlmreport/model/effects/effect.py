@@ -119,6 +119,8 @@ class Parameter:
     is_refined
         Of a searched parameter, whether the search goes on between the values of the grid: not where only
         these make sense (a number of teeth), or where nothing changes between them (the gap of a joint).
+    is_counted
+        Of a searched parameter, whether it is a whole number: of teeth, or that of a run.
     usual, usual_on_rotary
         Smallest and largest value that machines have, SI, on a linear and on a rotary axis; None where the
         range says it, and where both have as many metres as radians.
@@ -136,6 +138,7 @@ class Parameter:
     smallest: float | None = None
     largest: float | None = None
     is_refined: bool = True
+    is_counted: bool = False
     usual: tuple[float, float] | None = None
     usual_on_rotary: tuple[float, float] | None = None
     question: Words | None = None

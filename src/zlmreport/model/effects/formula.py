@@ -41,7 +41,7 @@ from zlmreport.model.effects.effect import (
 from zlmreport.model.effects.formula_settings import OTHER, list_tried_settings, make_options_of
 from zlmreport.model.effects.harmonic import make_harmonic_parameters
 from zlmreport.model.effects.readings import collect_readings_of, find_logged_rise
-from zlmreport.model.effects.searching import NOT_REFINED, choose_values_of, search_grid
+from zlmreport.model.effects.searching import COUNTED, NOT_REFINED, choose_values_of, search_grid
 
 #: Steps that find a joint between two positions, each to half the distance.
 _HALVINGS = 40
@@ -169,6 +169,7 @@ class FormulaEffect(Effect):
                 low,
                 high,
                 is_refined=is_between if of_list else way not in NOT_REFINED,
+                is_counted=own.search in COUNTED,
                 usual=usual,
                 usual_on_rotary=on_rotary,
                 question=own.question,

@@ -148,3 +148,5 @@ _WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
 )
 #: Between whose values a search finds nothing: only these make sense, or nothing changes between them.
 NOT_REFINED = frozenset({Search.JOINT, Search.MOMENT, Search.WHOLE_NUMBER, Search.RUN, Search.PAUSE})
+#: Whose values are whole numbers.
+COUNTED = frozenset({Search.WHOLE_NUMBER, Search.RUN})

@@ -8,7 +8,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.effects.effect import Parameter, find_unit_of
 
-#: So many times beyond what is usual a value is asked for.
+#: So many times beyond what is usual, or below it, a value is asked for.
 _FAR = 2.0
 _VALUE = Words("{value}{unit}")
 _IS_IT = Words("{value}: {times} times what is usual; measured so, and in the right unit?")
@@ -26,7 +26,10 @@ def find_usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> 
 
 
 def compute_times_usual(parameter: Parameter, value: float, kind: AxisKind = AxisKind.LINEAR) -> float:
-    """Return how many times what is usual a value is: 1 within the usual, infinite where the end is zero."""
+    """Return how many times what is usual a value is, less than 1 where the usual ends above it.
+
+    It is 1 within the usual, and infinite where the end is zero.
+    """
     low, high = find_usual_range(parameter, kind)
     if low <= value <= high:
         return 1.0
@@ -40,7 +43,7 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
     `value`: SI.
     """
     times = compute_times_usual(parameter, value, axis.kind)
-    if times < _FAR:
+    if max(times, 1.0 / times) < _FAR:
         return None
     low, _ = find_usual_range(parameter, axis.kind)
     question = (parameter.question_below or parameter.question) if value < low else parameter.question

@@ -220,7 +220,8 @@ def _examine_spreads(design: Design, deviation: FloatArray) -> tuple[tuple[Sprea
             sizes[:, 0] = np.abs(_estimate_scatter(design, deviation, grown)) / np.sqrt(grown)
     for factor, labels in _make_groupings(design).items():
         names, group = np.unique(labels, return_inverse=True)
-        if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS:
+        fewest = 3 if factor is SpreadFactor.RUN else 2  # two runs lie as far from their means as each other
+        if len(names) < fewest or np.bincount(group).min() < _FEWEST_READINGS:
             continue
         ratios, widest = _compute_levene(sizes, group)
         reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))

@@ -1,0 +1,30 @@
+"""What a diagnosis asks for next on a terminal."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from model.hidden_effect import example, example_diagnosis
+from zlmreport.cli.model_lines import find_next_step, tell_diagnosis
+from zlmreport.language import Language, same
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+
+
+def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:
+    swapped = DataFault(FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3"), same("correct it"))
+    found = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, together=(), faults=(swapped,))
+    assert find_next_step(found, "job.yaml") == "correct the data, then zlmreport model diagnose job.yaml"
+    assert find_next_step(replace(found, faults=()), "job.yaml") == "zlmreport job.yaml"
+
+
+def test_what_no_test_of_such_an_axis_could_see_is_not_counted() -> None:
+    found = example_diagnosis()
+    of_rotary = [
+        each
+        for each in found.not_testable
+        if each.reason.in_language(Language.ENGLISH) == "it belongs to rotary axes"
+    ]
+    assert of_rotary
+    only = replace(found, not_testable=tuple(of_rotary), visibility=())
+    assert "cannot see or try" not in "\n".join(tell_diagnosis(only, example(), "job.yaml", None, {}))
