@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from model.axis_tests import USUAL, known, linear_test, model_of, noise
+from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of, noise
 from model.worlds import (
     built,
     corrected_twice,
@@ -19,8 +20,10 @@ from model.worlds import (
     with_night,
 )
 from zlmreport.language import Language
+from zlmreport.model.diagnosis.candidate import list_questions
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
+from zlmreport.model.fitting.fit import fit
 
 _DESIGN = linear_test(15, 4)
 
@@ -114,3 +117,16 @@ def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:
     said = _said(diagnosed(model_of("offset"), _DESIGN, readings))
     assert said.startswith("The data look wrong: the deviations are no larger than 0.0")
     assert "Missing effects: scale-error and backlash" in said
+
+
+def test_ratio_that_is_not_as_its_effect_means_it_is_said_with_that_meaning() -> None:
+    targets = _DESIGN.target_positions
+    between = np.random.default_rng(4).uniform(0, 20e-6, len(targets))  # no whole increments
+    design = replace(_DESIGN, position=_DESIGN.position + between[np.searchsorted(targets, _DESIGN.position)])
+    rounded = 0.4 * EFFECTS["control-increment"].columns(design, np.array([0.02e-3]))[:, 0]
+    fitted = fit(model_of("offset", "control-increment"), design, rounded + noise(design))
+    (asked,) = list_questions(fitted, {"control-increment"})
+    said = asked.in_language(Language.ENGLISH)
+    assert re.fullmatch(
+        r"control-increment: a factor of 0\.\d+ fits \(1: each command is rounded\)\.", said
+    ), said

@@ -43,7 +43,7 @@ def say_stated(value: float, symbol: str) -> Words:
 
 def write_behind(symbol: str) -> str:
     """Return a unit as it stands behind a number: ``″`` and ``″/m`` touch it, and a blank parts others."""
-    return symbol if symbol in _TOUCHING or symbol.startswith("″") else f" {symbol}"
+    return symbol if not symbol or symbol in _TOUCHING or symbol.startswith("″") else f" {symbol}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -255,7 +255,7 @@ class _Plan:
         parameter, value = seen.smallest
         unit = find_unit_of(parameter.dimension, self.axis.kind)
         size = write_significant(value * unit.per_si, 2)
-        return _PARAMETER.given(name=parameter.name, size=size, unit=write_behind(unit.symbol).rstrip())
+        return _PARAMETER.given(name=parameter.name, size=size, unit=write_behind(unit.symbol))
 
     def write_percent(self, share: float) -> str:
         return write_percentage(share, self.language.decimal_sign)

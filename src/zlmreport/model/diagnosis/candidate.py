@@ -31,6 +31,8 @@ _NOTHING = Words("explains nothing by itself of what the noise leaves open")
 _NO_FLOOR = Words("takes the error from {before} to {after}")
 _IN_UNIT = Words("{value}{unit}")
 _JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
+#: Of a ratio, whose meaning is that of the expected value: "1: exactly one row off".
+_NOT_AS_MEANT = Words("{effect}: a {name} of {fitted} fits ({meaning}).")
 _AND = Words("{first}; {second}")
 
 
@@ -141,13 +143,17 @@ def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | N
     off = abs(estimate.value - estimate.expected)
     if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
         return None
-    kind = design.axis.kind
-    unit = find_unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
+    kind, parameter = design.axis.kind, estimate.parameter
+    unit = find_unit_of(parameter.dimension, kind, time_is_counted=design.time_is_counted)
     fitted, stated = (
         _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
         for value in (estimate.value, estimate.expected)
     )
-    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=estimate.parameter.description)
+    if parameter.dimension is Dimension.RATIO:
+        return _NOT_AS_MEANT.given(
+            effect=estimate.effect, name=parameter.name, fitted=fitted, meaning=parameter.description
+        )
+    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=parameter.description)
 
 
 def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:

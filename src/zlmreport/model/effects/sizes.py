@@ -49,8 +49,7 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
     question = (parameter.question_below or parameter.question) if value < low else parameter.question
     usual = _IS_IT_AT_ALL if times == float("inf") else _IS_IT
     unit = find_unit_of(parameter.dimension, axis.kind)
-    symbol = write_behind(unit.symbol) if unit.symbol else ""
-    written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=symbol)
+    written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
     return (question or usual).given(value=written, times=float(f"{times:.2g}"))
 
 
