@@ -34,7 +34,7 @@ from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
-from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.remainder import Remainder, RemainderPart
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, make_observations_of
@@ -230,7 +230,12 @@ def followed(drawn: Drawn) -> Outcome:
 
 
 def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
-    """Return whether the stranger is larger between the ends of a remainder, or in its run, than elsewhere.
+    """Return whether the stranger is where one of the parts of a remainder is told to be."""
+    return any(_is_where_part_is(each, drawn) for each in (remainder, *remainder.further))
+
+
+def _is_where_part_is(part: RemainderPart, drawn: Drawn) -> bool:
+    """Return whether the stranger is larger between the ends of a part, or in its run, than elsewhere.
 
     Of one that is told to lie in all that was measured, whether more than half of that is needed to hold most
     of it.
@@ -238,10 +243,10 @@ def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
     if drawn.beside is None:
         return False
     design = drawn.observed.design
-    where = design.time if remainder.unit.symbol == "s" else design.position
-    is_inside = (remainder.low <= where) & (where <= remainder.high)
-    if "run" in remainder.where.values:
-        is_inside = design.cycle == remainder.where.values["run"]  # of pendulum runs each lasts all the time
+    where = design.time if part.unit.symbol == "s" else design.position
+    is_inside = (part.low <= where) & (where <= part.high)
+    if "run" in part.where.values:
+        is_inside = design.cycle == part.where.values["run"]  # of pendulum runs each lasts all the time
     inside, outside = drawn.beside[is_inside] ** 2, drawn.beside[~is_inside] ** 2
     if len(outside) == 0:
         return _find_least_share(where, inside) > _HALF

@@ -231,7 +231,18 @@ def test_what_a_cause_has_as_a_part_by_its_definition_is_no_wrong_name() -> None
 def _left(low: float, high: float, unit: Unit = MILLIMETRE) -> Remainder:
     """Return what is told to be left between two places, or moments."""
     nowhere = Words("anywhere")
-    return Remainder(1e-6, 0.5, nowhere, low, high, unit, nowhere, 1e-6, None, Course.PLACE)
+    return Remainder(
+        rms=1e-6,
+        share=0.5,
+        where=nowhere,
+        low=low,
+        high=high,
+        unit=unit,
+        shape=nowhere,
+        size=1e-6,
+        formula=None,
+        course=Course.PLACE,
+    )
 
 
 def _with_stranger(drawn: Drawn, values: FloatArray) -> Drawn:

@@ -67,3 +67,18 @@ def test_what_may_be_left_instead_of_something_without_a_name_is_reported_with_i
     assert 1 / 20 <= instead["odds"] < 1
     certain = observations(design, 4 * SIGMA * (design.position > 0.4) + noise(design, seed=50))
     assert report(diagnose(model_of("offset"), certain, ()))["remainder"]["instead"] is None
+
+
+def test_parts_of_what_is_left_are_reported_each_with_its_place_and_size() -> None:
+    design = linear_test(21, 5)
+    stretch = 5 * SIGMA * ((design.position > 0.3) & (design.position < 0.5))
+    runs = 3 * SIGMA * np.random.default_rng(3).standard_normal(5)[design.cycle - design.cycle.min()]
+    deviation = stretch + runs + noise(design)
+    left = report(diagnose(model_of("offset"), observations(design, deviation), ()))["remainder"]
+    (also,) = left["further"]
+    shapes = {each["shape"]: each for each in (left, also)}
+    assert "every run displaced as a whole" in shapes
+    (stretched,) = (each for shape, each in shapes.items() if "displaced as a whole," in shape)
+    assert stretched["from"] == pytest.approx(300, abs=50)
+    assert stretched["to"] == pytest.approx(500, abs=50)
+    assert also["rms"] <= left["rms"]

@@ -127,6 +127,14 @@ def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(
     assert said(remainder=left).endswith(f"At odds of {said_odds} it is first-run and run-displaced instead.")
 
 
+def test_all_parts_of_what_has_no_name_are_told_with_their_places() -> None:
+    also = replace(LEFT, shape=same("every run displaced as a whole"), where=same("most in run 2"))
+    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=replace(LEFT, further=(also,))) == (
+        "Something is left that no installed effect explains: a bump, around 250 mm, and every run displaced "
+        "as a whole, most in run 2; root mean square 1.2 µm."
+    )
+
+
 def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:
     assert said(verdict=DiagnosisVerdict.UNEXPLAINED).startswith("Something is left")
 

@@ -75,6 +75,7 @@ _SHAPE = Words("Shape")
 _WHERE = Words("Place")
 _SIZE = Words("Root mean square")
 _OF_THE_REST = Words("Share of what the model leaves")
+_BESIDE_IT, _PART = Words("Beside it"), Words("{shape}, {where}; {size}")
 _FORMULA = Words("Formula to try")
 _LOOK = Words("Look at {at}. Measure {measure}.")
 _IMPROBABLE = Words("Hardly missing")
@@ -415,6 +416,15 @@ def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | 
         (_WHERE, left.where.in_language(language)),
         (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
         (_OF_THE_REST, f"{write_percentage(left.share, language.decimal_sign)} %"),
+        *(
+            (
+                _BESIDE_IT,
+                _PART.given(
+                    shape=each.shape, where=each.where, size=wording.deviation(axis, each.rms)
+                ).in_language(language),
+            )
+            for each in left.further
+        ),
     ]
     if left.formula is not None:
         pairs.append((_FORMULA, left.formula.formula))

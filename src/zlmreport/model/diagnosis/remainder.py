@@ -6,7 +6,7 @@ allow. The form that follows it best is proposed as a formula that a job can try
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +34,8 @@ _FOLLOWS = 0.5
 _DEPENDENT = 1e-9
 #: Of the squares of what is left, how much its place holds; and of what was measured, a stretch that is all.
 _MOST, _ALL = 0.8, 0.75
+#: Of the largest part of what is left, what another must have to be told.
+_WORTH_A_WORD = 0.3
 #: Effects that may be what is left: more of them describe any curve.
 _MOST_NAMES = 2
 #: Of forms, by their carrier; along the axis otherwise.
@@ -53,25 +55,32 @@ class NamesInstead:
     odds: float  #: Of these against something without a name; at least 1 to 20.
 
 
-@dataclass(frozen=True, slots=True)
-class Remainder:
-    """What is left without a name.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RemainderPart:
+    """One thing that is left without a name.
 
     `low` and `high` are in SI: m or rad, of a course in time s (or readings, where time is counted).
     """
 
     rms: float  #: Root mean square value at the readings, m or rad.
-    share: float  #: Of the squares of what the job's model leaves, 0 to 1.
     where: Words  #: The place: "around 420 mm".
     low: float  #: Where it begins: a form by its extent, else the shortest stretch with most of it.
     high: float  #: Where it ends.
     unit: Unit  #: In which both are printed: mm, °, s or readings.
     shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
     size: float  #: Its largest value, with its sign, m or rad.
+    course: Course  #: With what it changes.
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Remainder(RemainderPart):
+    """All that is left without a name, at the place and of the shape of its largest part."""
+
+    share: float  #: Of the squares of what the job's model leaves, 0 to 1.
     #: The form that follows it, as an effect of a job: keys of an item of `model.effects`, ranges around what
     #: was found; None where no form does.
     formula: FormulaKeys | None
-    course: Course  #: With what it changes.
+    further: tuple[RemainderPart, ...] = ()  #: Other parts that are not much smaller, the largest first.
     instead: NamesInstead | None = None  #: What may stand in its place; None where nothing is near.
 
 
@@ -100,28 +109,53 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
     if bare.score - found.score < _WORTH_SAYING:
         return None
     design = search.contest.design
-    beside = _remove_what_is_beside(fitted, found)
-    shares = sorted(
-        (replace(each, values=beside(each.values)) for each in _list_shares(search, found)),
-        key=lambda each: -each.rms,
-    )
+    shares = _unite_alike(_list_shares(search, found), _remove_what_is_beside(fitted, found))
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
-    main, squares = shares[0], float(np.sum(fitted.residual**2))
-    form = main.member or _find_following(search, bare, whole)
-    proposed = _propose_formula(form, design) if form else None
-    where, low, high, unit = _place(main, whole, design)
+    squares = float(np.sum(fitted.residual**2))
+    main, *further = [_describe_part(each, design) for each in shares]
+    form = shares[0].member or _find_following(search, bare, whole)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
         share=min(1.0, float(np.sum(whole**2)) / squares) if squares else 0.0,
+        where=main.where,
+        low=main.low,
+        high=main.high,
+        unit=main.unit,
+        shape=main.shape,
+        size=float(whole[int(np.argmax(np.abs(whole)))]),
+        formula=_propose_formula(form, design) if form else None,
+        course=main.course,
+        further=tuple(each for each in further if each.rms > _WORTH_A_WORD * main.rms),
+        instead=_find_names_instead(search, found),
+    )
+
+
+def _unite_alike(shares: Iterable[_Share], beside: Callable[[FloatArray], FloatArray]) -> list[_Share]:
+    """Return shares, the largest first; curves of one shape and other lengths are one.
+
+    `beside`: What leaves of a curve that which has no name.
+    """
+    united: dict[tuple[Course, str], _Share] = {}
+    for each in shares:
+        key = each.course, each.shape.en if each.member is None else each.member.identifier
+        known = united.get(key)
+        values = beside(each.values)
+        united[key] = replace(each, values=values if known is None else known.values + values)
+    return sorted(united.values(), key=lambda each: -each.rms)
+
+
+def _describe_part(share: _Share, design: Design) -> RemainderPart:
+    where, low, high, unit = _place(share, design)
+    size = float(share.values[int(np.argmax(np.abs(share.values)))])
+    return RemainderPart(
+        rms=share.rms,
         where=where,
         low=low,
         high=high,
         unit=unit,
-        shape=_describe_shape(form, design) if form and form is main.member else main.shape,
-        size=float(whole[int(np.argmax(np.abs(whole)))]),
-        formula=proposed,
-        course=main.course,
-        instead=_find_names_instead(search, found),
+        shape=share.shape,
+        size=size,
+        course=share.course,
     )
 
 
@@ -268,18 +302,18 @@ def _choose_unit(design: Design, *, is_time: bool) -> Unit:
     return find_unit_of(dimension, design.axis.kind, time_is_counted=design.time_is_counted)
 
 
-def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, float, float, Unit]:
+def _place(share: _Share, design: Design) -> tuple[Words, float, float, Unit]:
     """Return where something lies: in words, from where to where, and in which unit."""
-    is_time = main.course.along is not Along.PLACE
+    is_time, whole = share.course.along is not Along.PLACE, share.values
     say, unit = _make_sayer(design, is_time=is_time), _choose_unit(design, is_time=is_time)
-    form = main.member.effect if main.member else None
-    if isinstance(form, UnnamedForm) and main.member and form.form is not FADING:
-        low, high = form.find_extent(main.member.theta)
-        place = form.list_values(main.member.theta).get("c", low)
+    form = share.member.effect if share.member else None
+    if isinstance(form, UnnamedForm) and share.member and form.form is not FADING:
+        low, high = form.find_extent(share.member.theta)
+        place = form.list_values(share.member.theta).get("c", low)
         is_local = form.form in LOCAL
         words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
         return words, low, high, unit
-    if main.course.along is Along.RUN:
+    if share.course.along is Along.RUN:
         runs = np.unique(design.cycle)
         sizes = [float(np.mean(whole[design.cycle == run] ** 2)) for run in runs]
         run = int(runs[int(np.argmax(sizes))])

@@ -18,7 +18,7 @@ from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
+from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder, RemainderPart
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
@@ -60,6 +60,7 @@ _SHAPE = Words(
 _UNSURE = Words(
     "Something is left that no installed effect explains for sure: {shape}, {where}; root mean square {size}."
 )
+_AND = Words("{shape}, {where}, and {further}")
 _INSTEAD = Words("{statement} At odds of {odds} it is {effects} instead.")
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
@@ -123,20 +124,28 @@ def report_remainder(
     """Return what is left without a name; its formula as an item of a job's effects."""
     if remainder is None:
         return None
-    from_si, look = design.axis.deviation_unit.from_si, look_for(remainder, design)
+    look = look_for(remainder, design)
     return {
-        "rms": from_si(remainder.rms),
-        "size": from_si(remainder.size),
+        **_collect_part(remainder, design, language),
         "share": remainder.share,
-        "where": remainder.where.in_language(language),
-        "from": remainder.low * remainder.unit.per_si,
-        "to": remainder.high * remainder.unit.per_si,
-        "unit": remainder.unit.ascii,
-        "shape": remainder.shape.in_language(language),
         "formula": None if remainder.formula is None else write_formula_entry(remainder.formula),
+        "further": [_collect_part(each, design, language) for each in remainder.further],
         "instead": _collect_names_instead(remainder.instead),
         "look_at": look.at.in_language(language),
         "measure": look.measure.in_language(language),
+    }
+
+
+def _collect_part(part: RemainderPart, design: Design, language: Language) -> dict[str, Any]:
+    from_si = design.axis.deviation_unit.from_si
+    return {
+        "rms": from_si(part.rms),
+        "size": from_si(part.size),
+        "where": part.where.in_language(language),
+        "from": part.low * part.unit.per_si,
+        "to": part.high * part.unit.per_si,
+        "unit": part.unit.ascii,
+        "shape": part.shape.in_language(language),
     }
 
 
@@ -385,8 +394,10 @@ def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
 
 def describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:
     """Return a sentence with what is left, its place and size, and what may stand in its place."""
-    size = wording.deviation(axis, remainder.rms)
-    statement = words.given(shape=remainder.shape, where=remainder.where, size=size)
+    size, shape, where = wording.deviation(axis, remainder.rms), remainder.shape, remainder.where
+    for each in remainder.further:
+        shape, where = _AND.given(shape=shape, where=where, further=each.shape), each.where
+    statement = words.given(shape=shape, where=where, size=size)
     if (instead := remainder.instead) is None:
         return statement
     those, this = (str(max(1, round(each))) for each in (instead.odds, 1.0 / instead.odds))
