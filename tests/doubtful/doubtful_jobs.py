@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 
 from document.certificate import documents
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
-from zlmreport.evaluation.evaluation import EvaluatedParameter
+from zlmreport.plugin import InputError
+from zlmreport.plugin.renderer import Certificate, EvaluatedParameter
 
 #: Everything that an assessor could ask for is stated.
 SOUND: Mapping[str, Any] = {

@@ -28,7 +28,7 @@ from doubtful.doubtful_jobs import (
     write,
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
-from zlmreport.measurement.times import read_moment
+from zlmreport.plugin.table import moment
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
@@ -657,7 +657,7 @@ def test_a_range_that_ends_before_it_begins_is_refused(tmp_path: Path) -> None:
 def test_readings_of_another_day_than_the_measurement_are_marked(
     first: str, said: str, tmp_path: Path
 ) -> None:
-    written = read_moment(first)
+    written = moment(first)
     assert written is not None
     write(tmp_path, readings())
     head, *rows = (tmp_path / "x.csv").read_text(encoding="utf-8").splitlines()

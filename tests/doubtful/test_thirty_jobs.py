@@ -29,7 +29,7 @@ from doubtful.doubtful_jobs import (
 )
 from doubtful.test_twenty_jobs import GERMAN, SHEET, STANDARD, by, false_in, machine
 from doubtful.test_twenty_more_jobs import first_page
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 
 Spoil = Callable[[np.ndarray], np.ndarray]
 FRENCH = ("certificate.language", "fr")

@@ -19,8 +19,8 @@ import yaml
 from document.certificate.documents import certificate, lines_of, text_of, without
 from doubtful import doubtful_jobs
 from doubtful.doubtful_jobs import REPORT, SOUND, TARGETS, changed, composed, order, readings, refusals, write
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import Approach
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 GERMAN = ("certificate.language", "de")

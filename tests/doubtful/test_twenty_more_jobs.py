@@ -32,13 +32,12 @@ from doubtful.doubtful_jobs import (
 )
 from doubtful.test_twenty_jobs import ANGLES, GERMAN, SHEET, STANDARD, TURNING, by, false_in
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.evaluation import Least
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Certificate
 
 Spoil = Callable[[np.ndarray], np.ndarray]
 _COUNT = len(order())

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from offers import exemplary_registry
 from zlmreport.errors import ZlmreportError
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.plugin.extension import Job
 
 SOUND = """\
 schema: zlmreport/job/1

@@ -107,7 +107,7 @@ def _required(group: dict[str, Any]) -> list[str]:
 
 def _models() -> list[Any]:
     from job.test_schema import _parts
-    from zlmreport.job.keys import JobKeys
+    from zlmreport.plugin.extension import JobKeys
 
     return list(_parts(JobKeys))
 

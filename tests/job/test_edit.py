@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
+from zlmreport.errors import ZlmreportError
 from zlmreport.job.edit import Edit, edit_effects, read_named_effect
 from zlmreport.job.loading import load
+from zlmreport.plugin import AccessError, InputError, Place
 from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = """\

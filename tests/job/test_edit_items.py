@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import InputError
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = """\

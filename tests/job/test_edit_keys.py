@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import InputError
 from zlmreport.job.edit import Edit
 from zlmreport.job.edit_items import edit_keys
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = "schema: zlmreport/job/1\ncertificate: {number: CAL-1, kind: report}  # a remark\n"

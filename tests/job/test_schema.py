@@ -14,9 +14,9 @@ from environments import ROOT
 from job.jobs import REGISTRY, SOUND, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
-from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import make_job_schema
-from zlmreport.job.types import Options
+from zlmreport.plugin import Options
+from zlmreport.plugin.extension import JobKeys
 from zlmreport.plugin.registry import Plugin, collect, find_plugins
 
 

@@ -12,20 +12,16 @@ from zlmreport import pipeline
 from zlmreport.document.certificate.attachments import (
     LARGEST_TOTAL,
     MOST_ATTACHMENTS,
-    Attachment,
-    Relationship,
-    Source,
     SourceRole,
     arrange_attachments,
     attach_sources,
     find_media_type,
     list_sources,
 )
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.measurement.provenance import SourceFile
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Attachment, Certificate, CertificateSource, Relationship
+from zlmreport.plugin.source import SourceFile
 
 PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1rest"
 
@@ -45,7 +41,7 @@ def attachment(name: str, size: int = 0) -> Attachment:
     return Attachment(name, bytes(size), "text/plain", Relationship.SOURCE, "")
 
 
-def paths(sources: tuple[Source, ...]) -> dict[str, SourceRole]:
+def paths(sources: tuple[CertificateSource, ...]) -> dict[str, SourceRole]:
     return {source.path: source.role for source in sources}
 
 
@@ -160,7 +156,7 @@ def test_an_attachment_says_what_it_is(tmp_path: Path, language: Language, descr
 
 
 def test_a_source_whose_reader_kept_no_bytes_is_named_and_not_attached() -> None:
-    source = Source(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
+    source = CertificateSource(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
     assert list(attach_sources([source], Language.ENGLISH)) == []
 
 

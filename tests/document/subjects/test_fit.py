@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from model.hidden_effect import LAST, example_history, study, written
-from zlmreport.document.blocks import Paragraph, Table, write_cell_text
+from zlmreport.document.blocks import write_cell_text
 from zlmreport.document.subjects.fit import (
     fit_sections,
     lay_out_parameters,
@@ -16,7 +16,8 @@ from zlmreport.document.subjects.fit import (
     write_in_a_sentence,
     write_polynomial,
 )
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Paragraph, Table
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 

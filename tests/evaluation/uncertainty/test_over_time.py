@@ -10,9 +10,8 @@ import pytest
 
 from document.certificate.documents import COMPLETE, job as job_of, registry
 from zlmreport import pipeline
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.set_up import list_demanded
-from zlmreport.job.job import Job
+from zlmreport.plugin.extension import Acts, Job
+from zlmreport.plugin.renderer import Budget
 
 HOURS = np.arange(0.0, 8.25, 0.25)
 MICROMETRE = 1e-6
@@ -41,9 +40,9 @@ def budget(of: Job) -> Budget:
 
 
 def test_instrument_and_resolution_make_it_complete(tmp_path: Path) -> None:
-    stated = job(tmp_path)
-    assert list_demanded(stated.tests["Z"]) == ("instrument", "resolution")
-    assert budget(stated).missing == ()
+    found = budget(job(tmp_path))
+    assert found.missing == ()
+    assert {each.contributor for each in found.contributions} == {"instrument", "resolution"}
 
 
 def test_the_instrument_errs_as_it_drifts(tmp_path: Path) -> None:
