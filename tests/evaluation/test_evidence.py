@@ -30,16 +30,20 @@ def honest(  # noqa: PLR0913 - what readings of an axis depend on
     slope: float = 6.0,
     kink: float = 0.0,
     reversal: float = 0.8,
+    change: float = 0.0,
     step: float = 0.01,
     runs: int = 5,
 ) -> np.ndarray:
-    """Return readings, µm, (direction, target, run): a bow, a scatter of 0.4, and if asked a kink."""
+    """Return readings, µm, (direction, target, run): a bow, a scatter of 0.4, and if asked a kink.
+
+    `change`: Of the reversal, from the first target to the last.
+    """
     generator = np.random.default_rng(seed)
     share = TARGETS / TARGETS[-1]
     bow = curve * np.sin(generator.uniform(2, 12) * share) + slope * generator.uniform(-1, 1) * share
     bow += kink * np.maximum(share - generator.uniform(0.2, 0.8), 0)
-    sides = np.array([reversal / 2, -reversal / 2])[:, np.newaxis, np.newaxis]
-    true = bow[:, np.newaxis] + sides + 0.4 * generator.standard_normal((2, len(TARGETS), runs))
+    sides = np.array([0.5, -0.5])[:, np.newaxis] * (reversal + change * share)
+    true = (bow + sides)[..., np.newaxis] + 0.4 * generator.standard_normal((2, len(TARGETS), runs))
     return np.asarray(np.round(true / step) * step)
 
 
@@ -56,6 +60,7 @@ def shown(of: Job, readings: np.ndarray, targets: np.ndarray = TARGETS) -> str:
         {"step": 0.4},
         {"reversal": 0.0},
         {"reversal": 8.0},
+        {"change": 2.0},
         {"kink": 60.0},
         {"curve": 0.0, "slope": 0.0},
     ],
@@ -63,6 +68,16 @@ def shown(of: Job, readings: np.ndarray, targets: np.ndarray = TARGETS) -> str:
 )
 def test_honest_axes_show_nothing(of: Job, axis: dict[str, float]) -> None:
     assert [shown(of, honest(seed, **axis)) for seed in range(100)] == [""] * 100
+
+
+def test_scatter_with_long_tails_turns_no_run(of: Job) -> None:
+    curve = np.mean(honest(1), axis=2, keepdims=True)
+    for seed in range(30):
+        tails = 0.3 * np.random.default_rng(seed).standard_t(3, (2, len(TARGETS), 5))
+        said = shown(of, np.round(curve + tails, 2))
+        assert "mirrors" not in said
+        assert "reversal" not in said
+        assert "counter" not in said
 
 
 # --- copies
@@ -102,8 +117,19 @@ def test_a_copy_with_many_digits_changed_is_found_among_the_readings_of_a_record
     generator = np.random.default_rng(3)
     series = np.round(3 * generator.standard_normal((7200, 3)), 1)
     series[:, 1] = series[:, 0]
-    series[generator.choice(7200, 300, replace=False), 1] += 0.1
+    altered = generator.permutation(7200)
+    series[altered[:300], 1] += 0.1
     assert "Runs 1, 2 differ" in shown(of, series.reshape(2, 3600, 3), np.arange(3600.0))
+    series[altered[300:400], 1] += 0.1  # now more than a twentieth
+    assert "Runs 1, 2 differ" not in shown(of, series.reshape(2, 3600, 3), np.arange(3600.0))
+
+
+@pytest.mark.parametrize(("missing", "is_copy"), [(0, True), (1, False)])
+def test_six_readings_tell_of_a_copy_and_five_do_not(of: Job, missing: int, *, is_copy: bool) -> None:
+    readings = honest(1, runs=3)[:, :3]
+    readings[..., 2] = readings[..., 1] + 1.7
+    readings[0, :missing, 2] = np.nan
+    assert ("Runs 2, 3 differ" in shown(of, readings, TARGETS[:3])) is is_copy
 
 
 def test_runs_that_each_stand_still_are_no_copies(of: Job) -> None:
@@ -147,7 +173,7 @@ def test_where_every_run_has_a_reversal_of_its_own_none_stands_apart(of: Job) ->
 
 @pytest.mark.parametrize("run", [0, 4])
 def test_a_run_with_its_sign_turned_mirrors_the_others(of: Job, run: int) -> None:
-    readings = honest(1)
+    readings = honest(1) + 2 * np.arange(5)  # the runs drift
     readings[..., run] *= -1
     assert f"Run {run + 1} mirrors the others" in shown(of, readings)
 
@@ -159,11 +185,31 @@ def test_outliers_at_two_positions_turn_no_run(of: Job) -> None:
     assert "reversal" not in shown(of, readings)
 
 
-@pytest.mark.parametrize(("runs", "targets"), [(2, 11), (5, 1)])
-def test_two_runs_or_a_single_target_tell_nothing(of: Job, runs: int, targets: int) -> None:
-    readings = honest(1, runs=runs)[:, :targets]
-    readings[..., 1] = -readings[::-1, :, 1]
-    assert shown(of, readings, TARGETS[:targets]) == ""
+@pytest.mark.parametrize(
+    ("runs", "targets", "tells"), [(2, 11, False), (3, 11, True), (5, 3, False), (5, 4, True)]
+)
+def test_two_runs_or_three_targets_tell_nothing(of: Job, runs: int, targets: int, *, tells: bool) -> None:
+    readings = honest(1, runs=runs, reversal=3.0)[:, :targets]
+    readings[..., 1] = readings[::-1, :, 1]
+    assert ("interchanged" in shown(of, readings, TARGETS[:targets])) is tells
+
+
+def test_two_runs_of_which_one_mirrors_the_other_are_both_right(of: Job) -> None:
+    readings = honest(1, runs=2)
+    readings[..., 1] *= -1
+    assert "mirrors" not in shown(of, readings)
+
+
+@pytest.mark.parametrize(
+    ("up", "down", "is_counter"), [(3.0, -3.0, True), (0.3, -0.3, False), (3.0, -1.5, False)]
+)
+def test_directions_run_counter_where_they_mirror_each_other_beyond_scatter(
+    of: Job, up: float, down: float, *, is_counter: bool
+) -> None:
+    wave = np.sin(5 * TARGETS / TARGETS[-1])
+    means = np.stack([up * wave, down * wave])
+    said = shown(of, np.round(means[..., np.newaxis] + np.array([-0.5, 0.25, 0.0, -0.25, 0.5]), 2))
+    assert ("run counter to each other" in said) is is_counter
 
 
 # --- a target that stands apart in every run
