@@ -127,19 +127,18 @@ def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:
     ]
 
 
-def test_a_source_does_not_take_the_name_of_the_results_file(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="CAL-1.json")
-    assert certificate.sources[-1].name == "CAL-1-2.json"
-
-
-def test_a_source_whose_name_begins_like_the_certificate_s_files_gets_another(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="CAL-1.laser.csv")
-    assert certificate.sources[-1].name == "CAL-1-2.laser.csv"
-
-
-def test_a_name_that_is_not_seen_or_not_taken_everywhere_is_made_plain(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="a:b?.txt")
-    assert certificate.sources[-1].name == "a_b_.txt"
+@pytest.mark.parametrize(
+    ("readings", "name"),
+    [
+        ("CAL-1.json", "CAL-1-2.json"),  # the results file has that name
+        ("CAL-1.laser.csv", "CAL-1-2.laser.csv"),  # so begin the names of the certificate's own files
+        ("a:b?.txt", "a_b_.txt"),  # not seen, or not taken, everywhere
+    ],
+)
+def test_a_source_whose_name_is_taken_or_not_plain_gets_another(
+    tmp_path: Path, readings: str, name: str
+) -> None:
+    assert composed(tmp_path, readings=readings).sources[-1].name == name
 
 
 @pytest.mark.parametrize(

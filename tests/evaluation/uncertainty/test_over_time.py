@@ -19,7 +19,7 @@ from zlmreport.plugin.renderer import Budget
 HOURS = np.arange(0.0, 8.25, 0.25)
 MICROMETRE = 1e-6
 #: A correction that a program made of readings.
-CORRECTED = Correction(same_in_all_languages("any"), same_in_all_languages(""), (), MICROMETRE)
+CORRECTED = Correction(*[same_in_all_languages("any")] * 3, MICROMETRE)
 
 
 def job(folder: Path, **changed: Any) -> Job:
