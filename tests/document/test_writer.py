@@ -6,12 +6,10 @@ import pytest
 from document.certificate.circles import document
 from document.certificate.documents import COMPLETE, certificate, text_of
 from document.certificate.everything import EVERYTHING, write_tables
-from zlmreport.document.writer import NOTHING, Marks, Writer
+from zlmreport.document.writer import NOTHING, Marks
 from zlmreport.job.contradictions import list_markable_keys
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import CELSIUS, DEGREE, MILLIMETRE
+from zlmreport.plugin import CELSIUS, DEGREE, MILLIMETRE, Axis, AxisKind, Language, MeasurementSet
+from zlmreport.plugin.renderer import Writer
 
 
 def measured(deviations_um, targets_mm, axis=None):

@@ -11,8 +11,7 @@ import pytest
 
 from documents.pages import DOCS
 from zlmreport import errors, plugin
-from zlmreport.live.emulation.emulator import Emulator
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin.instrument import Emulator, LiveReading
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
 

@@ -8,11 +8,9 @@ import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, model_of
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.fitting.observations import make_observations_of
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, Axis, MeasurementSet
 
 _DATA = Path(__file__).parents[1] / "data" / "published"
 _Y = "ecmc_13e6c326"

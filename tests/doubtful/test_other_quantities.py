@@ -15,15 +15,14 @@ import pytest
 from document.certificate.documents import registry, text_of
 from environments import ROOT
 from zlmreport import pipeline
-from zlmreport.document.certificate.information import Information, check_information
-from zlmreport.errors import InputError
+from zlmreport.document.certificate.information import check_information
 from zlmreport.evaluation import likely_units, traceability
 from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
 from zlmreport.evaluation.evidence import find_evidence, find_lines_read_twice
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language, Words
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import InputError, Language, MeasurementSet, Words
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.standard import Information
 
 CIRCLE, DRIFT = "circle/certificate.yaml", "drift/certificate.yaml"
 

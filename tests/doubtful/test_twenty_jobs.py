@@ -5,73 +5,40 @@ Each is refused or marked where it is read, and of none is anything printed that
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 
-from document.certificate.documents import certificate, lines_of, text_of, without
-from doubtful import doubtful_jobs
-from doubtful.doubtful_jobs import REPORT, SOUND, TARGETS, changed, composed, order, readings, refusals, write
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.measurement.approach import Approach
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
-
-GERMAN = ("certificate.language", "de")
-SHEET, STANDARD = ("certificate.layout", "sheet"), ("certificate.layout", "standard")
-#: An axis that turns, and a straightness: what is stated of lengths along the axis is left out.
-TURNING: Mapping[str, Any] = {
-    **without("environment.expansion_coefficient", "uncertainty", keys=SOUND),
-    "certificate": {**SOUND["certificate"], "kind": "report"},
-    "axis": {"name": "C", "kind": "rotary", "travel": [0, 360]},
-    "instrument": {**without("compensation", keys=SOUND["instrument"]), "name": "Autocollimator"},
-    "uncertainty": {"environmental_variation": 0.3},
-}
-ANGLES = np.array([0.0, 31, 64, 90, 127, 158, 180, 221, 249, 270, 338])
-
-Spoil = Callable[[np.ndarray], np.ndarray]
-
-
-@dataclass(frozen=True)
-class Doubtful:
-    """A job, its readings, and what its document says of them."""
-
-    keys: Mapping[str, Any]
-    said: str
-    spoil: Spoil = lambda deviations: deviations
-    targets: np.ndarray = field(default_factory=lambda: TARGETS)
-    runs: int = 5
-
-
-def by(standard: str, **limits: float) -> tuple[str, Any]:
-    """Return the key of a standard with its limits."""
-    return ("evaluate", [{"standard": standard, "tolerances": limits}])
-
-
-def rising(deviations: np.ndarray) -> np.ndarray:
-    """Return readings that rise by 12 from the first to the last."""
-    moved = deviations.copy()
-    for number, at in enumerate(order()):
-        moved[at] += 12 * number / len(order())
-    return moved
+from document.certificate.documents import lines_of, text_of, without
+from doubtful.doubtful_jobs import (
+    ANGLES,
+    GERMAN,
+    REPORT,
+    SHEET,
+    SOUND,
+    STANDARD,
+    TARGETS,
+    TURNING,
+    Doubtful,
+    by,
+    changed,
+    check_marked,
+    machine,
+    one_direction_twice,
+    readings,
+    refusals,
+    rising,
+    with_outlier,
+)
 
 
 def stepped(deviations: np.ndarray) -> np.ndarray:
     """Return readings whose second run stands apart, as after a knock."""
     moved = deviations.copy()
     moved[..., 1] += 9
-    return moved
-
-
-def with_outlier(deviations: np.ndarray) -> np.ndarray:
-    moved = deviations.copy()
-    moved[4, 1, 1] += 60
     return moved
 
 
@@ -106,10 +73,6 @@ def with_a_stray_target(deviations: np.ndarray) -> np.ndarray:
     moved = deviations.copy()
     moved[6] += 60
     return moved
-
-
-def one_direction_twice(deviations: np.ndarray) -> np.ndarray:
-    return np.repeat(deviations[:, :1], 2, axis=1)
 
 
 JOBS: dict[str, Doubtful] = {
@@ -243,6 +206,7 @@ JOBS: dict[str, Doubtful] = {
         changed(REPORT, GERMAN, STANDARD, by("iso230-2:2014", R=5)),
         "R ist durch diese Messung nicht bestimmt; über den Grenzwert wird nicht entschieden",
         runs=1,
+        said_in=text_of,
     ),
 }
 
@@ -251,59 +215,7 @@ JOBS: dict[str, Doubtful] = {
 def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
     name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    job = JOBS[name]
-    monkeypatch.setattr(doubtful_jobs, "TARGETS", job.targets)
-    monkeypatch.setattr(doubtful_jobs, "RUNS", job.runs)
-
-    document = composed(tmp_path, job.keys, job.spoil(readings()))
-
-    assert job.said in text_of(document)
-    assert false_in(document) == []
-
-
-def false_in(document: Certificate) -> list[str]:
-    """Return what a document says that is not so, by what else it says."""
-    text, job = text_of(document), document.job
-    assert job is not None
-    is_german, is_report = document.language.value == "de", job.keys.certificate.kind == "report"
-    parameters = [each for of in document.evaluations for each in of.parameters]
-    marked = [each.in_language(document.language) for each in (*document.doubts, *document.evidence)]
-    broken = (
-        "fällig",
-        "was due",
-        "nach der Messung",
-        "after the measurement",
-        "no calibration certificate named",
-    )
-    of_instrument = [each for each in marked if each.startswith(("Messgerät", "Measuring instrument"))]
-    of_results = json.loads(JsonResultsRenderer().render(document)).get("doubtful", [])
-    found = {
-        "a place that nothing fills": bool(re.search(r"\{[a-z_]+\}", text)),
-        "one of several": bool(
-            re.search(
-                r"(?<![\d.,])1 (?:runs|readings|positions|more|Durchläufe|Messwerte|Positionen|weitere)\b",
-                text,
-            )
-        ),
-        "an interval that no table has": ("nterval of the axis" in text or "Intervall der Achse" in text)
-        and all(each.axis_interval is None for each in parameters),
-        "a chain that is broken": any(word in each for word in broken for each in of_instrument)
-        and ("metrologically traceable" in text or "metrologisch rückführbar" in text),
-        "a report that calibrates": is_report
-        and bool(
-            re.search(
-                "tem calibrated|Kalibriergegenstand|^Kalibrierung$|^Calibration$",
-                text,
-                re.MULTILINE,
-            )
-        ),
-        "no word of the field": is_german and bool(re.search(r"\bZeichen \||kalibrierten Gegenstand", text)),
-        "drift out of sight": "cannot be judged" in text or "nicht zu erkennen" in text,
-        "a mark that only the page has": of_results != marked or any(each not in text for each in marked),
-        "a direction that is not there": any(word in text for word in ("both directions", "beide Richtungen"))
-        and set(document.measurements.approaches) != set(Approach),
-    }
-    return [what for what, is_so in found.items() if is_so]
+    check_marked(JOBS[name], tmp_path, monkeypatch)
 
 
 def test_silence_on_the_air_refuses_a_certificate_and_a_word_is_enough(tmp_path: Path) -> None:
@@ -314,28 +226,6 @@ def test_silence_on_the_air_refuses_a_certificate_and_a_word_is_enough(tmp_path:
 
 
 # A whole machine.
-
-
-def machine(
-    folder: Path, parts: Mapping[str, tuple[Mapping[str, Any], np.ndarray]], **keys: str
-) -> Certificate:
-    """Return one document of several axes: each with its own job and readings."""
-    shared = {each: SOUND[each] for each in ("schema", "laboratory", "customer", "machine", "location")}
-    own = {**SOUND["certificate"], "kind": "report", **keys}
-    for number, (name, (job, deviations)) in enumerate(parts.items()):
-        write(folder, deviations)
-        (folder / "x.csv").rename(folder / f"{name}.csv")
-        source = {"plugin": "laser-csv", "file": f"{name}.csv"}
-        part = changed(
-            ("axis.name", name),
-            ("measurement.source", source),
-            ("certificate", {**own, "number": f"CAL-1-{number}"}),
-            of=job,
-        )
-        (folder / f"{name}.yaml").write_text(yaml.safe_dump(part), encoding="utf-8")
-    return certificate(
-        folder, {**shared, "certificate": own, "measurements": [f"{name}.yaml" for name in parts]}
-    )
 
 
 @pytest.mark.parametrize("layout", ["full", "standard", "sheet"])

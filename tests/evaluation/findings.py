@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.evaluation.evaluation import Finding
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.standard import Finding
 
 
 def said(finding: Finding) -> tuple[str, str, bool | None]:

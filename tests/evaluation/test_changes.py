@@ -7,10 +7,9 @@ from dataclasses import replace
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Change, EvaluatedParameter, Evaluation, compare_parameters
-from zlmreport.evaluation.report import report_changes
-from zlmreport.job.types import Options
+from zlmreport.plugin import Evaluation, Options
+from zlmreport.plugin.renderer import EvaluatedParameter, changes, report_changes
+from zlmreport.plugin.standard import Change, evaluate
 from zlmreport.testing import simulated_test
 
 ISO = STANDARDS["iso230-2:2014"]
@@ -26,7 +25,7 @@ AFTER = of(EvaluatedParameter(E, 3e-6), EvaluatedParameter(A, 7e-6, None, 2e-6, 
 
 
 def test_a_parameter_of_one_test_stands_beside_nothing() -> None:
-    assert compare_parameters(BEFORE, AFTER) == (
+    assert changes(BEFORE, AFTER) == (
         Change(None, AFTER.parameters[0]),
         Change(BEFORE.parameters[0], AFTER.parameters[1]),
         Change(BEFORE.parameters[1], None),

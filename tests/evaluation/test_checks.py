@@ -8,13 +8,16 @@ import numpy as np
 import pytest
 
 from evaluation.findings import said
-from zlmreport.evaluation.checks import (
+from zlmreport.evaluation.checks import measured_approaches
+from zlmreport.plugin import Approach, Axis, AxisKind, Language, MeasurementSet, Words
+from zlmreport.plugin.standard import (
+    Basis,
+    Finding,
     both_directions,
     deviation_in_words,
     exceeds,
     fewest_runs,
     mean_interval,
-    measured_approaches,
     no_missing_readings,
     number_of_runs,
     position_in_words,
@@ -29,11 +32,6 @@ from zlmreport.evaluation.checks import (
     runs_in_words,
     spacing_against_periods,
 )
-from zlmreport.evaluation.evaluation import Basis, Finding
-from zlmreport.language import Language, Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test, simulated_test
 
 BY_ANGLE = {math.pi / 2: 3, math.pi: 5}

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.decision import Guard, make_decision_rule, with_decisions
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Conformity, Decision, EvaluatedParameter
-from zlmreport.job.types import Options
-from zlmreport.language import Language
+from zlmreport.evaluation.decision import Guard
+from zlmreport.plugin import Language, Options
+from zlmreport.plugin.renderer import Decision, EvaluatedParameter
+from zlmreport.plugin.standard import Conformity, decided, decision_rule, evaluate
 from zlmreport.testing import bidirectional_test, simulated_test
 
 ISO = STANDARDS["iso230-2:2014"]
@@ -29,7 +28,7 @@ OPEN = Conformity.UNDECIDED
 
 
 def decision(rule: str, value: float, expanded: float | None = EXPANDED, factor: float = 1.0) -> Decision:
-    found = make_decision_rule(rule, factor).decide(
+    found = decision_rule(rule, factor).decide(
         EvaluatedParameter(A, value, LIMIT, expanded, None if expanded is None else 2.0)
     )
     assert found is not None
@@ -82,16 +81,16 @@ def test_a_guard_band_is_as_wide_as_its_factor_says() -> None:
 
 
 def test_a_guard_band_is_as_wide_as_u_if_no_factor_is_stated() -> None:
-    assert make_decision_rule("guard-band") == make_decision_rule("guard-band", 1.0)
+    assert decision_rule("guard-band") == decision_rule("guard-band", 1.0)
 
 
 @pytest.mark.parametrize("rule", ["simple", "guard-band", "iso14253-1", "non-binary"])
 def test_a_rule_is_called_as_jobs_name_it(rule: str) -> None:
-    assert make_decision_rule(rule).identifier == rule
+    assert decision_rule(rule).identifier == rule
 
 
 def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> None:
-    assert (make_decision_rule("iso14253-1").factor, make_decision_rule("iso14253-1").guard) == (
+    assert (decision_rule("iso14253-1").factor, decision_rule("iso14253-1").guard) == (
         1.65,
         Guard.STANDARD_UNCERTAINTY,
     )
@@ -101,16 +100,14 @@ def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> N
 def test_an_uncertainty_that_is_not_complete_decides_nothing(rule: str) -> None:
     known = EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
 
-    found = make_decision_rule(rule).decide(known, uncertainty_is_complete=False)
+    found = decision_rule(rule).decide(known, uncertainty_is_complete=False)
     assert found == Decision(OPEN, None, None, None)
 
 
 def test_an_evaluation_says_whether_its_uncertainty_is_complete() -> None:
     known = (EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
     evaluation = replace(evaluate(ISO, simulated_test(), Options(), {}), parameters=known)
-    found = with_decisions(
-        replace(evaluation, uncertainty_is_complete=False), make_decision_rule("guard-band")
-    )
+    found = decided(replace(evaluation, uncertainty_is_complete=False), decision_rule("guard-band"))
 
     assert found.parameters[0].conforms is None
 
@@ -132,7 +129,7 @@ def test_simple_acceptance_needs_no_uncertainty_but_knows_no_risk_without_it() -
 
 
 def test_a_parameter_without_limit_has_no_decision() -> None:
-    assert make_decision_rule("simple").decide(EvaluatedParameter(A, 1e-6)) is None
+    assert decision_rule("simple").decide(EvaluatedParameter(A, 1e-6)) is None
 
 
 def test_a_limit_is_held_against_the_unrounded_value() -> None:
@@ -143,9 +140,7 @@ def test_a_range_of_exactly_the_limit_conforms_in_spite_of_binary_rounding() -> 
     assert 3e-6 - 1e-6 > 2e-6  # what a bare comparison would stumble over
     first, second = [1.0, 1.0], [3.0, 3.0]
     measurements = bidirectional_test([0, 100], [first, second], [first, second])
-    evaluation = with_decisions(
-        evaluate(ISO, measurements, Options(), {"E": 2e-6}), make_decision_rule("simple")
-    )
+    evaluation = decided(evaluate(ISO, measurements, Options(), {"E": 2e-6}), decision_rule("simple"))
     found = evaluation.parameter("E")
 
     assert found is not None
@@ -215,7 +210,7 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
         EvaluatedParameter(each.quantity, each.value, each.limit, EXPANDED, 2.0)
         for each in evaluation.parameters
     )
-    found = with_decisions(replace(evaluation, parameters=uncertain), make_decision_rule("guard-band"))
+    found = decided(replace(evaluation, parameters=uncertain), decision_rule("guard-band"))
 
     said = [each.found.in_language(Language.ENGLISH) for each in found.findings if each.met is False]
     assert said[-1] == "the guard band is as wide as the limit: no value of A could conform"
@@ -232,7 +227,7 @@ def test_a_guard_band_up_to_the_limit_is_no_finding(expanded: float) -> None:
     evaluation = evaluate(ISO, simulated_test(), Options(), {})
     evaluation = replace(evaluation, parameters=(EvaluatedParameter(A, 0.0, LIMIT, expanded, 2.0),))
 
-    assert with_decisions(evaluation, make_decision_rule("guard-band")).findings == evaluation.findings
+    assert decided(evaluation, decision_rule("guard-band")).findings == evaluation.findings
 
 
 @pytest.mark.parametrize("rule", ["simple", "guard-band", "non-binary"])
@@ -242,7 +237,7 @@ def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
 ) -> None:
     """4 µm of which 60 µm are known to be missing exceed 20 µm, and 30 µm with 26 µm too many do not."""
     uncertain = EvaluatedParameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
-    found = make_decision_rule(rule).decide(uncertain)
+    found = decision_rule(rule).decide(uncertain)
 
     assert found is not None
     # Of 4 µm guarded acceptance says no, as it would of 64 µm.
@@ -254,6 +249,6 @@ def test_a_known_error_that_turns_nothing_leaves_the_statement() -> None:
     small = EvaluatedParameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
 
     for rule in ("simple", "guard-band", "non-binary", "iso14253-1"):
-        found = make_decision_rule(rule).decide(small)
+        found = decision_rule(rule).decide(small)
         assert found is not None
         assert found.conformity is MET

@@ -6,13 +6,9 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate, find_doubts
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.job.types import Options
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
+from zlmreport.evaluation.evaluate import find_doubts
+from zlmreport.plugin import Approach, Axis, Evaluation, Language, Options
+from zlmreport.plugin.standard import evaluate, position_statistics
 from zlmreport.testing import simulated_test
 
 ISO = STANDARDS["iso230-2:2014"]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.statistics import PositionStatistics, position_statistics, span
+from zlmreport.plugin.standard import PositionStatistics, position_statistics, span_over_positions
 
 NAN = math.nan
 
@@ -93,6 +93,6 @@ def test_statistics_cannot_be_altered_and_leave_the_readings_as_they_are() -> No
 
 
 def test_a_single_value_has_no_range() -> None:
-    assert math.isnan(span(np.array([3.0])))
-    assert math.isnan(span(np.array([3.0, NAN])))
-    assert span(np.array([3.0, NAN, 1.0])) == 2.0
+    assert math.isnan(span_over_positions(np.array([3.0])))
+    assert math.isnan(span_over_positions(np.array([3.0, NAN])))
+    assert span_over_positions(np.array([3.0, NAN, 1.0])) == 2.0

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from pydantic import BaseModel
+
 from offers import exemplary_registry
 from zlmreport.errors import ZlmreportError
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.job.types import find_model_in
+from zlmreport.plugin.extension import Job
 
 SOUND = """\
 schema: zlmreport/job/1
@@ -55,3 +58,14 @@ def mistakes(text: str | bytes, folder: Path) -> list[str]:
     except ZlmreportError as error:
         return [str(problem).removeprefix(f"{folder}/") for problem in error.problems]
     return []
+
+
+def list_groups(model: type[BaseModel]) -> set[type[BaseModel]]:
+    """Return a group of keys and all groups in it."""
+    found = {model}
+    for field in model.model_fields.values():
+        for annotation in [field.annotation, *getattr(field.annotation, "__args__", ())]:
+            part = find_model_in(annotation)
+            if part:
+                found |= list_groups(part)
+    return found

@@ -9,7 +9,7 @@ import pytest
 
 from document.certificate.documents import COMPLETE, certificate, having, job, registry, text_of
 from zlmreport import pipeline
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 
 
 def of(*standards: Any) -> dict[str, Any]:

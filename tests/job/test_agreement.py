@@ -11,8 +11,9 @@ import jsonschema
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from job.jobs import REGISTRY, mistakes
+from job.jobs import REGISTRY, list_groups, mistakes
 from zlmreport.job.schema import make_job_schema
+from zlmreport.plugin.extension import JobKeys
 
 SCHEMA = make_job_schema(REGISTRY)
 VALIDATOR = jsonschema.Draft202012Validator(
@@ -99,17 +100,10 @@ def _least(part: dict[str, Any]) -> dict[str, Any]:
 def _required(group: dict[str, Any]) -> list[str]:
     """Return the keys that a group must have; the schema of a part of a job does not say so."""
     title = group.get("title", "")
-    model = next((each for each in _models() if each.__name__ == title), None)
+    model = next((each for each in list_groups(JobKeys) if each.__name__ == title), None)
     if model is None:
         return list(group.get("required", ()))
     return [info.alias or name for name, info in model.model_fields.items() if info.is_required()]
-
-
-def _models() -> list[Any]:
-    from job.test_schema import _parts
-    from zlmreport.job.keys import JobKeys
-
-    return list(_parts(JobKeys))
 
 
 def test_many_keys_are_tried() -> None:

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND, loaded, mistakes
-from zlmreport.errors import AccessError, InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import AccessError, InputError
 
 NO_JOBS: dict[str, tuple[bytes, str, str]] = {
     "empty": (b"", "1:1", "is empty; a file of keys says first what it is"),

@@ -10,8 +10,8 @@ import pytest
 from job.jobs import SOUND, mistakes, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import Plugin, collect
 
 # Line of the sound job that is replaced, the line it is replaced by, where the message points, what it says.

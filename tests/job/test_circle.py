@@ -8,10 +8,9 @@ import jsonschema
 import pytest
 import yaml
 
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.job.schema import make_job_schema
-from zlmreport.measurement.measurand import CIRCLE
+from zlmreport.plugin import CIRCLE, InputError
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()

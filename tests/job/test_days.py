@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from job.jobs import SOUND, loaded, with_line, with_lines
-from zlmreport.errors import InputError
 from zlmreport.job.days import demand_days_past, find_days_to_come
+from zlmreport.plugin import InputError
 from zlmreport.version import RELEASED
 
 TODAY = dt.date(2031, 3, 1)

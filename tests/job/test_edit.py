@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import codecs
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
+from document.certificate.documents import registry
+from zlmreport.errors import ZlmreportError
 from zlmreport.job.edit import Edit, edit_effects, read_named_effect
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin import AccessError, InputError, Place
 
 HEAD = """\
 schema: zlmreport/job/1
@@ -27,11 +27,6 @@ model:
     - offset  # the zero
     - backlash: {lost_motion: 4.0}
 """
-
-
-@cache
-def registry() -> Registry:
-    return find_plugins()
 
 
 @pytest.fixture

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import InputError
+from document.certificate.documents import registry
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin import InputError
 
 HEAD = """\
 schema: zlmreport/job/1
@@ -27,11 +26,6 @@ TAIL = "evaluate: [nmtba]\n"
 REASON = "Air hose: touched #2"
 EXCLUSION = ExclusionKeys(target=213.4, direction="-", run=3, reason=REASON)
 WRITTEN = '{target: 213.4, direction: "-", run: 3, reason: "Air hose: touched #2"}'
-
-
-@cache
-def registry() -> Registry:
-    return find_plugins()
 
 
 def job(folder: Path, text: str) -> Path:

@@ -3,25 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import InputError
+from document.certificate.documents import registry
 from zlmreport.job.edit import Edit
 from zlmreport.job.edit_items import edit_keys
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin import InputError
 
 HEAD = "schema: zlmreport/job/1\ncertificate: {number: CAL-1, kind: report}  # a remark\n"
 PITCH = {"axis.screw_pitch": 10.0}
 TAIL = "measurement: {source: {plugin: laser-csv, file: x.csv}}\nevaluate: [nmtba]\n"
-
-
-@cache
-def registry() -> Registry:
-    return find_plugins()
 
 
 def edited(folder: Path, axis: str, stated: Mapping[str, float | str] = PITCH, unit: str = "mm") -> Edit:

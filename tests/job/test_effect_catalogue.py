@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.errors import InputError
 from zlmreport.job.effect_catalogue import read_catalogue, read_measurements
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 
 _SOUND = """schema: zlmreport/effects/1
 measurements:

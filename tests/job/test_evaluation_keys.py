@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, job
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 
 ROTARY = {"name": "C", "kind": "rotary"}
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
-from zlmreport.errors import AccessError, InputError
 from zlmreport.job.extends import LONGEST_CHAIN
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin.extension import Job
 
 
 def _files(folder: Path, **texts: str) -> Path:

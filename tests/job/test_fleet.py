@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
-from zlmreport.errors import AccessError, InputError
 from zlmreport.job.extends import Defaults
 from zlmreport.job.fleet import FleetFile, list_job_files, load_fleet, number_of
 from zlmreport.job.loading import load
 from zlmreport.job.parse import parse
+from zlmreport.plugin import AccessError, InputError
 
 FLEET = "schema: zlmreport/fleet/1\njobs: jobs/*.yaml\n"
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from document.certificate.documents import registry
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.job.simulation import load_simulation
+from zlmreport.plugin import InputError
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 

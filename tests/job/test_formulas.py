@@ -11,8 +11,9 @@ from pydantic import ValidationError
 from zlmreport.job.formula import FormulaError, compute, parse_formula
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys
 from zlmreport.job.formula_parts import UNITS, Formula, refuse_unsound
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.effect import Dimension, find_unit_of
+from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.plugin import AxisKind
+from zlmreport.plugin.effect import Dimension
 
 _UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}
 _FROM_ZERO: dict[str, Any] = {"unit": "mm", "range": [0, 1000]}

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import SOUND, loaded, mistakes, with_line, with_lines
-from zlmreport.measurement.axis import AxisKind
+from zlmreport.plugin import AxisKind
 
 
 def test_lengths_become_metres(tmp_path: Path) -> None:

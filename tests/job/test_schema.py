@@ -11,12 +11,12 @@ import yaml
 from pydantic import BaseModel, Field, create_model
 
 from environments import ROOT
-from job.jobs import REGISTRY, SOUND, with_line, with_lines
+from job.jobs import REGISTRY, SOUND, list_groups, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
-from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import make_job_schema
-from zlmreport.job.types import Options
+from zlmreport.plugin import Options
+from zlmreport.plugin.extension import JobKeys
 from zlmreport.plugin.registry import Plugin, collect, find_plugins
 
 
@@ -109,7 +109,7 @@ def test_every_key_is_described() -> None:
 def test_every_example_is_taken_by_its_own_key() -> None:
     fields = [
         (name, field)
-        for part in _parts(JobKeys)
+        for part in list_groups(JobKeys)
         for name, field in part.model_fields.items()
         if field.examples
     ]
@@ -117,18 +117,6 @@ def test_every_example_is_taken_by_its_own_key() -> None:
     for name, field in fields:
         alone = create_model("Alone", **{name: (field.annotation, field)})  # type: ignore[call-overload]
         alone.model_validate({field.alias or name: field.examples[0]})
-
-
-def _parts(model: type[BaseModel]) -> set[type[BaseModel]]:
-    from zlmreport.job.types import find_model_in
-
-    found = {model}
-    for field in model.model_fields.values():
-        for annotation in [field.annotation, *getattr(field.annotation, "__args__", ())]:
-            part = find_model_in(annotation)
-            if part:
-                found |= _parts(part)
-    return found
 
 
 class Nested(BaseModel):

@@ -9,9 +9,9 @@ import pytest
 import yaml
 
 from document.certificate.documents import registry
-from zlmreport.errors import InputError
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
+from zlmreport.plugin.extension import Job
 
 DRIFT = {"plugin": "channels-csv", "file": "drift.csv"}
 

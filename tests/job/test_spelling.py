@@ -10,10 +10,10 @@ import pytest
 from pydantic import Field
 
 from job.jobs import loaded, mistakes, with_line, with_lines
-from zlmreport.errors import Place, Problem
 from zlmreport.job.contradictions import validate
 from zlmreport.job.parse import parse
-from zlmreport.job.types import Finite, InWords, JobPath, Options
+from zlmreport.job.types import InWords
+from zlmreport.plugin import Finite, JobPath, Options, Place, Problem
 
 TEXTS = [
     "00123",

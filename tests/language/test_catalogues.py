@@ -15,7 +15,8 @@ from types import ModuleType
 
 import pytest
 
-from zlmreport.language import Language, PartRow, Words, accepted_language, named, same
+from zlmreport.language import accepted_language
+from zlmreport.plugin import Language, PartRow, Words, named, same_in_all_languages
 
 _TOOL = Path(__file__).parents[2] / "docs/generate/translations.py"
 OTHERS = [each for each in Language if each is not Language.ENGLISH]
@@ -117,7 +118,7 @@ def test_alike_english_words_are_told_apart_by_their_context() -> None:
 
 
 def test_a_users_text_is_never_translated() -> None:
-    assert same("Certificate").in_language(Language.GERMAN) == "Certificate"
+    assert same_in_all_languages("Certificate").in_language(Language.GERMAN) == "Certificate"
 
 
 @pytest.mark.parametrize(
@@ -140,7 +141,7 @@ def test_in_french_no_line_begins_with_a_sign_that_has_a_space_before_it() -> No
     ("language", "text"), [(Language.FRENCH, "A\N{NO-BREAK SPACE}: b"), (Language.GERMAN, "A: b")]
 )
 def test_a_name_is_parted_from_what_is_said_of_it_as_in_the_language(language: Language, text: str) -> None:
-    assert named("A", same("b")).in_language(language) == text
+    assert named("A", same_in_all_languages("b")).in_language(language) == text
 
 
 @pytest.mark.parametrize(

@@ -12,12 +12,11 @@ import pytest
 
 from environments import ROOT
 from language.test_catalogues import OTHERS, tool
-from zlmreport.cli import verify
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
-from zlmreport.evaluation.checks import positions_in_words, readings_in_words, runs_in_words
+from zlmreport.evaluation.checks import readings_in_words
 from zlmreport.fleet import notices, overview_words
-from zlmreport.language import Language, Words
-from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
+from zlmreport.plugin import Language, Words
+from zlmreport.plugin.standard import positions_in_words, runs_in_words
 
 #: Names of what is counted.
 _THINGS = (
@@ -122,14 +121,6 @@ def test_an_overview_of_a_single_axis_says_axis() -> None:
 def test_a_night_says_of_a_single_job_that_it_is_left(left: int, due: int, said: str) -> None:
     (notice,) = notices.say_left(left, due)
     assert notice.text.in_language(Language.ENGLISH).endswith(said)
-
-
-def test_a_single_attached_file_is_one_file() -> None:
-    file = CheckedStatement("x.csv", VerificationVerdict.HOLDS, Words("as stated"))
-    words = Words("{of} page as printed again", plural="{of} pages as printed again")
-    for language, said in ((Language.ENGLISH, "1 of 1 page as"), (Language.GERMAN, "1 von 1 Seite wie")):
-        ((_, found),) = verify._say_summary("", [file], words, lambda each, to=language: each.in_language(to))
-        assert found.startswith(said)
 
 
 def test_a_page_has_words_for_a_single_reading() -> None:

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.language import Language
-from zlmreport.language.formatting import (
-    DecimalSign,
-    split_spans,
-    write_fixed_number,
-    write_p_value,
-    write_percentage,
-    write_plain,
-)
+from zlmreport.language.formatting import write_p_value, write_percentage, write_plain
 from zlmreport.language.numbers import write_part
+from zlmreport.plugin import DecimalSign, Language, fixed_number
+from zlmreport.plugin.renderer import notation_spans
 
 
 def test_a_number_too_large_for_its_decimals_is_written_all_the_same() -> None:
-    assert write_fixed_number(1e31, 2) == f"1{31 * '0'}.00"
+    assert fixed_number(1e31, 2) == f"1{31 * '0'}.00"
 
 
 @pytest.mark.parametrize(
@@ -55,12 +49,12 @@ def test_a_share_has_the_decimal_sign_and_the_decimals_that_are_asked_for() -> N
     ],
 )
 def test_only_quantities_and_running_indices_are_italic(notation: str, italic: list[str]) -> None:
-    assert [span.text for span in split_spans(notation) if span.italic] == italic
+    assert [span.text for span in notation_spans(notation) if span.italic] == italic
 
 
 @pytest.mark.parametrize("notation", ["A·sin(2π·P/p_{0} + φ)", "P_{s max}", "½·B·d"])
 def test_nothing_is_lost_in_spans(notation: str) -> None:
-    assert "".join(span.text for span in split_spans(notation)) == write_plain(notation)
+    assert "".join(span.text for span in notation_spans(notation)) == write_plain(notation)
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,9 @@
 """Names in a row are said one way: commas between them, and a word before the last."""
 
-from types import SimpleNamespace
-
 import pytest
 
-from zlmreport.cli import verify
-from zlmreport.errors import list_names
-from zlmreport.language import Language, Words, list_alternatives, list_in_words
-from zlmreport.verification.findings import VerificationOutcome
+from zlmreport.language import list_alternatives, list_in_words
+from zlmreport.plugin import Language, Words, listed
 
 EFFECTS = [Words("Backlash"), Words("Squareness"), Words("Vibration")]
 
@@ -42,12 +38,4 @@ def test_two_names_have_no_comma_and_one_is_said_alone() -> None:
     ("names", "said"), [([], ""), (["X"], "X"), (["X", "Y"], "X and Y"), (["X", "Y", "Z"], "X, Y and Z")]
 )
 def test_a_message_lists_names_alike(names: list[str], said: str) -> None:
-    assert list_names(names) == said
-
-
-def test_a_verification_lists_what_it_could_not_compare() -> None:
-    found = SimpleNamespace(
-        outcome=VerificationOutcome.UNDECIDED, undecided=("files", "values", "pages"), differences=0
-    )
-    said = verify._tell_verdict(found, lambda words: words.in_language(Language.ENGLISH))
-    assert "files, values and pages could not be compared whole" in said
+    assert listed(names) == said

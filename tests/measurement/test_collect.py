@@ -11,13 +11,10 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.errors import InputError, Place, Problem
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.collect import MOST_NAMED, Reading, collect
-from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
-from zlmreport.measurement.provenance import Provenance
+from zlmreport.measurement.collect import MOST_NAMED
+from zlmreport.measurement.measurement_set import MissingReading
+from zlmreport.plugin import Approach, Axis, AxisKind, InputError, Language, MeasurementSet, Place, Problem
+from zlmreport.plugin.source import Provenance, Reading, collect_readings
 
 FILE = Place("x.csv")
 MM, UM = 1e-3, 1e-6
@@ -45,12 +42,12 @@ def cycle(run: int, targets: Iterable[float] = (0, 100, 200), first_line: int | 
 
 
 def collected(readings: Iterable[Reading], axis: Axis | None = None) -> MeasurementSet:
-    return collect(readings, axis or Axis("X"), Provenance("test"), place=FILE)
+    return collect_readings(readings, axis or Axis("X"), Provenance("test"), place=FILE)
 
 
 def complaints(readings: Iterable[Reading], axis: Axis | None = None, **more: Any) -> list[str]:
     with pytest.raises(InputError) as caught:
-        collect(readings, axis or Axis("X"), Provenance("test"), place=FILE, **more)
+        collect_readings(readings, axis or Axis("X"), Provenance("test"), place=FILE, **more)
     return [str(problem) for problem in caught.value.problems]
 
 

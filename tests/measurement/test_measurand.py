@@ -2,16 +2,18 @@
 
 import pytest
 
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.error_symbol import find_error_named, find_letter_of, find_symbol_of_positioning
-from zlmreport.measurement.measurand import (
+from zlmreport.measurement.error_symbol import find_letter_of, find_symbol_of_positioning
+from zlmreport.measurement.measurand import is_for
+from zlmreport.plugin import (
     ANGLE,
     POSITIONING,
     SQUARENESS,
     STRAIGHTNESS,
-    is_for,
-    list_measurands_of,
+    Axis,
+    AxisKind,
+    Language,
+    error_named,
+    measurands_of,
 )
 
 
@@ -33,22 +35,22 @@ from zlmreport.measurement.measurand import (
     ],
 )
 def test_a_symbol_names_what_was_measured_of_which_axis(symbol, measurand, axis, vdi):
-    found = find_error_named(symbol)
+    found = error_named(symbol)
     assert (found.measurand.identifier, found.axis, found.vdi) == (measurand, axis, vdi)
 
 
 def test_three_linear_axes_have_21_errors():
     letters, components, locations = "XYZ", 0, 0
     for axis in letters:
-        components += sum(1 for letter in "XYZABC" if find_error_named(f"E{letter}{axis}"))
-    locations = sum(1 for symbol in ("C0Y", "B0Z", "A0Z") if find_error_named(symbol).reference)
+        components += sum(1 for letter in "XYZABC" if error_named(f"E{letter}{axis}"))
+    locations = sum(1 for symbol in ("C0Y", "B0Z", "A0Z") if error_named(symbol).reference)
     assert components + locations == 21
 
 
 @pytest.mark.parametrize("text", ["EYQ", "Y", "", "A0X", "C0X", "EXYZ", "straight"])
 def test_what_is_no_error_is_refused_with_how_one_is_written(text):
     with pytest.raises(ValueError, match=r"is no error of ISO 230-1 that is measured: .*EYX"):
-        find_error_named(text)
+        error_named(text)
 
 
 def test_a_name_that_begins_with_no_axis_has_no_symbol():
@@ -88,6 +90,6 @@ def test_the_subject_of_a_document_says_what_was_measured():
 
 
 def test_a_plugin_that_says_nothing_is_for_positioning():
-    assert list_measurands_of(object()) == (POSITIONING,)
+    assert measurands_of(object()) == (POSITIONING,)
     assert is_for(object(), POSITIONING)
     assert not is_for(object(), SQUARENESS)

@@ -9,8 +9,8 @@ import re
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.language.formatting import DecimalSign
-from zlmreport.measurement.text_file import parse_number
+from zlmreport.plugin import DecimalSign
+from zlmreport.plugin.source import parse_number
 
 COMMA = DecimalSign.COMMA
 

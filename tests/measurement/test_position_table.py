@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from zlmreport.errors import InputError
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.position_table import TableColumn, read_position_table
-from zlmreport.measurement.units import ANGLE_UNITS, LENGTH_UNITS, MICROMETRE, MICRORADIAN, MILLIMETRE
+from zlmreport.plugin import ANGLE_UNITS, LENGTH_UNITS, MICROMETRE, MICRORADIAN, MILLIMETRE, InputError
 
 POSITION = TableColumn("position", MILLIMETRE, LENGTH_UNITS)
 DEVIATION = TableColumn("deviation", MICROMETRE, LENGTH_UNITS)

@@ -5,12 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.measurement.refractive_index import (
-    index_change,
-    refractive_index,
-    saturation_vapour_pressure,
-)
-from zlmreport.measurement.units import compute_above_reference
+from zlmreport.measurement.refractive_index import saturation_vapour_pressure
+from zlmreport.plugin import above_reference_temperature
+from zlmreport.plugin.instrument import index_change, refractive_index
 
 # Stone and Zimmerman, Index of refraction of air, NIST Engineering Metrology Toolbox
 # (emtoolbox.nist.gov/Wavelength/Documentation.asp), table 1: °C, % relative humidity, kPa, nm; the column of
@@ -78,4 +75,4 @@ def test_conditions_may_be_arrays() -> None:
 
 
 def test_reference_temperature_is_twenty_degrees_celsius() -> None:
-    assert compute_above_reference(20.0 + 273.15) == 0.0
+    assert above_reference_temperature(20.0 + 273.15) == 0.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, find_last_digit, find_step
+from zlmreport.measurement.measurement_set import find_last_digit, find_step
+from zlmreport.plugin import Axis, MeasurementSet
 
 TARGETS = np.linspace(0.003, 0.993, 11)
 

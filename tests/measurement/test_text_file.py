@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import AccessError, InputError
-from zlmreport.measurement.text_file import LONGEST_LINE, MOST_LINES, read_text, require_known_encoding
+from zlmreport.measurement.text_file import LONGEST_LINE, MOST_LINES
+from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin.source import known_encoding, read_text
 
 
 def written(folder: Path, content: bytes) -> Path:
@@ -189,10 +190,10 @@ def test_what_the_system_refuses_is_passed_on_in_its_words(tmp_path: Path) -> No
 
 @pytest.mark.parametrize("name", ["utf-8", "UTF-16", "cp1252", "gbk", "latin-1"])
 def test_an_encoding_is_known_by_any_of_its_names(name: str) -> None:
-    assert require_known_encoding(name) == name
+    assert known_encoding(name) == name
 
 
 @pytest.mark.parametrize("name", ["utf-80", "hex", "rot13", "idna", "undefined", "", "a\0b"])
 def test_what_is_no_encoding_of_text_is_refused(name: str) -> None:
     with pytest.raises(ValueError, match="is no encoding of text; for example"):
-        require_known_encoding(name)
+        known_encoding(name)

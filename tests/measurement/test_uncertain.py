@@ -7,7 +7,8 @@ import math
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.language.formatting import DecimalSign, round_pair
+from zlmreport.plugin import DecimalSign
+from zlmreport.plugin.renderer import rounded_pair
 
 
 @pytest.mark.parametrize(
@@ -25,24 +26,24 @@ from zlmreport.language.formatting import DecimalSign, round_pair
 def test_two_digits_of_the_uncertainty_are_kept(
     value: float, uncertainty: float, written: tuple[str, str]
 ) -> None:
-    assert round_pair(value, uncertainty) == written
+    assert rounded_pair(value, uncertainty) == written
 
 
 def test_a_value_without_uncertainty_keeps_three_decimals() -> None:
-    assert round_pair(1.23456, 0.0) == ("1.235", "0.000")
+    assert rounded_pair(1.23456, 0.0) == ("1.235", "0.000")
 
 
 def test_an_uncertainty_without_bound_is_said_to_be_so() -> None:
-    assert round_pair(1.23456, math.inf) == ("1.235", "∞")
+    assert rounded_pair(1.23456, math.inf) == ("1.235", "∞")
 
 
 def test_the_decimal_sign_is_that_of_the_reader() -> None:
-    assert round_pair(1.5, 0.25, DecimalSign.COMMA) == ("1,50", "0,25")
+    assert rounded_pair(1.5, 0.25, DecimalSign.COMMA) == ("1,50", "0,25")
 
 
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 99.0))
 def test_rounding_takes_no_more_than_a_twentieth_of_the_uncertainty(value: float, uncertainty: float) -> None:
-    written, half = (float(text.replace("−", "-")) for text in round_pair(value, uncertainty))
+    written, half = (float(text.replace("−", "-")) for text in rounded_pair(value, uncertainty))
     # Half a unit of the second digit is at most a twentieth of a number that begins with it.
     assert abs(written - value) <= uncertainty / 20 * (1 + 1e-9)
     assert abs(half - uncertainty) <= uncertainty / 20 * (1 + 1e-9)

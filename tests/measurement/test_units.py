@@ -6,17 +6,8 @@ import math
 
 import pytest
 
-from zlmreport.measurement.axis import AxisKind, list_position_units
-from zlmreport.measurement.units import (
-    ANGLE_UNITS,
-    LENGTH_UNITS,
-    PRESSURE_UNITS,
-    RATIO_UNITS,
-    TEMPERATURE_UNITS,
-    TIME_UNITS,
-    find_unit_named,
-    with_unit,
-)
+from zlmreport.measurement.units import PRESSURE_UNITS, RATIO_UNITS, TEMPERATURE_UNITS, with_unit
+from zlmreport.plugin import ANGLE_UNITS, LENGTH_UNITS, TIME_UNITS, AxisKind, position_units, unit_named
 
 
 @pytest.mark.parametrize(
@@ -34,7 +25,7 @@ from zlmreport.measurement.units import (
     ],
 )
 def test_a_length_is_known_by_its_spellings_with_either_micro_sign(spelling: str, metres: float) -> None:
-    assert find_unit_named(spelling, LENGTH_UNITS).to_si(1.0) == pytest.approx(metres, rel=4e-16)
+    assert unit_named(spelling, LENGTH_UNITS).to_si(1.0) == pytest.approx(metres, rel=4e-16)
 
 
 @pytest.mark.parametrize(
@@ -48,38 +39,38 @@ def test_a_length_is_known_by_its_spellings_with_either_micro_sign(spelling: str
     ],
 )
 def test_an_angle_is_known_by_its_spellings(spelling: str, radians: float) -> None:
-    assert find_unit_named(spelling, ANGLE_UNITS).to_si(1.0) == pytest.approx(radians, rel=4e-16)
+    assert unit_named(spelling, ANGLE_UNITS).to_si(1.0) == pytest.approx(radians, rel=4e-16)
 
 
 def test_one_milliradian_is_206_264806_arc_seconds() -> None:
-    milliradian = find_unit_named("mrad", ANGLE_UNITS).to_si(1.0)
-    assert find_unit_named("arcsec", ANGLE_UNITS).from_si(milliradian) == pytest.approx(206.264806, abs=5e-7)
+    milliradian = unit_named("mrad", ANGLE_UNITS).to_si(1.0)
+    assert unit_named("arcsec", ANGLE_UNITS).from_si(milliradian) == pytest.approx(206.264806, abs=5e-7)
 
 
 @pytest.mark.parametrize(
     ("spelling", "value", "kelvin"), [("°C", 20.0, 293.15), ("K", 293.15, 293.15), ("°F", 68.0, 293.15)]
 )
 def test_temperatures_have_zeros_of_their_own(spelling: str, value: float, kelvin: float) -> None:
-    assert find_unit_named(spelling, TEMPERATURE_UNITS).to_si(value) == pytest.approx(kelvin, rel=4e-16)
+    assert unit_named(spelling, TEMPERATURE_UNITS).to_si(value) == pytest.approx(kelvin, rel=4e-16)
 
 
 @pytest.mark.parametrize(
     ("spelling", "value"), [("Pa", 101325), ("hPa", 1013.25), ("mbar", 1013.25), ("kPa", 101.325)]
 )
 def test_one_atmosphere_is_the_same_in_every_unit(spelling: str, value: float) -> None:
-    assert find_unit_named(spelling, PRESSURE_UNITS).to_si(value) == pytest.approx(101325, rel=4e-16)
+    assert unit_named(spelling, PRESSURE_UNITS).to_si(value) == pytest.approx(101325, rel=4e-16)
 
 
 def test_a_humidity_is_a_ratio_and_a_time_is_in_seconds() -> None:
-    assert find_unit_named("%", RATIO_UNITS).to_si(45.0) == pytest.approx(0.45, rel=4e-16)
-    assert find_unit_named("min", TIME_UNITS).to_si(2.0) == 120.0
+    assert unit_named("%", RATIO_UNITS).to_si(45.0) == pytest.approx(0.45, rel=4e-16)
+    assert unit_named("min", TIME_UNITS).to_si(2.0) == 120.0
 
 
 def test_a_rotary_axis_has_no_lengths() -> None:
     with pytest.raises(
         ValueError, match=r"^'mm' is no unit of this quantity; .*known: mrad, rad, °, µm/m, µrad, ″"
     ):
-        find_unit_named("mm", list_position_units(AxisKind.ROTARY))
+        unit_named("mm", position_units(AxisKind.ROTARY))
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 from openpyxl import Workbook
 
-from zlmreport.errors import InputError
-from zlmreport.measurement.text_file import list_sheets_of, read_text
 from zlmreport.measurement.workbook import read_sheet_lines
+from zlmreport.plugin import InputError
+from zlmreport.plugin.source import read_text, sheets_of
 
 _READINGS = [["target", "1+", "1-"], [0, 0.1, -1e-05], [100, "1,3", None]]
 
@@ -63,7 +63,7 @@ def test_a_workbook_without_content_is_refused(tmp_path: Path) -> None:
 def test_the_sheet_that_is_named_is_read(tmp_path: Path) -> None:
     path = _saved(tmp_path, {"Before": _READINGS, "After": [["target"], [1]]})
     assert read_text(path, sheet="After").lines == ("target", "1")
-    assert list_sheets_of(path) == ("Before", "After")
+    assert sheets_of(path) == ("Before", "After")
 
 
 def test_a_sheet_that_is_not_there_is_answered_with_its_name(tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from document.certificate.documents import COMPLETE, certificate, job
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.job.job import Job
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import Certificate
 
 CIRCLE = {"plane": "ZX", "radius": 100, "feed": 500, "centre": [250, 200, 120], "calibrated_length": True}
 

@@ -10,9 +10,14 @@ from typing import Any
 import yaml
 
 from zlmreport import pipeline
-from zlmreport.document.blocks import (
+from zlmreport.job.loading import load
+from zlmreport.language.formatting import write_plain
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin.renderer import (
     Block,
     Cell,
+    Certificate,
     Facts,
     Formulas,
     Graph,
@@ -22,11 +27,6 @@ from zlmreport.document.blocks import (
     Table,
     Verdict,
 )
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.job.job import Job
-from zlmreport.job.loading import load
-from zlmreport.language.formatting import write_plain
-from zlmreport.plugin.registry import Registry, find_plugins
 
 ROOT = Path(__file__).parents[3]
 

@@ -3,7 +3,7 @@
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, lines_of
-from zlmreport.document.blocks import Notice
+from zlmreport.plugin.renderer import Notice
 
 AMENDS = {"number": "CAL-0", "reason": "Wrong serial number.", "changes": ["Serial number: S-1, not S-2"]}
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from document.certificate.documents import COMPLETE, FEW_TRIALS, certificate, lines_of, text_of, without
-from zlmreport.document.blocks import Graph, Table
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Graph, Table
 
 HEAD = "target,direction,run,deviation\n"
 AS_LEFT = (

@@ -12,20 +12,16 @@ from zlmreport import pipeline
 from zlmreport.document.certificate.attachments import (
     LARGEST_TOTAL,
     MOST_ATTACHMENTS,
-    Attachment,
-    Relationship,
-    Source,
     SourceRole,
     arrange_attachments,
     attach_sources,
     find_media_type,
     list_sources,
 )
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.measurement.provenance import SourceFile
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Attachment, Certificate, CertificateSource, Relationship
+from zlmreport.plugin.source import SourceFile
 
 PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1rest"
 
@@ -45,7 +41,7 @@ def attachment(name: str, size: int = 0) -> Attachment:
     return Attachment(name, bytes(size), "text/plain", Relationship.SOURCE, "")
 
 
-def paths(sources: tuple[Source, ...]) -> dict[str, SourceRole]:
+def paths(sources: tuple[CertificateSource, ...]) -> dict[str, SourceRole]:
     return {source.path: source.role for source in sources}
 
 
@@ -131,19 +127,18 @@ def test_files_of_one_name_are_told_apart(tmp_path: Path) -> None:
     ]
 
 
-def test_a_source_does_not_take_the_name_of_the_results_file(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="CAL-1.json")
-    assert certificate.sources[-1].name == "CAL-1-2.json"
-
-
-def test_a_source_whose_name_begins_like_the_certificate_s_files_gets_another(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="CAL-1.laser.csv")
-    assert certificate.sources[-1].name == "CAL-1-2.laser.csv"
-
-
-def test_a_name_that_is_not_seen_or_not_taken_everywhere_is_made_plain(tmp_path: Path) -> None:
-    certificate = composed(tmp_path, readings="a:b?.txt")
-    assert certificate.sources[-1].name == "a_b_.txt"
+@pytest.mark.parametrize(
+    ("readings", "name"),
+    [
+        ("CAL-1.json", "CAL-1-2.json"),  # the results file has that name
+        ("CAL-1.laser.csv", "CAL-1-2.laser.csv"),  # so begin the names of the certificate's own files
+        ("a:b?.txt", "a_b_.txt"),  # not seen, or not taken, everywhere
+    ],
+)
+def test_a_source_whose_name_is_taken_or_not_plain_gets_another(
+    tmp_path: Path, readings: str, name: str
+) -> None:
+    assert composed(tmp_path, readings=readings).sources[-1].name == name
 
 
 @pytest.mark.parametrize(
@@ -160,7 +155,7 @@ def test_an_attachment_says_what_it_is(tmp_path: Path, language: Language, descr
 
 
 def test_a_source_whose_reader_kept_no_bytes_is_named_and_not_attached() -> None:
-    source = Source(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
+    source = CertificateSource(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
     assert list(attach_sources([source], Language.ENGLISH)) == []
 
 

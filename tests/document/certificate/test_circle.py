@@ -9,9 +9,8 @@ from typing import Any
 import pytest
 
 from document.certificate.circles import document
-from zlmreport.document.blocks import Facts, Graph, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.figures.figure import Figure
+from zlmreport.plugin import Figure
+from zlmreport.plugin.renderer import Certificate, Facts, Graph, Table
 
 
 def blocks(of: Certificate, kind: type) -> Iterator[Any]:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.document.blocks import (
+from zlmreport.document.certificate import columns
+from zlmreport.plugin import Figure, Words, same_in_all_languages
+from zlmreport.plugin.renderer import (
     Align,
     Cell,
     Column,
@@ -16,9 +18,7 @@ from zlmreport.document.blocks import (
     Table,
     Verdict,
 )
-from zlmreport.document.certificate import columns
-from zlmreport.document.figures.figure import Figure, Panel
-from zlmreport.language import Words, same
+from zlmreport.plugin.standard import Panel
 
 NUMBERS = Align.RIGHT
 
@@ -133,9 +133,9 @@ def test_a_graph_is_higher_by_the_lines_that_a_long_name_adds_to_its_title() -> 
     title = Words("{test}: circle XY, R 150 mm; dashed, with ∑: what the axes predict")
 
     def height(name: str) -> float:
-        axes = (same("X"), same("Y"), "mm", "µm")
+        axes = (same_in_all_languages("X"), same_in_all_languages("Y"), "mm", "µm")
         return columns.estimate_height(
-            [Graph(Figure("circle", title.given(test=name), same(""), *axes, (Panel(),)))]
+            [Graph(Figure("circle", title.given(test=name), same_in_all_languages(""), *axes, (Panel(),)))]
         )
 
     assert height("n" * 80) - height("n") == pytest.approx(0.944 * 1.3 * 8.1)

@@ -9,14 +9,12 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, lines_of
-from zlmreport.document.blocks import Graph, Table
 from zlmreport.document.certificate import conformity
-from zlmreport.document.writer import Writer, write_with_uncertainty
-from zlmreport.evaluation.decision import make_decision_rule, with_decisions
-from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.document.writer import write_with_uncertainty
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
-from zlmreport.language import Language
-from zlmreport.measurement.units import MICROMETRE_PER_METRE
+from zlmreport.plugin import MICROMETRE_PER_METRE, Evaluation, Language
+from zlmreport.plugin.renderer import Graph, Table, Writer
+from zlmreport.plugin.standard import decided, decision_rule
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +29,7 @@ def evaluation(tmp_path_factory) -> Evaluation:
 
 def rows(evaluation: Evaluation, rule: str, language: Language = Language.ENGLISH) -> list[str]:
     writer = Writer.of(evaluation.measurements, language)
-    _, table = conformity.lay_out_conformity(with_decisions(evaluation, make_decision_rule(rule)), writer)
+    _, table = conformity.lay_out_conformity(decided(evaluation, decision_rule(rule)), writer)
     assert isinstance(table, Table)
     return [line.strip() for line in lines_of(table)[2:]]
 
@@ -61,7 +59,7 @@ def test_an_acceptance_limit_is_explained_where_one_is_drawn(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     captions = {}
     for rule in ("simple", "guard-band"):
-        graph, _ = conformity.lay_out_conformity(with_decisions(evaluation, make_decision_rule(rule)), writer)
+        graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule(rule)), writer)
         assert isinstance(graph, Graph)
         captions[rule] = graph.figure.title.in_language(Language.ENGLISH)
 
@@ -129,9 +127,7 @@ def test_a_rule_without_the_uncertainty_that_it_needs_says_so(evaluation):
 
 def test_the_graph_shows_amount_uncertainty_and_acceptance_in_percent_of_the_limit(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.lay_out_conformity(
-        with_decisions(evaluation, make_decision_rule("guard-band")), writer
-    )
+    graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
     bar = graph.figure.panels[0].bars[0]
     value = evaluation.value("A")
@@ -154,9 +150,7 @@ def test_without_any_uncertainty_there_is_a_graph_and_no_table_of_risks(evaluati
 
 def test_the_graph_is_told_to_those_who_cannot_see_it(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.lay_out_conformity(
-        with_decisions(evaluation, make_decision_rule("guard-band")), writer
-    )
+    graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
 
     told = graph.figure.alternative.in_language(Language.ENGLISH)

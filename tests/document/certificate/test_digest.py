@@ -15,8 +15,8 @@ import pytest
 
 from document.certificate.documents import certificate, having, registry
 from verification.issued import READINGS, content_of, issue, lay_out
-from zlmreport.document.certificate.digest import DIGEST, digest_of
-from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.digest import digest_of
+from zlmreport.plugin.renderer import DIGEST, Certificate
 
 _RFC_4648, _CROCKFORD = "ABCDEFGHIJKLMNOPQRSTUVWXYZ234567", "0123456789ABCDEFGHJKMNPQRSTVWXYZ"
 

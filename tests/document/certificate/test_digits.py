@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from document.certificate.documents import certificate, having
-from zlmreport.document.blocks import Symbol, Table
 from zlmreport.language.formatting import write_plain
+from zlmreport.plugin.renderer import Symbol, Table
 
 TARGETS = range(0, 401, 40)
 

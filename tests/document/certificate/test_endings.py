@@ -7,9 +7,17 @@ from dataclasses import replace
 import pytest
 
 from document.certificate.documents import certificate
-from zlmreport.document.blocks import Block, Column, Paragraph, RowGroup, Section, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.certificate.endings import Ending, find_endings
+from zlmreport.plugin.renderer import (
+    Block,
+    Certificate,
+    Column,
+    Ending,
+    Paragraph,
+    RowGroup,
+    Section,
+    Table,
+    endings,
+)
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +39,7 @@ SMALL = table(6)
 
 
 def ended(of: Certificate, *sections: Section) -> tuple[Ending, ...]:
-    return find_endings(replace(of, sections=sections))
+    return endings(replace(of, sections=sections))
 
 
 def test_blocks_at_the_end_stay_together_until_they_are_a_quarter_of_a_page(document: Certificate) -> None:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.document.blocks import Facts, Notice, Paragraph
-from zlmreport.document.certificate.columns import balance_facts, gather_facts
+from zlmreport.document.certificate.columns import gather_facts
+from zlmreport.plugin.renderer import Facts, Notice, Paragraph, facts_side_by_side
 
 
 def group(pairs: int, value: str = "value") -> Facts:
@@ -11,26 +11,26 @@ def group(pairs: int, value: str = "value") -> Facts:
 
 
 def test_a_single_group_keeps_the_width_of_the_page() -> None:
-    assert balance_facts((group(3),)) == ((group(3),),)
+    assert facts_side_by_side((group(3),)) == ((group(3),),)
 
 
 def test_two_groups_stand_side_by_side() -> None:
-    assert balance_facts((group(3), group(4))) == ((group(3),), (group(4),))
+    assert facts_side_by_side((group(3), group(4))) == ((group(3),), (group(4),))
 
 
 def test_columns_are_of_nearly_one_height() -> None:
     groups = (group(6), group(2), group(2), group(2))
-    assert balance_facts(groups) == (groups[:1], groups[1:])
+    assert facts_side_by_side(groups) == (groups[:1], groups[1:])
 
 
 def test_a_long_value_counts_with_all_its_lines() -> None:
     groups = (group(1, "word " * 60), group(2), group(2))
-    assert balance_facts(groups) == (groups[:1], groups[1:])
+    assert facts_side_by_side(groups) == (groups[:1], groups[1:])
 
 
 def test_groups_keep_their_order() -> None:
     groups = tuple(group(pairs) for pairs in (1, 5, 2, 4, 3))
-    first, second = balance_facts(groups)
+    first, second = facts_side_by_side(groups)
     assert first + second == groups
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, ROOT, certificate, registry
-from zlmreport.document.blocks import Graph
-from zlmreport.measurement.measurand import POSITIONING, list_measurands_of
+from zlmreport.plugin import POSITIONING, measurands_of
+from zlmreport.plugin.renderer import Graph
 
 LAYOUTS = ("sheet", "standard", "full")
 #: What has measurements of each measurand; positioning is that of an axis.
@@ -28,7 +28,7 @@ WITHOUT_EXAMPLE = {"parallelism"}
 OF_EACH = [
     (standard.identifier, each.identifier)
     for standard in registry().standards
-    for each in list_measurands_of(standard)
+    for each in measurands_of(standard)
     if each.identifier not in WITHOUT_EXAMPLE
 ]
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 
 _TOLD: Mapping[str, Any] = {
     "axis": {"name": "Y", "travel": [-20, 20], "compensation_table": "none"},

@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, text_of
-from zlmreport.errors import InputError
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 
 ROTARY = Path(__file__).parents[3] / "configs" / "rotary-axis" / "c-axis.csv"
 

@@ -6,7 +6,7 @@ import pytest
 from PIL import Image
 
 from zlmreport.document.certificate.own_look import read_logo
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.plugin import AccessError, InputError, Place
 
 PLACE = Place("job.yaml", 3, 9)
 

@@ -4,10 +4,9 @@ from pathlib import Path
 from typing import Any
 
 from document.certificate.documents import COMPLETE, certificate
-from zlmreport.document.blocks import Facts, Paragraph, Table
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import say_of_each
-from zlmreport.language import Language, Words
+from zlmreport.plugin import Language, Words
+from zlmreport.plugin.renderer import Certificate, Facts, Paragraph, Table
 
 READINGS = "target,direction,run,deviation\n" + "".join(
     f"{at},{way},1,{at * 0.01}\n" for way in "+-" for at in range(0, 500, 100)

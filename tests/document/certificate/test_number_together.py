@@ -12,9 +12,8 @@ import pypdf
 import pytest
 
 from document.certificate.documents import certificate, having, registry
-from zlmreport.document.blocks import Facts
 from zlmreport.document.typesetting.templates import FactsContext, render
-from zlmreport.plugin.renderer import Certificate
+from zlmreport.plugin.renderer import Certificate, Facts
 
 #: Numbers as laboratories give them, wider than a column of facts at its usual size.
 NUMBERS = {

@@ -13,8 +13,8 @@ import pytest
 from fontTools.ttLib import TTFont
 
 from document.certificate.documents import certificate, having, registry
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin.renderer import Certificate
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 TYPEFACE = {"regular": str(FONTS / "DejaVuSerif.ttf"), "semibold": str(FONTS / "DejaVuSerif-Bold.ttf")}

@@ -11,8 +11,8 @@ import pytest
 
 from document.certificate.documents import COMPLETE, certificate, job, registry
 from zlmreport import pipeline
-from zlmreport.document.blocks import Notice
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
+from zlmreport.plugin.renderer import Notice
 from zlmreport.verification.verify import verify
 
 LEAST = ["results", "uncertainty", "conditions"]

@@ -3,9 +3,8 @@
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, having, job, without
-from zlmreport.document.certificate.cover import place_of_work
-from zlmreport.errors import InputError
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import place_of_work
 
 CUSTOMER = COMPLETE["customer"]["address"]
 LABORATORY = COMPLETE["laboratory"]["address"]

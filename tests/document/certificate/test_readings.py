@@ -3,12 +3,10 @@
 import numpy as np
 import pytest
 
-from zlmreport.document.blocks import Notice, Table
 from zlmreport.document.certificate import readings
-from zlmreport.document.writer import NOTHING, Writer
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.document.writer import NOTHING
+from zlmreport.plugin import Axis, Language, MeasurementSet
+from zlmreport.plugin.renderer import Notice, Table, Writer
 
 
 def linear_test(targets, runs, missing=(), directions=(1, -1)):

@@ -7,12 +7,11 @@ from collections.abc import Iterable
 from hypothesis import given, settings, strategies as st
 
 from document.certificate.documents import lines_of
-from zlmreport.document.blocks import Facts, Notice, Paragraph
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.sheet_filling import Filled, SheetContent, fill, lay_out_details
-from zlmreport.document.writer import Writer
-from zlmreport.language import Language
 from zlmreport.measurement import units
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Facts, Notice, Paragraph, Writer
 
 #: Of a page, points.
 PAGE = 650.0

@@ -15,10 +15,10 @@ import yaml
 from hypothesis import example, given, settings, strategies as st
 
 from document.certificate.documents import COMPLETE, ROOT, certificate, having, lines_of, registry, without
-from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate import columns
-from zlmreport.document.certificate.document import Certificate, Head, Letterhead, Party
-from zlmreport.language import Language
+from zlmreport.document.certificate.document import Head, Party
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Block, Certificate, Facts, Graph, Letterhead, Notice, Paragraph, Table
 
 SEVEN = (
     {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},

@@ -15,11 +15,10 @@ import pytest
 from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
 from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
-from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.standard_layout import draw_in_less_room, find_main_graph
-from zlmreport.document.figures.figure import Curve, Panel, Role
-from zlmreport.language import same
+from zlmreport.plugin import same_in_all_languages
+from zlmreport.plugin.renderer import Block, Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
+from zlmreport.plugin.standard import Curve, Panel, Role
 
 SEVEN = (
     {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
@@ -221,7 +220,10 @@ def test_what_is_said_of_a_standard_stands_below_its_own_definitions(seven: Cert
 def test_quantities_of_their_own_stand_one_below_the_other_on_one_axis() -> None:
     x = np.arange(3.0)
     curve = Curve("Z", Role.CHANNEL_1, x, x)
-    panels = (Panel(curves=(curve,)), Panel(curves=(curve,), y_title=same("Temperature"), y_unit="°C"))
+    panels = (
+        Panel(curves=(curve,)),
+        Panel(curves=(curve,), y_title=same_in_all_languages("Temperature"), y_unit="°C"),
+    )
     alike = figure(*panels[:1], panels[0])
     of_several = figure(*panels)
     assert [each.is_wide for each in draw_in_less_room([alike])] == [True]

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, job
-from zlmreport.document.certificate.statements import say_traceable_through
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import traceable_through
 
 READINGS = "target,direction,run,deviation\n" + "".join(
     f"{at},{way},1,{at * 0.01}\n" for way in "+-" for at in range(0, 500, 100)
@@ -28,7 +28,7 @@ def said(folder: Path, first: dict[str, Any], second: dict[str, Any], **others: 
     report = {**COMPLETE["certificate"], "kind": "report"}
     whole = {**keys, "certificate": report, "measurement": measurement, "evaluate": ["iso230-1:2012"]}
     whole |= others
-    found = say_traceable_through(job(folder, whole))
+    found = traceable_through(job(folder, whole))
     return found.in_language(Language.ENGLISH) if found else ""
 
 

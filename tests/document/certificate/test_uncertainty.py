@@ -10,10 +10,8 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, having, text_of
-from zlmreport.document.blocks import Explained, Graph, Notice, Section, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Certificate, Explained, Graph, Notice, Section, Table
 
 STATED = {
     "misalignment": 0.02,

@@ -8,12 +8,10 @@ import pytest
 
 from plugins.standards.installed import STANDARDS
 from zlmreport.document.certificate.values import Values, write_coverage_factor
-from zlmreport.document.writer import Writer, write_uncertainty, write_with_uncertainty
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
-from zlmreport.job.types import Options
-from zlmreport.language import Language
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+from zlmreport.document.writer import write_uncertainty, write_with_uncertainty
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, Evaluation, Language, Options
+from zlmreport.plugin.renderer import EvaluatedParameter, Writer
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 #: Of readings with two decimals.

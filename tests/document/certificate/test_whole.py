@@ -7,8 +7,8 @@ import pytest
 
 from document.certificate.documents import certificate, having, lines_of
 from document.certificate.everything import EVERYTHING, write_tables
-from zlmreport.document.blocks import Facts
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
+from zlmreport.plugin.renderer import Facts
 
 GOLDEN = Path(__file__).with_name("golden")
 #: The sections that are not about one standard, the budget or the files.

@@ -9,12 +9,12 @@ import numpy as np
 
 from plugins.effects.installed import EFFECTS
 from zlmreport.document.figures.model_diagram import ModelDiagram
-from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, Term
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import FloatArray, read_only_floats
+from zlmreport.plugin.effect import Design
 from zlmreport.testing import full_designs
 
 #: The axis: scale error, lost motion, a wave of the screw, scatter of single readings; m and m/m.

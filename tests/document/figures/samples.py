@@ -7,26 +7,20 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from zlmreport.document.figures.canvas import Colour, Fill, Run, Segment, Stroke
-from zlmreport.document.figures.draw import draw
-from zlmreport.document.figures.figure import (
-    Arrow,
-    Band,
-    Bar,
-    Bracket,
-    Curve,
-    Figure,
-    Level,
-    Panel,
-    PlottedReadings,
-    Role,
-)
-from zlmreport.document.figures.layout import measure_figure
-from zlmreport.document.figures.metrics import make_plain_label
+from zlmreport.document.figures.figure import Bar, PlottedReadings
 from zlmreport.document.figures.shapes import Box
-from zlmreport.language import Language, Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import Approach, Figure, FloatArray, Language, Words
+from zlmreport.plugin.page import (
+    Colour,
+    Fill,
+    Segment,
+    Stroke,
+    TextRun,
+    draw_figure,
+    figure_size,
+    plain_label,
+)
+from zlmreport.plugin.standard import Arrow, Band, Bracket, Curve, Level, Panel, Role
 
 TARGETS = np.array([0.0, 250.0, 500.0, 750.0, 1000.0])
 FORWARD = np.array([1.5, 4.0, -2.5, 3.0, 6.5])
@@ -276,7 +270,7 @@ class DrawnText:
     """A line of text on the canvas."""
 
     kind: str
-    runs: list[Run]
+    runs: list[TextRun]
     angle: float
 
     @property
@@ -288,7 +282,7 @@ class DrawnText:
     def box(self) -> Box:
         """The room of its letters, y downwards: from the height of a capital to the baseline."""
         last = self.runs[-1]
-        length = last.x - self.runs[0].x + make_plain_label(last.text, last.size, last.face).width
+        length = last.x - self.runs[0].x + plain_label(last.text, last.size, last.face).width
         x, y, size = self.runs[0].x, self.runs[0].y, self.runs[0].size
         if self.angle:
             return Box(x - 0.7 * size, y - length, x, y)
@@ -308,7 +302,7 @@ class Recording:
         """Remember an outline."""
         self.outlines.append(DrawnOutline(kind, list(segments), stroke, fill))
 
-    def text(self, kind: str, runs: Sequence[Run], colour: Colour, angle: float) -> None:
+    def text(self, kind: str, runs: Sequence[TextRun], colour: Colour, angle: float) -> None:
         """Remember a line of text."""
         del colour
         self.texts.append(DrawnText(kind, list(runs), angle))
@@ -325,7 +319,7 @@ class Recording:
 def drawn(of: Figure, language: Language = Language.ENGLISH) -> Recording:
     """Return what is drawn of a figure."""
     canvas = Recording()
-    draw(of, language, canvas)
+    draw_figure(of, language, canvas)
     return canvas
 
 
@@ -374,7 +368,7 @@ DIMENSIONS = ("arrow", "bracket", "level")
 def collisions(of: Figure, language: Language = Language.ENGLISH) -> list[str]:
     """Return the labels of a figure that lie on each other, on a line of a dimension, or outside of it."""
     canvas = drawn(of, language)
-    width, height = measure_figure(of)
+    width, height = figure_size(of)
     dimensions = [text.box for text in canvas.texts_of(*DIMENSIONS)]
     around = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
     found = [

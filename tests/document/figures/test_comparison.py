@@ -8,13 +8,10 @@ import numpy as np
 import pytest
 
 from document.typesetting import samples
-from zlmreport.document.figures.figure import Figure, Role
 from zlmreport.document.figures.layout import lay_out
 from zlmreport.document.figures.prescribed import draw_comparison
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.language import Language, Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.plugin import Approach, Evaluation, Figure, Language, Words, read_only_floats
+from zlmreport.plugin.standard import Role
 
 NAMES = (Words("as found", "vorher"), Words("as left", "nachher"))
 

@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given, strategies as st
 
 from document.figures.samples import pairs
-from zlmreport.document.figures.canvas import Label, Run, TypeFace
 from zlmreport.document.figures.dimensions import (
     HEAD,
     DimensionSpan,
@@ -18,13 +17,14 @@ from zlmreport.document.figures.dimensions import (
     spread,
 )
 from zlmreport.document.figures.shapes import Box, count_points
+from zlmreport.plugin.page import FontFace, TextLabel, TextRun
 
 NOTHING = np.empty((0, 2))
 REGION = Box(0.0, 0.0, 300.0, 200.0)
 
 
-def _label(width: float = 12.0) -> Label:
-    return Label((Run("A", TypeFace.ITALIC, 8.0, 0.0, 0.0),), width, 8.0)
+def _label(width: float = 12.0) -> TextLabel:
+    return TextLabel((TextRun("A", FontFace.ITALIC, 8.0, 0.0, 0.0),), width, 8.0)
 
 
 def _span(low: float, high: float, at: float = 150.0) -> DimensionSpan:

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from document.figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
-from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.figure import Bar, Figure, Panel
-from zlmreport.document.figures.layout import measure_figure, write_axis_title
-from zlmreport.language import Language, Words, same
+from zlmreport.document.figures.figure import Bar
+from zlmreport.document.figures.layout import write_axis_title
+from zlmreport.plugin import Figure, Language, Words, same_in_all_languages
+from zlmreport.plugin.page import FontFace, figure_size
+from zlmreport.plugin.standard import Panel
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
 
@@ -82,9 +83,9 @@ def test_the_readings_are_named_in_german() -> None:
 def test_a_symbol_is_set_in_italics_and_subscript() -> None:
     label = drawn(figure(both_directions())).texts_of("legend")[0]
     assert [(run.text, run.face) for run in label.runs] == [
-        ("x̄", TypeFace.ITALIC),
-        ("i", TypeFace.ITALIC),
-        ("↑", TypeFace.REGULAR),
+        ("x̄", FontFace.ITALIC),
+        ("i", FontFace.ITALIC),
+        ("↑", FontFace.REGULAR),
     ]
     letter, index, arrow = label.runs
     assert index.size < letter.size == arrow.size
@@ -92,14 +93,14 @@ def test_a_symbol_is_set_in_italics_and_subscript() -> None:
 
 
 def test_a_bar_named_by_a_symbol_has_it_as_a_table_has_it() -> None:
-    named = Bar(same("P_{s max}"), 80.0, same("80.0"), is_symbol=True)
-    words = Bar(same("a word"), 60.0, same("60.0"))
+    named = Bar(same_in_all_languages("P_{s max}"), 80.0, same_in_all_languages("80.0"), is_symbol=True)
+    words = Bar(same_in_all_languages("a word"), 60.0, same_in_all_languages("60.0"))
     symbol, plain = drawn(figure(Panel(bars=(named, words)))).texts_of("tick x")
     assert [(run.text, run.face) for run in symbol.runs] == [
-        ("P", TypeFace.ITALIC),
-        ("s max", TypeFace.REGULAR),
+        ("P", FontFace.ITALIC),
+        ("s max", FontFace.REGULAR),
     ]
-    assert [(run.text, run.face) for run in plain.runs] == [("a word", TypeFace.REGULAR)]
+    assert [(run.text, run.face) for run in plain.runs] == [("a word", FontFace.REGULAR)]
 
 
 def test_the_runs_of_a_symbol_follow_one_another_without_overlap() -> None:
@@ -113,15 +114,19 @@ def test_the_title_of_the_values_reads_upwards() -> None:
 
 
 def test_a_long_title_of_the_values_stays_inside_a_low_graph() -> None:
-    long = replace(figure(both_directions()), y_title=same("Slope of the residuals of a pass"), height=50)
+    long = replace(
+        figure(both_directions()),
+        y_title=same_in_all_languages("Slope of the residuals of a pass"),
+        height=50,
+    )
     _, y_title = drawn(long).texts_of("title")
-    _, height = measure_figure(long)
+    _, height = figure_size(long)
     assert 0 < y_title.box.bottom < y_title.box.top < height
 
 
 def test_names_of_one_line_leave_no_second_line_free_below_them() -> None:
     def gap(*names: str) -> float:
-        bars = tuple(Bar(same(name), 80.0, same("80.0")) for name in names)
+        bars = tuple(Bar(same_in_all_languages(name), 80.0, same_in_all_languages("80.0")) for name in names)
         canvas = drawn(figure(Panel(bars=bars)))
         x_title, _ = canvas.texts_of("title")
         return x_title.box.bottom - max(each.box.top for each in canvas.texts_of("tick x"))
@@ -146,7 +151,7 @@ def test_no_extension_line_runs_through_the_label_of_a_bracket() -> None:
 
 @by_name
 def test_everything_drawn_is_finite_and_inside(sample: Figure) -> None:
-    width, height = measure_figure(sample)
+    width, height = figure_size(sample)
     for outline in drawn(sample).outlines:
         assert np.isfinite(outline.points).all(), outline
         assert outline.points.min() >= 0, outline
@@ -157,7 +162,7 @@ def test_everything_drawn_is_finite_and_inside(sample: Figure) -> None:
 def _beside_temperatures() -> Figure:
     """Return a figure whose second panel shows a temperature."""
     first, second = each_direction()
-    return figure(first, replace(second, y_title=same("Temperature"), y_unit="°C"))
+    return figure(first, replace(second, y_title=same_in_all_languages("Temperature"), y_unit="°C"))
 
 
 def test_a_panel_of_another_quantity_has_its_own_title() -> None:
@@ -173,7 +178,10 @@ def test_titles_of_several_quantities_do_not_meet(*, is_wide: bool) -> None:
 
 
 def test_an_axis_names_a_unit_that_is_but_a_small_sign() -> None:
-    titles = [write_axis_title(same("Deviation"), unit, Language.ENGLISH) for unit in ("″", "°", "µm")]
+    titles = [
+        write_axis_title(same_in_all_languages("Deviation"), unit, Language.ENGLISH)
+        for unit in ("″", "°", "µm")
+    ]
     assert titles == ["Deviation in ″ (arcsec)", "Deviation in ° (deg)", "Deviation in µm"]
 
 

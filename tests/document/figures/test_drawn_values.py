@@ -20,9 +20,9 @@ from document.figures.samples import (
     figure,
     many_targets,
 )
-from zlmreport.document.figures.figure import Bar, Panel
-from zlmreport.language import same
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.document.figures.figure import Bar
+from zlmreport.plugin import FloatArray, same_in_all_languages
+from zlmreport.plugin.standard import Panel
 
 #: Half a millionth of the height of the drawing: rounding of the straight line through the ticks.
 EXACT = 1e-6
@@ -173,14 +173,24 @@ def test_bars_grow_from_zero_to_their_values() -> None:
 
 
 def test_a_whisker_reaches_as_far_as_the_uncertainty_to_both_sides() -> None:
-    canvas = drawn(figure(Panel(bars=(Bar(same("A"), 60.0, same("60"), uncertainty=15.0),))))
+    canvas = drawn(
+        figure(
+            Panel(
+                bars=(Bar(same_in_all_languages("A"), 60.0, same_in_all_languages("60"), uncertainty=15.0),)
+            )
+        )
+    )
     (whisker,) = canvas.of("whisker")
     ends = sorted(set(np.round(Readback(canvas).y(whisker.points[:, 1]), 6)))
     assert ends == [45.0, 75.0]
 
 
 def test_an_acceptance_limit_crosses_its_bar() -> None:
-    canvas = drawn(figure(Panel(bars=(Bar(same("A"), 60.0, same("60"), accepted=80.0),))))
+    canvas = drawn(
+        figure(
+            Panel(bars=(Bar(same_in_all_languages("A"), 60.0, same_in_all_languages("60"), accepted=80.0),))
+        )
+    )
     (bar,), (accepted,) = canvas.of("bar"), canvas.of("accepted")
     assert set(np.round(Readback(canvas).y(accepted.points[:, 1]), 6)) == {80.0}
     assert accepted.points[:, 0].min() < bar.points[:, 0].min()

@@ -21,7 +21,6 @@ from document.figures.model_samples import (
     one_way,
 )
 from document.figures.samples import drawn
-from zlmreport.document.figures.figure import Figure, Panel, Role
 from zlmreport.document.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.document.figures.model_residuals import (
     draw_fall_chart,
@@ -31,10 +30,9 @@ from zlmreport.document.figures.model_residuals import (
     draw_over_time,
     draw_slopes_over_time,
 )
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.design import place_at_positions
+from zlmreport.plugin import Approach, Figure, FloatArray, Language
+from zlmreport.plugin.standard import Panel, Role
 
 MICROMETRE = 1e6
 

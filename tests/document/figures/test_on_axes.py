@@ -16,10 +16,9 @@ from matplotlib.text import Annotation
 
 from document.figures.samples import ALL
 from plugins.standards.installed import STANDARDS
-from zlmreport.document.figures.figure import Figure
 from zlmreport.document.figures.on_axes import put
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.language import Language
+from zlmreport.plugin import Figure, Language
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 
 ISO = STANDARDS["iso230-2:2014"]

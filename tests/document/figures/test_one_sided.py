@@ -7,12 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.figure import Role
-from zlmreport.document.figures.prescribed import Diagram
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.job.types import Options
+from zlmreport.plugin import Evaluation, Options
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.standard import Diagram, Role, evaluate
 from zlmreport.testing import bidirectional_test
 
 ISO = find_plugins().standard("iso230-2:2014")

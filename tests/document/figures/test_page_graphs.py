@@ -13,10 +13,9 @@ from weasyprint import CSS, HTML
 from weasyprint.text.fonts import FontConfiguration
 
 from document.figures.samples import ALL, ORDINARY, Recording, drawn
-from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.figure import Figure
 from zlmreport.document.figures.metrics import find_font_file
-from zlmreport.language import Language
+from zlmreport.plugin import Figure, Language
+from zlmreport.plugin.page import FontFace
 from zlmreport_plugins.renderers.pdf.press import FAMILY, PageGraph
 
 ALTERNATIVE = "Abweichung x̄i↑ über der Position"
@@ -29,9 +28,9 @@ def typeset() -> Typeset:
     """Return what makes a PDF document of figures, in the bundled faces."""
     fonts = FontConfiguration()
     looks = {
-        TypeFace.REGULAR: (400, "normal"),
-        TypeFace.ITALIC: (400, "italic"),
-        TypeFace.SEMIBOLD: (600, "normal"),
+        FontFace.REGULAR: (400, "normal"),
+        FontFace.ITALIC: (400, "italic"),
+        FontFace.SEMIBOLD: (600, "normal"),
     }
     faces = "".join(
         f'@font-face {{ font-family: "{FAMILY}"; src: url({find_font_file(face).as_uri()});'

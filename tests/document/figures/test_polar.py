@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.draw import draw_figure_shapes, draw_legend, to_svg
-from zlmreport.document.figures.figure import Curve, Figure, Level, Panel, Role
-from zlmreport.document.figures.layout import lay_out, measure_figure
+from zlmreport.document.figures.draw import draw_figure_shapes, draw_legend
+from zlmreport.document.figures.layout import lay_out
 from zlmreport.document.figures.polar import find_largest_square, make_polar_grid, place_on_circle
 from zlmreport.document.figures.shapes import Box, PointMarks
-from zlmreport.language import Language, same
-from zlmreport.language.formatting import DecimalSign
+from zlmreport.plugin import DecimalSign, Figure, Language, same_in_all_languages
+from zlmreport.plugin.page import figure_size, figure_to_svg
+from zlmreport.plugin.standard import Curve, Level, Panel, Role
 
 ANGLES = np.linspace(0.0, 360.0, 361)
 
@@ -21,10 +21,10 @@ def figure(values, **of_panel):
     panel = Panel(curves=(Curve("G", Role.MEAN_POSITIVE, ANGLES, values),), **of_panel)
     return Figure(
         "circle",
-        same("Circle"),
-        same("A circle."),
-        same("Angle"),
-        same("Radial"),
+        same_in_all_languages("Circle"),
+        same_in_all_languages("A circle."),
+        same_in_all_languages("Angle"),
+        same_in_all_languages("Radial"),
         "°",
         "µm",
         (panel,),
@@ -51,7 +51,7 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
     (panel,) = layout.panels
     assert panel.frame.box.width == pytest.approx(panel.frame.box.height)
     assert panel.frame.x_factor == pytest.approx(panel.frame.y_factor)
-    width, height = measure_figure(shown)
+    width, height = figure_size(shown)
     box = panel.frame.box
     assert 0 <= box.left < box.right <= width
     assert 0 <= box.bottom < box.top <= height
@@ -69,7 +69,7 @@ def test_a_circle_uses_the_height_of_its_figure(height, least):
 
 def test_the_angles_stand_outside_of_the_circle_and_inside_of_the_figure():
     shown = figure(3.0 * np.cos(np.radians(ANGLES)), directions=((0, "+X"), (180, "−X")))
-    width, _ = measure_figure(shown)
+    width, _ = figure_size(shown)
     layout = lay_out(shown, Language.ENGLISH)
     rim = max((each.parts[0] for each in draw_figure_shapes(layout) if each.kind == "grid"), key=np.ptp)
     (right,), (left,) = (
@@ -114,7 +114,7 @@ def test_a_curve_shows_its_sense_by_an_arrow_along_it():
 
 
 def test_the_distance_of_circles_is_told_in_words_of_the_language():
-    image = to_svg(figure(3.0 * np.cos(np.radians(ANGLES))), Language.GERMAN)
+    image = figure_to_svg(figure(3.0 * np.cos(np.radians(ANGLES))), Language.GERMAN)
     assert "von Kreis zu Kreis" in image
     assert "°" in image
 

@@ -8,10 +8,8 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.document.figures.figure import Role
-from zlmreport.document.figures.prescribed import Diagram, panel, worst
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import Approach
+from zlmreport.plugin.standard import Diagram, Role, diagram_panel, evaluate, worst_position
 from zlmreport.testing import bidirectional_test
 
 NAN = math.nan
@@ -24,8 +22,8 @@ NOWHERE = np.full(3, NAN)
 
 
 def test_worst_is_the_target_with_the_largest_defined_value() -> None:
-    assert worst(np.array([1.0, NAN, 5.0, 2.0])) == 2
-    assert worst(np.array([NAN, NAN])) is None
+    assert worst_position(np.array([1.0, NAN, 5.0, 2.0])) == 2
+    assert worst_position(np.array([NAN, NAN])) is None
 
 
 def test_values_in_metres_become_micrometres_over_millimetres() -> None:
@@ -79,6 +77,6 @@ def test_a_bracket_takes_its_notation_from_the_standard_and_its_ends_from_either
 
 def test_a_panel_leaves_out_what_is_not_defined() -> None:
     level = DIAGRAM.level("x", Role.BAND_LIMIT, 0.0)
-    shown = panel(curves=[None], levels=[None, level])
+    shown = diagram_panel(curves=[None], levels=[None, level])
 
     assert (shown.curves, shown.levels) == ((), (level,))

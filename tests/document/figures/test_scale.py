@@ -12,10 +12,10 @@ from zlmreport.document.figures.scale import (
     make_category_scale,
     make_position_scale,
     make_value_scales,
-    round_ticks,
     widen,
 )
-from zlmreport.language.formatting import DecimalSign
+from zlmreport.plugin import DecimalSign
+from zlmreport.plugin.page import round_ticks
 
 POINT = DecimalSign.POINT
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.draw import to_svg
-from zlmreport.document.figures.figure import Panel
 from zlmreport.document.figures.sequence import draw_sequence
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import Approach, Axis, AxisKind, Language
+from zlmreport.plugin.page import figure_to_svg
+from zlmreport.plugin.standard import Panel
 from zlmreport.testing import sample_motion
 
 
@@ -67,4 +65,4 @@ def test_sequence_is_told_to_those_who_cannot_see_it(language: Language) -> None
 def test_rotary_axis_has_degrees() -> None:
     turning = sample_motion(axis=Axis("C", AxisKind.ROTARY), targets=(0.0, 90.0, 180.0))
     assert draw_sequence(turning).y_unit == "°"
-    assert "180°" in to_svg(draw_sequence(turning), Language.ENGLISH)
+    assert "180°" in figure_to_svg(draw_sequence(turning), Language.ENGLISH)

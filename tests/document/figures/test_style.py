@@ -7,10 +7,10 @@ import itertools
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.canvas import Colour
-from zlmreport.document.figures.figure import Role
-from zlmreport.document.figures.shapes import READINGS, ROLES
-from zlmreport.measurement.approach import Approach
+from zlmreport.document.figures.shapes import READINGS
+from zlmreport.plugin import Approach
+from zlmreport.plugin.page import ROLE_STYLES, Colour
+from zlmreport.plugin.standard import Role
 
 roles = pytest.mark.parametrize("role", Role, ids=lambda role: role.name.lower())
 
@@ -34,28 +34,28 @@ def _luminance(colour: Colour) -> float:
 
 
 def test_every_role_has_a_style() -> None:
-    assert set(ROLES) == set(Role)
+    assert set(ROLE_STYLES) == set(Role)
 
 
 def test_no_two_roles_share_both_line_and_mark() -> None:
-    looks = [(style.stroke.dashes, style.mark) for style in ROLES.values()]
+    looks = [(style.stroke.dashes, style.mark) for style in ROLE_STYLES.values()]
     assert len(set(looks)) == len(looks)
 
 
 def test_lines_without_marks_differ_in_their_dashes() -> None:
-    dashes = [style.stroke.dashes for style in ROLES.values() if style.mark is None]
+    dashes = [style.stroke.dashes for style in ROLE_STYLES.values() if style.mark is None]
     assert len(set(dashes)) == len(dashes)
 
 
 @roles
 def test_a_line_stands_out_from_white_paper_without_its_colour(role: Role) -> None:
-    contrast = 1.05 / (_luminance(ROLES[role].stroke.colour) + 0.05)
+    contrast = 1.05 / (_luminance(ROLE_STYLES[role].stroke.colour) + 0.05)
     assert contrast >= 4.0
 
 
 @roles
 def test_a_band_is_lighter_than_its_limits_and_lets_the_grid_through(role: Role) -> None:
-    assert 0 < ROLES[role].tint.opacity <= 0.2
+    assert 0 < ROLE_STYLES[role].tint.opacity <= 0.2
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_a_band_is_lighter_than_its_limits_and_lets_the_grid_through(role: Role)
     ],
 )
 def test_colours_of_a_pair_stay_apart_for_the_red_green_blind(one: Role, other: Role) -> None:
-    seen = [DEUTERANOPIA @ _linear(ROLES[role].stroke.colour) for role in (one, other)]
+    seen = [DEUTERANOPIA @ _linear(ROLE_STYLES[role].stroke.colour) for role in (one, other)]
     assert np.abs(seen[0] - seen[1]).max() > 0.1
 
 
@@ -80,4 +80,4 @@ def test_readings_of_the_two_approaches_point_where_their_arrows_do() -> None:
 
 def test_readings_are_finer_than_any_curve() -> None:
     widths = [stroke.width for _, stroke in READINGS.values()]
-    assert all(width < style.stroke.width for width, style in itertools.product(widths, ROLES.values()))
+    assert all(width < style.stroke.width for width, style in itertools.product(widths, ROLE_STYLES.values()))

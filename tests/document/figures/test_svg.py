@@ -9,16 +9,14 @@ import pytest
 
 from document.figures.samples import ALL, both_directions, figure
 from processes import PYTHON, run
-from zlmreport.document.figures.draw import to_svg
-from zlmreport.document.figures.figure import Figure
-from zlmreport.document.figures.layout import measure_figure
-from zlmreport.language import Language, same
+from zlmreport.plugin import Figure, Language, same_in_all_languages
+from zlmreport.plugin.page import figure_size, figure_to_svg
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 def _svg(language: Language = Language.ENGLISH) -> ET.Element:
-    return ET.fromstring(to_svg(figure(both_directions()), language))
+    return ET.fromstring(figure_to_svg(figure(both_directions()), language))
 
 
 def _lines(image: ET.Element) -> list[str]:
@@ -27,7 +25,7 @@ def _lines(image: ET.Element) -> list[str]:
 
 @pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
 def test_every_figure_is_well_formed(sample: Figure) -> None:
-    assert ET.fromstring(to_svg(sample, Language.GERMAN)).tag == f"{SVG}svg"
+    assert ET.fromstring(figure_to_svg(sample, Language.GERMAN)).tag == f"{SVG}svg"
 
 
 def test_the_image_is_as_wide_as_the_text_of_a_page() -> None:
@@ -35,7 +33,7 @@ def test_the_image_is_as_wide_as_the_text_of_a_page() -> None:
 
 
 def test_one_panel_is_90_millimetres_high() -> None:
-    _, height = measure_figure(figure(both_directions()))
+    _, height = figure_size(figure(both_directions()))
     assert height == pytest.approx(90 / 25.4 * 72)
 
 
@@ -59,9 +57,16 @@ def test_the_image_says_what_it_shows() -> None:
 def test_markup_in_a_text_stays_text() -> None:
     sample = figure(both_directions())
     named = type(sample)(
-        "k", sample.title, sample.alternative, same("<b>X</b> & Y"), sample.y_title, "mm", "µm", ()
+        "k",
+        sample.title,
+        sample.alternative,
+        same_in_all_languages("<b>X</b> & Y"),
+        sample.y_title,
+        "mm",
+        "µm",
+        (),
     )
-    assert "<b>X</b> & Y in mm" in _lines(ET.fromstring(to_svg(named, Language.ENGLISH)))
+    assert "<b>X</b> & Y in mm" in _lines(ET.fromstring(figure_to_svg(named, Language.ENGLISH)))
 
 
 def test_a_turned_title_stands_at_the_left_edge() -> None:
@@ -72,7 +77,7 @@ def test_a_turned_title_stands_at_the_left_edge() -> None:
 
 
 def test_the_same_figure_gives_the_same_bytes() -> None:
-    assert to_svg(figure(both_directions()), Language.ENGLISH) == to_svg(
+    assert figure_to_svg(figure(both_directions()), Language.ENGLISH) == figure_to_svg(
         figure(both_directions()), Language.ENGLISH
     )
 
@@ -86,11 +91,11 @@ def test_another_process_gives_the_same_bytes() -> None:
     )
     tests = __file__.rsplit("/figures/", 1)[0]
     other = run(PYTHON, "-c", program, tests, check=True)
-    assert other.stdout == to_svg(figure(both_directions()), Language.GERMAN)
+    assert other.stdout == figure_to_svg(figure(both_directions()), Language.GERMAN)
 
 
 def test_threads_draw_alike() -> None:
     samples = [*ALL.values()] * 2
-    expected = [to_svg(sample, Language.ENGLISH) for sample in samples]
+    expected = [figure_to_svg(sample, Language.ENGLISH) for sample in samples]
     with ThreadPoolExecutor(4) as threads:
-        assert list(threads.map(lambda sample: to_svg(sample, Language.ENGLISH), samples)) == expected
+        assert list(threads.map(lambda sample: figure_to_svg(sample, Language.ENGLISH), samples)) == expected

@@ -6,17 +6,27 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.draw import to_svg
-from zlmreport.document.figures.figure import Figure, Panel, Tiles
-from zlmreport.language import Language, same
+from zlmreport.document.figures.figure import Tiles
+from zlmreport.plugin import Figure, Language, same_in_all_languages
+from zlmreport.plugin.page import figure_to_svg
+from zlmreport.plugin.standard import Panel
 
 PLACES = np.linspace(0.0, 100.0, 5)
 
 
 def drawn(values, language=Language.ENGLISH):
     tiles = Tiles(PLACES, PLACES, values, float(values.max()))
-    figure = Figure("map", same("Map"), same("Map"), same("X"), same("Y"), "mm", "mm", (Panel(tiles=tiles),))
-    return to_svg(figure, language)
+    figure = Figure(
+        "map",
+        same_in_all_languages("Map"),
+        same_in_all_languages("Map"),
+        same_in_all_languages("X"),
+        same_in_all_languages("Y"),
+        "mm",
+        "mm",
+        (Panel(tiles=tiles),),
+    )
+    return figure_to_svg(figure, language)
 
 
 def luminance(colour):

@@ -7,7 +7,7 @@ import pytest
 from document.signing.keys import PASSWORD, pkcs12_file
 from document.typesetting import samples
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 PLACE = Place("zlmreport --sign")

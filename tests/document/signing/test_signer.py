@@ -10,7 +10,7 @@ import pytest
 from document.signing.conftest import PLACE
 from document.signing.keys import PASSWORD, certificate_of, elliptic, in_der, pkcs12_file
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
 
 _YEAR = timedelta(days=365)
 

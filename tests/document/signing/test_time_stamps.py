@@ -26,7 +26,7 @@ from zlmreport.document.signing.state import (
     read_signature_state,
     read_trusted_certificates,
 )
-from zlmreport.errors import AccessError
+from zlmreport.plugin import AccessError
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from shutil import which
+from typing import TYPE_CHECKING
 
 import pytest
 from cryptography.hazmat.primitives.serialization import Encoding
@@ -14,18 +15,15 @@ from document.signing.conftest import PLACE
 from document.signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file, rsa_key
 from pdf_conformance import complaints
 from processes import run
-from zlmreport.document.signing.signer import TokenUri, _signed, open_signer, parse_token_uri
+from zlmreport.document.signing.signer import open_signer
 from zlmreport.document.signing.state import Integrity, read_signature_state
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
+
+if TYPE_CHECKING:
+    from pyhanko.sign.signers import SimpleSigner
 
 _MODULE = Path("/usr/lib/softhsm/libsofthsm2.so")
 _PIN = "1234"
-
-
-def test_an_address_names_module_token_and_key() -> None:
-    text = "pkcs11:token=Our%20laboratory;object=signature?module-path=/usr/lib/token.so"
-    uri = parse_token_uri(text, PLACE)
-    assert uri == TokenUri(Path("/usr/lib/token.so"), "Our laboratory", "signature")
 
 
 @pytest.mark.parametrize(
@@ -39,8 +37,8 @@ def test_an_address_names_module_token_and_key() -> None:
     ],
 )
 def test_an_address_that_leads_nowhere_is_refused(text: str, message: str) -> None:
-    with pytest.raises(InputError, match=message):
-        parse_token_uri(text, PLACE)
+    with pytest.raises(InputError, match=message), open_signer(text, lambda _: _PIN, PLACE):
+        pytest.fail("it was opened")
 
 
 def test_a_driver_that_is_not_there_is_told(tmp_path: Path) -> None:
@@ -52,13 +50,12 @@ def test_a_driver_that_is_not_there_is_told(tmp_path: Path) -> None:
         pytest.fail("it was opened")
 
 
-def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
-    unsigned: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+@contextmanager
+def token_of(key: SimpleSigner) -> Iterator[list[object]]:
+    """Let the library of tokens find a key; yields what it is asked for."""
     import pyhanko.sign.pkcs11
-    from pyhanko.sign.signers import SimpleSigner
 
-    asked = []
+    asked: list[object] = []
 
     @contextmanager
     def session(module, *, token_criteria, user_pin):
@@ -66,34 +63,58 @@ def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
         yield "session"
         asked.append("closed")
 
-    def key(opened, *, cert_label, key_label):
+    def found(opened, *, cert_label, key_label):
         asked.append((opened, cert_label, key_label))
-        file = pkcs12_file(tmp_path / "key.p12")
-        return SimpleSigner.load_pkcs12_data(file.read_bytes(), [], PASSWORD.encode())
+        return key
 
-    monkeypatch.setattr(pyhanko.sign.pkcs11, "open_pkcs11_session", session)
-    monkeypatch.setattr(pyhanko.sign.pkcs11, "PKCS11Signer", key)
-    named = "pkcs11:token=Lab;object=signature?module-path=/usr/lib/token.so"
-    with open_signer(named, lambda of: {"token Lab": _PIN}[of], PLACE) as signer:
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.setattr(pyhanko.sign.pkcs11, "open_pkcs11_session", session)
+        monkeypatch.setattr(pyhanko.sign.pkcs11, "PKCS11Signer", found)
+        yield asked
+
+
+@pytest.fixture
+def key(tmp_path: Path) -> SimpleSigner:
+    from pyhanko.sign.signers import SimpleSigner
+
+    content = pkcs12_file(tmp_path / "key.p12").read_bytes()
+    return SimpleSigner.load_pkcs12_data(content, [], PASSWORD.encode())
+
+
+NAMED = "pkcs11:token=Our%20Lab;object=signature?module-path=/usr/lib/token.so"
+
+
+def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
+    unsigned: bytes, key: SimpleSigner
+) -> None:
+    with (
+        token_of(key) as asked,
+        open_signer(NAMED, lambda of: {"token Our Lab": _PIN}[of], PLACE) as signer,
+    ):
         signed = signer(unsigned, "Electronic signature")
-    assert asked == [("/usr/lib/token.so", "Lab", _PIN), ("session", "signature", "signature"), "closed"]
+    assert asked == [
+        ("/usr/lib/token.so", "Our Lab", _PIN),
+        ("session", "signature", "signature"),
+        "closed",
+    ]
     assert read_signature_state(signed).integrity is Integrity.INTACT
 
 
 def test_a_key_that_fails_to_sign_is_told(
-    unsigned: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    unsigned: bytes, key: SimpleSigner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from pkcs11.exceptions import DeviceRemoved
-    from pyhanko.sign.signers import SimpleSigner
 
     async def removed(*_: object, **__: object) -> bytes:
         raise DeviceRemoved
 
-    content = pkcs12_file(tmp_path / "key.p12").read_bytes()
-    key = SimpleSigner.load_pkcs12_data(content, [], PASSWORD.encode())
     monkeypatch.setattr(key, "async_sign_raw", removed)
-    with pytest.raises(AccessError, match="--sign: the key did not sign: DeviceRemoved"):
-        _signed(key, (), PLACE, unsigned, "Electronic signature")
+    with (
+        pytest.raises(AccessError, match="--sign: the key did not sign: DeviceRemoved"),
+        token_of(key),
+        open_signer(NAMED, lambda _: _PIN, PLACE) as signer,
+    ):
+        signer(unsigned, "Electronic signature")
 
 
 @pytest.fixture(scope="module")

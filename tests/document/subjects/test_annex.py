@@ -14,14 +14,12 @@ from document.certificate.documents import lines_of
 from model.hidden_effect import CONFIG, LAST, job, registry, written
 from model.test_statements import LEFT
 from zlmreport import pipeline
-from zlmreport.document.blocks import Facts, Graph, Section
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.subjects.annex import Modelled
-from zlmreport.document.writer import Writer
-from zlmreport.job.job import Job
-from zlmreport.language import Language, same
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+from zlmreport.plugin import Language, same_in_all_languages
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import Certificate, Facts, Graph, Section, Writer
 
 GOLDEN = Path(__file__).with_name("golden")
 #: Numbers are held by the tests of what computes them.
@@ -59,7 +57,13 @@ def figures(of: Modelled) -> list[str]:
 
 def failure(test: ResidualTest, where: str = "somewhere") -> Failure:
     condition = where if test is ResidualTest.CONDITION else ""
-    return Failure(test, 0.001, same(where), same("the residual does something"), condition=condition)
+    return Failure(
+        test,
+        0.001,
+        same_in_all_languages(where),
+        same_in_all_languages("the residual does something"),
+        condition=condition,
+    )
 
 
 def composed(loaded: Job) -> Certificate:

@@ -13,9 +13,9 @@ from zlmreport.document.subjects.diagnosis import (
     make_failure_row,
 )
 from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
-from zlmreport.language import Language, Words
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+from zlmreport.plugin import Language, Words
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 

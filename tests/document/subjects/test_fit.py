@@ -9,7 +9,7 @@ import pytest
 
 from model.axis_tests import linear_test, model_of, noise
 from model.hidden_effect import LAST, example_history, study, written
-from zlmreport.document.blocks import Paragraph, Table, write_cell_text
+from zlmreport.document.blocks import write_cell_text
 from zlmreport.document.subjects.fit import (
     fit_sections,
     lay_out_parameters,
@@ -17,8 +17,9 @@ from zlmreport.document.subjects.fit import (
     write_in_a_sentence,
     write_polynomial,
 )
-from zlmreport.language import Language
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Paragraph, Table
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 

@@ -11,8 +11,8 @@ import pytest
 from model.hidden_effect import example, example_history, registry, study, written
 from zlmreport import pipeline
 from zlmreport.document.subjects.forecast import StandardForecast, make_forecasts
-from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.model.diagnosis.study import correct_by_model
+from zlmreport.plugin.standard import evaluate
 
 ALL = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "nmtba"]
 

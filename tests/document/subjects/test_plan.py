@@ -11,7 +11,7 @@ import pytest
 from document.certificate.documents import lines_of
 from model.planning.planned import WHOLE_PITCHES, plan_of_test, planned_job
 from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 
 CHANGES = (("plan: {}", WHOLE_PITCHES),), (("method: linear", "method: pendulum"),)
 #: What no German sentence has; names of effects, columns and methods are English in both.

@@ -9,15 +9,34 @@ from dataclasses import replace
 
 import numpy as np
 
-from zlmreport.document.blocks import (
+from zlmreport.document.certificate.document import Party
+from zlmreport.document.figures.figure import PlottedReadings
+from zlmreport.measurement.arrays import read_only_integers
+from zlmreport.plugin import (
+    Approach,
+    Axis,
+    AxisKind,
+    Evaluation,
+    Figure,
+    Language,
+    MeasurementSet,
+    Options,
+    Words,
+    fixed_number,
+    read_only_floats,
+)
+from zlmreport.plugin.renderer import (
     Align,
     Block,
+    Certificate,
     Column,
     Facts,
     Formulas,
     Graph,
+    Letterhead,
     Mark,
     Notice,
+    PageWords,
     Paragraph,
     RowGroup,
     Section,
@@ -25,37 +44,25 @@ from zlmreport.document.blocks import (
     Table,
     Verdict,
 )
-from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
-from zlmreport.document.figures.figure import (
+from zlmreport.plugin.source import Provenance, SourceFile
+from zlmreport.plugin.standard import (
+    Arithmetic,
     Arrow,
     Band,
+    Basis,
     Bracket,
     Curve,
-    Figure,
-    Panel,
-    PlottedReadings,
-    Role,
-)
-from zlmreport.evaluation.decision import make_decision_rule, with_decisions
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import (
-    Arithmetic,
-    Basis,
-    Evaluation,
     Finding,
+    Panel,
     PositionQuantity,
+    PositionStatistics,
     Quantity,
     QuantityGroup,
+    Role,
+    decided,
+    decision_rule,
+    evaluate,
 )
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.job.types import Options
-from zlmreport.language import Language, Words
-from zlmreport.language.formatting import write_fixed_number
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import read_only_floats, read_only_integers
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance, SourceFile
 
 TARGETS = 21
 RUNS = 5
@@ -177,9 +184,7 @@ def evaluation(readings: MeasurementSet) -> Evaluation:
     """The sample standard's evaluation, with a limit that is kept and one that is not."""
     unit = readings.axis.deviation_unit
     limits = {"M": unit.to_si(20.0), "R_fwd": unit.to_si(1.5)}
-    return with_decisions(
-        evaluate(SampleStandard(), readings, Options(), limits), make_decision_rule("simple")
-    )
+    return decided(evaluate(SampleStandard(), readings, Options(), limits), decision_rule("simple"))
 
 
 def figure(result: Evaluation, key: str = "means") -> Figure:
@@ -295,7 +300,7 @@ class _Writer:
         return german if self.language is Language.GERMAN else english
 
     def number(self, value: float, decimals: int = 1) -> str:
-        return "–" if np.isnan(value) else write_fixed_number(value, decimals, self.language.decimal_sign)
+        return "–" if np.isnan(value) else fixed_number(value, decimals, self.language.decimal_sign)
 
     def cover(self, customer: str) -> tuple[Block, ...]:
         say = self.say

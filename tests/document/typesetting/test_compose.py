@@ -10,11 +10,18 @@ import numpy as np
 import pytest
 
 from document.typesetting.samples import NUMBER, certificate, measurements
-from zlmreport.document.blocks import (
+from zlmreport.document.blocks import write_cell_text
+from zlmreport.document.certificate.document import Party
+from zlmreport.document.typesetting.templates import set_symbol
+from zlmreport.plugin import Figure, Language, same_in_all_languages
+from zlmreport.plugin.html import HtmlSetting, compose_html
+from zlmreport.plugin.renderer import (
     Block,
+    Certificate,
     Column,
     Facts,
     Graph,
+    Letterhead,
     Mark,
     Notice,
     Paragraph,
@@ -23,13 +30,8 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
     Verdict,
-    write_cell_text,
 )
-from zlmreport.document.certificate.document import Certificate, Letterhead, Party
-from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
-from zlmreport.document.typesetting.compose import Setting, compose
-from zlmreport.document.typesetting.templates import set_symbol
-from zlmreport.language import Language, same
+from zlmreport.plugin.standard import Curve, Panel, Role
 
 #: Texts that mean something to some reader of a page; here they mean themselves.
 TEXTS = {
@@ -49,8 +51,8 @@ TEXTS = {
 }
 
 
-def tree(of_certificate: Certificate, setting: Setting | None = None) -> ET.Element:
-    return ET.fromstring(compose(of_certificate, setting or Setting()))
+def tree(of_certificate: Certificate, setting: HtmlSetting | None = None) -> ET.Element:
+    return ET.fromstring(compose_html(of_certificate, setting or HtmlSetting()))
 
 
 def text(element: ET.Element | None) -> str:
@@ -182,7 +184,7 @@ def test_each_graph_names_its_drawing_and_tells_what_it_shows() -> None:
 
 def test_drawings_that_are_handed_over_stand_in_the_document() -> None:
     drawings = tuple(f'<svg id="drawing-{n}"/>' for n in range(4))
-    document = tree(certificate(), Setting(drawings=drawings))
+    document = tree(certificate(), HtmlSetting(drawings=drawings))
     assert [drawing.get("id") for drawing in document.iter("svg")] == [f"drawing-{n}" for n in range(4)]
     assert not list(document.iter("img"))
 
@@ -275,7 +277,7 @@ def test_a_short_table_stays_on_a_page_and_a_long_one_does_not() -> None:
 
 
 def test_the_same_certificate_is_set_the_same() -> None:
-    assert compose(certificate()) == compose(certificate())
+    assert compose_html(certificate()) == compose_html(certificate())
 
 
 _SYMBOLS = ("U_{max}",)
@@ -292,20 +294,27 @@ _SYMBOLS = ("U_{max}",)
     ids=["caption", "cell", "notice", "paragraph"],
 )
 def test_a_symbol_of_which_a_text_speaks_is_set_as_one(block: Block) -> None:
-    document = compose(replace(certificate(), sections=(Section("s", "S", (block,)),)))
+    document = compose_html(replace(certificate(), sections=(Section("s", "S", (block,)),)))
     assert "<i>U</i><sub>max</sub></span>, Umaximum" in document
 
 
 def test_a_caption_of_a_graph_knows_the_symbols_that_are_drawn() -> None:
     panel = Panel(curves=(Curve("G_{b}", Role.MEAN_POSITIVE, np.zeros(2), np.zeros(2)),))
-    figure = Figure("g", same("Circles of Gb"), *[same("told")] * 3, "mm", "µm", (panel,))
-    document = compose(replace(certificate(), sections=(Section("s", "S", (Graph(figure),)),)))
+    figure = Figure(
+        "g",
+        same_in_all_languages("Circles of Gb"),
+        *[same_in_all_languages("told")] * 3,
+        "mm",
+        "µm",
+        (panel,),
+    )
+    document = compose_html(replace(certificate(), sections=(Section("s", "S", (Graph(figure),)),)))
     assert "Circles of <span" in document
 
 
 def test_no_line_parts_a_number_from_its_unit_or_a_number_or_a_name_in_itself() -> None:
     said = Paragraph("12.5 µm/m at 20 °C by ISO 230-2, 5 runs (No. 4711-D-/K-2026-03).")
-    document = compose(replace(certificate(), sections=(Section("s", "S", (said,)),)))
+    document = compose_html(replace(certificate(), sections=(Section("s", "S", (said,)),)))
     assert (
         '<span class="held">12.5\N{NO-BREAK SPACE}µm/m</span> at 20\N{NO-BREAK SPACE}°C by '
         '<span class="held">ISO 230-2,</span> 5 runs (No. <span class="held">4711-D-/K-2026-03).</span>'
@@ -314,5 +323,5 @@ def test_no_line_parts_a_number_from_its_unit_or_a_number_or_a_name_in_itself() 
 
 
 def test_the_title_of_a_page_is_words_only() -> None:
-    document = compose(replace(certificate(), number="K-2026-03-D"))
+    document = compose_html(replace(certificate(), number="K-2026-03-D"))
     assert re.search(r"<title>[^<]*K-2026-03-D", document)

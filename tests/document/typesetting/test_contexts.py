@@ -10,12 +10,12 @@ import pytest
 from jinja2 import UndefinedError, meta, nodes
 from jinja2.exceptions import SecurityError
 
-from zlmreport.document.blocks import Facts
 from zlmreport.document.certificate import document
 from zlmreport.document.typesetting import overview, templates
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.document.typesetting.templates import make_environment
 from zlmreport.language.formatting import Span
+from zlmreport.plugin.renderer import Facts
 
 CONTEXTS = get_args(templates.Context)
 TEMPLATES = sorted(file.name for file in (files(PACKAGE) / "templates").iterdir())

@@ -14,9 +14,10 @@ import pytest
 
 from model.hidden_effect import CONFIG, job, registry
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate, Linked
+from zlmreport.document.certificate.document import Linked
 from zlmreport.document.typesetting import resources
-from zlmreport.document.typesetting.compose import compose
+from zlmreport.plugin.html import compose_html
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.html import HtmlRenderer
 
 
@@ -91,6 +92,6 @@ def test_it_is_the_same_twice() -> None:
 
 
 def test_a_document_that_runs_nothing_has_none_of_it() -> None:
-    text = compose(certificate())
-    assert text == compose(replace(certificate(), linked=None))
+    text = compose_html(certificate())
+    assert text == compose_html(replace(certificate(), linked=None))
     assert "<script" not in text

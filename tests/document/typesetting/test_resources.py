@@ -8,35 +8,29 @@ from io import BytesIO
 import pytest
 from fontTools.ttLib import TTFont, woff2
 
-from zlmreport.document.typesetting.resources import (
-    FACES,
-    FAMILY,
-    FontFace,
-    read_font,
-    style_sheet,
-    write_font_faces,
-)
+from zlmreport.document.typesetting.resources import FAMILY, FontFace
 from zlmreport.job.document_keys import ACCENT
+from zlmreport.plugin.page import FONT_FACES, font_face_rules, font_file, style_sheet
 
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
 
 
-@pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
+@pytest.mark.parametrize("face", FONT_FACES, ids=lambda face: face.stem)
 def test_the_packed_font_is_the_font(face: FontFace) -> None:
     unpacked = BytesIO()
-    woff2.decompress(BytesIO(read_font(f"{face.stem}.woff2")), unpacked)
-    original = TTFont(BytesIO(read_font(f"{face.stem}.ttf")))
+    woff2.decompress(BytesIO(font_file(f"{face.stem}.woff2")), unpacked)
+    original = TTFont(BytesIO(font_file(f"{face.stem}.ttf")))
     packed = TTFont(unpacked)
     assert packed.getBestCmap() == original.getBestCmap()
     assert packed["hmtx"].metrics == original["hmtx"].metrics
     assert packed["head"].fontRevision == original["head"].fontRevision
 
 
-@pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
+@pytest.mark.parametrize("face", FONT_FACES, ids=lambda face: face.stem)
 def test_all_figures_and_the_signs_between_them_are_of_the_widths_that_the_style_sheet_counts_on(
     face: FontFace,
 ) -> None:
-    loaded = TTFont(BytesIO(read_font(f"{face.stem}.ttf")))
+    loaded = TTFont(BytesIO(font_file(f"{face.stem}.ttf")))
     glyphs = loaded.getBestCmap()
     widths = {character: loaded["hmtx"][glyphs[ord(character)]][0] for character in "0123456789−.,"}
     assert {widths[character] for character in "0123456789−"} == {600}
@@ -45,15 +39,15 @@ def test_all_figures_and_the_signs_between_them_are_of_the_widths_that_the_style
         assert widths["."] == 272
 
 
-@pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
+@pytest.mark.parametrize("face", FONT_FACES, ids=lambda face: face.stem)
 @pytest.mark.parametrize("character", "↑↓µ−×·±≤≥″°∑√|Δα½²\N{COMBINING MACRON}✓×–—…")
 def test_the_typeface_has_what_standards_print(face: FontFace, character: str) -> None:
-    assert ord(character) in TTFont(BytesIO(read_font(f"{face.stem}.ttf"))).getBestCmap()
+    assert ord(character) in TTFont(BytesIO(font_file(f"{face.stem}.ttf"))).getBestCmap()
 
 
 def test_every_face_is_brought_in_under_the_family() -> None:
-    rules = write_font_faces(lambda face: f"font:{face.stem}")
-    assert rules.count(f'font-family: "{FAMILY}"') == len(FACES)
+    rules = font_face_rules(lambda face: f"font:{face.stem}")
+    assert rules.count(f'font-family: "{FAMILY}"') == len(FONT_FACES)
     assert "src: url(font:IBMPlexSans-Italic)" in rules
 
 

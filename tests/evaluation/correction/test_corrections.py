@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from zlmreport.evaluation.correction.corrections import Air, Corrections, MaterialExpansion, correct
-from zlmreport.language import Language
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Language, MeasurementSet
 from zlmreport.testing import simulated_test
 
 #: A deviation is the difference of two lengths of 1 m at most.

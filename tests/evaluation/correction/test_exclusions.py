@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from zlmreport import pipeline
-from zlmreport.errors import InputError
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import Approach, InputError
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import Registry, find_plugins
 
 READINGS = """\

@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, job, registry, text_of
-from zlmreport.errors import InputError
 from zlmreport.evaluation.correction.corrections import find_corrections_of
-from zlmreport.measurement.refractive_index import refractive_index
 from zlmreport.pipeline import read
+from zlmreport.plugin import InputError
+from zlmreport.plugin.instrument import refractive_index
 
 HEAD = "target,direction,run,deviation,air_temperature,air_pressure,relative_humidity,material_temperature\n"
 #: Two readings, 1 m apart, in the same air and on a warm machine.

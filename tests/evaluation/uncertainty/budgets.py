@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from functools import partial
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS, Expanded, propagate
-from zlmreport.language import same
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import MeasurementSet, same_in_all_languages
+from zlmreport.plugin.extension import Acts, Contribution, Distribution
 from zlmreport.plugin.protocols import Standard
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 
 MICROMETRE = 1e-6
 ISO = STANDARDS["iso230-2:2014"]
@@ -23,7 +23,14 @@ BY_CHANCE = 0.04
 def contribution(
     micrometres: float, acts: Acts, distribution: Distribution = Distribution.NORMAL
 ) -> Contribution:
-    return Contribution(same("any"), micrometres * MICROMETRE, acts, distribution, same(""), same(""))
+    return Contribution(
+        same_in_all_languages("any"),
+        micrometres * MICROMETRE,
+        acts,
+        distribution,
+        same_in_all_languages(""),
+        same_in_all_languages(""),
+    )
 
 
 def budget(micrometres: float, acts: Acts, distribution: Distribution = Distribution.NORMAL) -> Budget:

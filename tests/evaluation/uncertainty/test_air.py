@@ -9,9 +9,9 @@ import pytest
 
 from document.certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
-from zlmreport.evaluation.uncertainty.air import list_air_contributions
-from zlmreport.evaluation.uncertainty.budget import Acts, Contribution
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.extension import Acts, Contribution
+from zlmreport.plugin.renderer import Budget
 
 #: Over 1 m; measured at 20 °C, 1013.25 hPa and 50 %.
 AIR = {"air_temperature": 20, "air_pressure": 1013.25, "relative_humidity": 50}
@@ -30,7 +30,9 @@ def found_in(folder: Path, ranges: dict[str, float], *, air: bool = True) -> lis
         **({"corrections": {"air": {"assumed": "vacuum"}}} if air else {}),
     }
     asked = job(folder, keys)
-    return list(list_air_contributions(asked, pipeline.read(asked, registry()), 1.0))
+    budget = pipeline.make_budget_of_job(asked, pipeline.read(asked, registry()), registry())
+    assert isinstance(budget, Budget)
+    return [each for each in budget.contributions if each.contributor not in {"instrument", "resolution"}]
 
 
 def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -> dict[str, float]:

@@ -9,8 +9,10 @@ import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, budget, contribution, expanded
 from zlmreport.evaluation.uncertainty import wording
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect_along
-from zlmreport.language import Language
+from zlmreport.evaluation.uncertainty.budget import compute_effect_along
+from zlmreport.plugin import Language
+from zlmreport.plugin.extension import Acts
+from zlmreport.plugin.renderer import Budget
 from zlmreport.testing import simulated_test
 
 SOME = Budget(

@@ -10,11 +10,10 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import ISO, contribution, expanded
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.axis_interval import _pool
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution
-from zlmreport.job.types import Options
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import MeasurementSet, Options
+from zlmreport.plugin.extension import Acts, Distribution
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 TRIALS = 400
@@ -63,20 +62,3 @@ def test_the_interval_holds_the_true_value_as_often_as_stated(of: Budget) -> Non
 
     shares = {symbol: held[symbol] / TRIALS for symbol in true}
     assert shares == pytest.approx(dict.fromkeys(true, STATED), abs=BY_CHANCE)
-
-
-def test_scatter_that_grows_along_the_axis_is_pooled_about_its_growth() -> None:
-    """ln σ² = 4x: its slope is known to ψ′(2)/Σx² = 0.293, which adds 0.073 to ψ′(44) at the ends."""
-    positions = np.linspace(-0.5, 0.5, 11)
-    growing = np.broadcast_to(np.exp(4 * positions), (2, 11)).copy()
-    variance, freedom = _pool(growing, np.full((2, 11), 4.0), positions)
-    assert variance == pytest.approx(growing, rel=1e-9)
-    assert freedom.max() == pytest.approx(88.0)  # 22 places with 4 each
-    assert freedom.min() == pytest.approx(21.8, abs=0.1)  # ψ′(10.9) = 0.096
-    assert np.argmin(freedom[0]) in {0, 10}  # farthest from the middle, where the slope is known worst
-
-
-def test_equal_variances_grow_nowhere() -> None:
-    variance, freedom = _pool(np.full((2, 11), 2.5), np.full((2, 11), 4.0), np.linspace(0, 1, 11))
-    assert variance == pytest.approx(np.full((2, 11), 2.5))
-    assert freedom == pytest.approx(np.full((2, 11), 88.0))

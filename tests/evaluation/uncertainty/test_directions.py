@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, uncertainties
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
-from zlmreport.job.types import Options
+from zlmreport.plugin import Options
+from zlmreport.plugin.extension import Acts
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 
 #: Two targets, 100 µm apart in their means, three runs without scatter.

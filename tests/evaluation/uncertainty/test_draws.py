@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
-from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
 from zlmreport.evaluation.uncertainty.monte_carlo import shorten
 from zlmreport.evaluation.uncertainty.sampling import draw_singly, sample_singly, sample_stratified
+from zlmreport.plugin.extension import Acts, Distribution
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
-from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
     compute_mean_drift_variance,
@@ -17,6 +16,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     find_drift_range,
     sample_drifts,
 )
+from zlmreport.plugin.extension import Acts, Distribution
 from zlmreport.testing import bidirectional_test
 
 #: One target from each side, three runs: six readings, one after the other.

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import ISO, MICROMETRE, budget, contribution
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, Least
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, KnownError, NoBudget
+from zlmreport.evaluation.evaluation import Least
+from zlmreport.evaluation.uncertainty.budget import KnownError
 from zlmreport.evaluation.uncertainty.drift import compute_mean_drift_variance, compute_reading_times
-from zlmreport.evaluation.uncertainty.expanded import add_uncertainty, compute_mean_uncertainty
-from zlmreport.job.types import Options
-from zlmreport.language import same
+from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
+from zlmreport.plugin import Evaluation, Options, same_in_all_languages
+from zlmreport.plugin.extension import Acts, Distribution, with_uncertainty
+from zlmreport.plugin.renderer import Budget, EvaluatedParameter, NoBudget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 TEST = simulated_test()
@@ -24,7 +25,7 @@ TEST = simulated_test()
 def stated(of: Budget | NoBudget) -> Evaluation:
     options = Options()
     evaluation = evaluate(ISO, TEST, options, {})
-    (found,) = add_uncertainty([(evaluation, partial(ISO.arithmetic, options=options))], of)
+    (found,) = with_uncertainty([(evaluation, partial(ISO.arithmetic, options=options))], of)
     return found
 
 
@@ -33,11 +34,11 @@ def parameters(of: Budget | NoBudget) -> dict[str, EvaluatedParameter]:
 
 
 def test_without_a_test_there_is_nothing_to_state() -> None:
-    assert add_uncertainty([], budget(0.5, Acts.AT_EACH_READING)) == ()
+    assert with_uncertainty([], budget(0.5, Acts.AT_EACH_READING)) == ()
 
 
 def test_without_a_budget_there_is_the_interval_of_the_next_test_and_no_uncertainty() -> None:
-    found = stated(NoBudget(same("nothing is stated")))
+    found = stated(NoBudget(same_in_all_languages("nothing is stated")))
     assert found.mean_uncertainty is None
     assert {each.expanded_uncertainty for each in found.parameters} == {None}
     assert all(each.axis_interval for each in found.parameters)
@@ -83,8 +84,12 @@ def test_what_drifts_adds_to_each_mean_by_the_worst_of_its_kinds() -> None:
 def test_a_known_error_adds_whole_to_the_uncertainty_of_a_mean() -> None:
     targets = TEST.target_positions
     correction = -0.5e-6 * ((targets - targets[0]) / np.ptp(targets))[TEST.target]
-    known = KnownError(same("any"), correction, same(""), same(""))
-    found = compute_mean_uncertainty(stated(NoBudget(same(""))), Budget((), known_errors=(known,)))
+    known = KnownError(
+        same_in_all_languages("any"), correction, same_in_all_languages(""), same_in_all_languages("")
+    )
+    found = compute_mean_uncertainty(
+        stated(NoBudget(same_in_all_languages(""))), Budget((), known_errors=(known,))
+    )
     assert found.bidirectional[-1] == pytest.approx(0.5e-6)
     assert found.bidirectional[0] == 0.0
 

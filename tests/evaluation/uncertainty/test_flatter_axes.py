@@ -9,17 +9,20 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
-from zlmreport.job.types import Options
-from zlmreport.language import same
-from zlmreport.measurement.arrays import read_only_floats
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurand import STRAIGHTNESS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    STRAIGHTNESS,
+    Axis,
+    MeasurementSet,
+    Options,
+    read_only_floats,
+    same_in_all_languages,
+)
+from zlmreport.plugin.extension import Acts, Contribution, Distribution
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test, simulated_test
 
 
@@ -28,7 +31,12 @@ def of_instrument(standard_uncertainty: float, acts: Acts = Acts.AT_EACH_POSITIO
     return Budget(
         (
             Contribution(
-                same("Instrument"), standard_uncertainty, acts, Distribution.NORMAL, same(""), same("")
+                same_in_all_languages("Instrument"),
+                standard_uncertainty,
+                acts,
+                Distribution.NORMAL,
+                same_in_all_languages(""),
+                same_in_all_languages(""),
             ),
         )
     )

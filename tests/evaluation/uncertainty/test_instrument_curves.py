@@ -11,16 +11,14 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.evaluation.uncertainty.instrument_curves import CurveForm, list_forms, sample_waves
 from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import evaluate_for_error
-from zlmreport.measurement.measurand import STRAIGHTNESS, Measurand
+from zlmreport.plugin import STRAIGHTNESS, Axis, Evaluation, FloatArray, Measurand
+from zlmreport.plugin.extension import Acts
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 
 

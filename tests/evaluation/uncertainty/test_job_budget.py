@@ -13,11 +13,9 @@ import pytest
 
 from document.certificate.documents import COMPLETE, ROOT, job, registry
 from zlmreport import pipeline
-from zlmreport.errors import InputError
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, NoBudget
-from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
-from zlmreport.language import Language
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import InputError, Language, MeasurementSet
+from zlmreport.plugin.extension import Acts, Contribution, Distribution
+from zlmreport.plugin.renderer import Budget, NoBudget
 
 MICROMETRE = 1e-6
 REPORT = {**COMPLETE["certificate"], "kind": "report"}
@@ -38,7 +36,9 @@ def made(
 ) -> Budget | NoBudget:
     checked = job(folder, stated)
     measurements: MeasurementSet = pipeline.read(checked, registry())
-    return make_budget_of(checked, replace(measurements, conditions=conditions or {}))
+    return pipeline.make_budget_of_job(
+        checked, replace(measurements, conditions=conditions or {}), registry()
+    )
 
 
 def contributions(

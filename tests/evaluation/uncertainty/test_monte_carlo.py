@@ -20,11 +20,11 @@ from evaluation.uncertainty.budgets import (
 )
 from plugins.standards.installed import STANDARDS
 from processes import PYTHON, run
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
-from zlmreport.job.types import Options
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import MeasurementSet, Options
+from zlmreport.plugin.extension import Acts, Distribution
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test, simulated_test
 from zlmreport.testing.measurements import poor_tests
 

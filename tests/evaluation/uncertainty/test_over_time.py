@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +11,15 @@ import pytest
 
 from document.certificate.documents import COMPLETE, job as job_of, registry
 from zlmreport import pipeline
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.set_up import list_demanded
-from zlmreport.job.job import Job
+from zlmreport.measurement.provenance import Correction
+from zlmreport.plugin import same_in_all_languages
+from zlmreport.plugin.extension import Acts, Job
+from zlmreport.plugin.renderer import Budget
 
 HOURS = np.arange(0.0, 8.25, 0.25)
 MICROMETRE = 1e-6
+#: A correction that a program made of readings.
+CORRECTED = Correction(*[same_in_all_languages("any")] * 3, MICROMETRE)
 
 
 def job(folder: Path, **changed: Any) -> Job:
@@ -41,9 +45,9 @@ def budget(of: Job) -> Budget:
 
 
 def test_instrument_and_resolution_make_it_complete(tmp_path: Path) -> None:
-    stated = job(tmp_path)
-    assert list_demanded(stated.tests["Z"]) == ("instrument", "resolution")
-    assert budget(stated).missing == ()
+    found = budget(job(tmp_path))
+    assert found.missing == ()
+    assert {each.contributor for each in found.contributions} == {"instrument", "resolution"}
 
 
 def test_the_instrument_errs_as_it_drifts(tmp_path: Path) -> None:
@@ -73,3 +77,13 @@ def test_a_drift_of_the_instrument_with_the_machine_s_is_within_its_uncertainty(
     assert drift.value == pytest.approx(8 * MICROMETRE)
     assert drift.expanded_uncertainty is not None
     assert 0.4 * MICROMETRE < drift.expanded_uncertainty < 1.2 * MICROMETRE
+
+
+def test_the_resolution_of_corrected_readings_is_missing(tmp_path: Path) -> None:
+    of = job(tmp_path)
+    whole = pipeline.read(of, registry())
+    read = whole.tests["Z"]
+    corrected = replace(read, provenance=replace(read.provenance, corrections=(CORRECTED,)))
+    found = pipeline.make_budget_of_job(of, replace(whole, tests={"Z": corrected}), registry())
+    assert isinstance(found, Budget)
+    assert found.tests["Z"].missing == ("resolution",)

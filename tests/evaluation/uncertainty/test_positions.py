@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import ISO, MICROMETRE, contribution
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
-from zlmreport.job.types import Options
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import Approach, Evaluation, Options
+from zlmreport.plugin.extension import Acts
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test, simulated_test
 
 ALL_WAYS = Budget(

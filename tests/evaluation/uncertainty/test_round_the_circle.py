@@ -12,14 +12,11 @@ import yaml
 
 from document.certificate.documents import COMPLETE, job as job_of_axis, registry
 from zlmreport import pipeline
-from zlmreport.errors import InputError
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Evaluation, InputError, Language, MeasurementSet
+from zlmreport.plugin.extension import Acts, Contribution, Job
+from zlmreport.plugin.renderer import Budget
 
 MICROMETRE = 1e-6
 #: How far the bar's centre lies off, and what the readings scatter by, µm.

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import ISO, MICROMETRE, contribution, expanded, uncertainties
-from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.axis_interval import compute_axis_intervals
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution
 from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
 from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_axes, sample_rounding
-from zlmreport.job.types import Options
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import MeasurementSet, Options
+from zlmreport.plugin.extension import Acts, Distribution
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 STEP = 1.0  # µm

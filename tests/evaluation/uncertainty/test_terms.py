@@ -7,12 +7,12 @@ import math
 import pytest
 
 from zlmreport.evaluation.uncertainty.budget import (
-    Distribution,
     compute_expansion_range,
     compute_misalignment_range,
     compute_temperature_range,
     from_range,
 )
+from zlmreport.plugin.extension import Distribution
 
 RECTANGULAR = Distribution.RECTANGULAR
 #: 0.6 stands for 2/√12 = 0.577.

@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import contribution
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, write_of_the_reading
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
-from zlmreport.job.types import Options
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurand import DISPLACEMENT
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import DISPLACEMENT, Axis, MeasurementSet, Options
+from zlmreport.plugin.extension import Acts, of_the_reading
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 LINE = simulated_test(11)
@@ -25,7 +24,7 @@ STANDARD = find_plugins().standard("iso230-2:2014")
 
 def scaled(line: MeasurementSet, share: float = 0.01) -> Budget:
     """Return the budget of an instrument whose scale has u as a share of the reading, and no other error."""
-    of_scale = replace(contribution(0.0, Acts.WITH_THE_READING), **write_of_the_reading(share, line, "scale"))
+    of_scale = replace(contribution(0.0, Acts.WITH_THE_READING), **of_the_reading(share, line, "scale"))
     return Budget((of_scale,))
 
 
