@@ -22,7 +22,7 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.blocks import find_root_of
-from zlmreport.model.diagnosis.contest import _WORTHS, Contest
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
@@ -137,7 +137,7 @@ def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() ->
     explained = alone - squares(np.column_stack([base, effect.columns(design, np.empty(0))]))
     # One reading's worth, or rarely more: a mixture of priors, each with its own Bayes factor.
     factor = 0.0
-    for worth, weight in _WORTHS:
+    for worth, weight in ((1, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02)):
         prior = worth * degrees
         left = alone - explained * prior / (1 + prior)
         factor += weight * (alone / left) ** (degrees / 2) / math.sqrt(1 + prior)

@@ -12,15 +12,14 @@ import pytest
 from starlette.testclient import TestClient
 
 from environments import ROOT
+from web.browsers import enter, pass_by
 from web.jobs import registry
 from zlmreport.errors import InputError
 from zlmreport.language import Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
-from zlmreport.web.guard import Door
 from zlmreport.web.machine_app import MachineWorkbench
 from zlmreport.web.machine_bench import MachineBench
 from zlmreport.web.machine_diagnoses import answer
-from zlmreport.web.machine_view import MachineView
 
 PLACE = "machine.yaml"
 
@@ -33,13 +32,9 @@ def machine(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def page(machine: Path, door: Door) -> Iterator[TestClient]:
-    """Return a browser that came by the address on the terminal."""
+def page(machine: Path) -> Iterator[TestClient]:
     made = MachineWorkbench.of(machine, registry())
-    client = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
-    assert client.get(door.address).status_code == 303
-    client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
-    yield client
+    yield enter(made)
     made.end()
 
 
@@ -160,19 +155,16 @@ def test_what_makes_no_sense_is_refused_in_words(
     assert said in answered.json()["problems"][0]
 
 
-def test_nobody_opens_a_machine_without_the_token(machine: Path, door: Door) -> None:
-    made = MachineWorkbench.on(machine, registry())
-    stranger = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}")
-    assert stranger.get("/api/job").status_code == 403
+def test_nobody_opens_a_machine_without_the_token(machine: Path) -> None:
+    assert pass_by(MachineWorkbench.on(machine, registry())).get("/api/job").status_code == 403
 
 
-def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path) -> None:
+def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path, page: TestClient) -> None:
     line = (machine.parent / "x-positioning.yaml").read_text("utf-8").replace("EXAMPLE-2026-0021", "LINE")
     (machine.parent / "x-elsewhere.yaml").write_text(line, "utf-8")
     text = machine.read_text("utf-8").replace("[circle-xy.yaml]", "[circle-xy.yaml, x-elsewhere.yaml]")
     machine.write_text(text, "utf-8")
-    bench = MachineBench(machine, registry())
-    _, drawn = MachineView(bench, bench.load(), Language.GERMAN).list_page()["tests"]
+    _, drawn = page.get("/api/job?lang=de").json()["tests"]
     assert (drawn["kind"], drawn["arrows"]) == ("line", ["↓", "↑"])
     assert [each["title"] for each in drawn["axes"]] == ["Ort auf der Linie", "X", "Richtung"]
 
