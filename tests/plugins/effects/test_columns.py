@@ -46,16 +46,20 @@ def test_effect_follows_its_equation(identifier: str, method: str) -> None:
     np.testing.assert_allclose(computed, expected, rtol=0, atol=size * TOLERANCE.get(identifier, 1e-9))
 
 
+@pytest.mark.parametrize("identifier", ["polynomial", "screw-pitch", "encoder-interpolation"])
+def test_every_order_and_every_choice_of_harmonics_follows_the_equation(identifier: str) -> None:
+    for form in EFFECTS[identifier].forms():
+        computed, expected = _compared(form, design_for(identifier))
+        np.testing.assert_allclose(computed, expected, rtol=0, atol=np.abs(expected).max() * 1e-9)
+
+
 @pytest.mark.parametrize(
     "identifier",
     [
-        "offset",
-        "polynomial",
-        "backlash",
-        "scale-joint",
-        "compensation-sign",
-        "compensation-shift",
-        "thermal-drift",
+        *("offset", "polynomial", "encoder-interpolation", "periodic", "scale-joint"),
+        *("compensation-sign", "compensation-shift", "backlash", "backlash-bow", "reversal-relaxation"),
+        *("directional-pitch", "thermal-drift", "datum-temperature", "time-periodic", "datum-step"),
+        "first-run",
     ],
 )
 def test_effect_that_rotary_axes_have_too_is_in_arc_seconds_there(identifier: str) -> None:
