@@ -15,9 +15,8 @@ from typing import Any
 import pytest
 
 from testing.exemplary import ExemplaryPage, ExemplaryRenderer
-from zlmreport.document.blocks import Block, Cell, Formulas, Notice, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.language import Language, Words
+from zlmreport.plugin import Language, Words
+from zlmreport.plugin.renderer import Block, Cell, Certificate, Formulas, Notice, Table
 from zlmreport.testing import RENDERER_CHECKS, check_renderer, renderers, sample_certificate
 
 COUNTER = itertools.count()

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.language import Language
 from zlmreport.live.capture.events import (
-    BeamHeld,
     Closed,
-    DatumHolds,
-    DatumMoved,
-    DatumTaken,
     Elsewhere,
     Event,
     Frozen,
@@ -25,18 +20,16 @@ from zlmreport.live.capture.events import (
     Recorded,
     Repeated,
     Retake,
-    ScaleChanged,
     Skipped,
     TooSlow,
     TrackLost,
     Unclear,
     WrongDirection,
-    ZeroLost,
 )
 from zlmreport.live.capture.operator_texts import AxisWriter, say_halted, tell_event
 from zlmreport.live.capture.visits import ListedVisit
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin import Approach, Axis, AxisKind, Language
+from zlmreport.plugin.instrument import BeamHeld, DatumHolds, DatumMoved, DatumTaken, ScaleChanged, ZeroLost
 
 AXIS = Axis("X", AxisKind.LINEAR, 0.0, 0.1)
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE

@@ -15,9 +15,9 @@ from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
 from zlmreport.live.capture.motion import Programme, Route
 from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill
-from zlmreport.live.ports.reading import LiveReading
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import Approach
+from zlmreport.plugin.instrument import LiveReading
 
 TARGETS = (0, 50, 100, 150, 200)
 THERE, BACK = TARGETS, TARGETS[::-1]

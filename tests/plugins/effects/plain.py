@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.model.effects.design import Design
+from zlmreport.plugin.effect import Design
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from plugins.effects.installed import EFFECTS, design_for
 from plugins.effects.plain import EQUATIONS, readings
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect, Parameter, find_unit_of
+from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.plugin.effect import Design, Effect, Parameter
 from zlmreport.testing import full_designs
 
 #: Vapour pressures of the two arithmetics differ by 5e-5 of 1200 Pa at most, which is 2e-5 ppm of about 1.
