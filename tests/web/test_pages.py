@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from model.hidden_effect import example, example_diagnosis
 from processes import PATIENCE, awaited
 from testing.exemplary import ExemplaryStandard
 from web.browsers import enter
@@ -24,7 +25,6 @@ from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
 from zlmreport.document.writer import NOTHING
 from zlmreport.evaluation.evaluation import Arithmetic
 from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
@@ -54,10 +54,9 @@ def page(reader: TestClient) -> dict[str, Any]:
     return {**job, **results}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def study() -> Study:
-    job = load(EXAMPLE / "job.yaml", registry())
-    return Study.of(job, pipeline.read(job, registry()), registry().effects)
+    return example()
 
 
 def test_deviation_is_model_and_residual(page: dict[str, Any], study: Study) -> None:
@@ -308,7 +307,7 @@ def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job
 
 def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
     """The name is that of pages, the axis that of the logged column."""
-    diagnosis = study.diagnose(registry().effects)
+    diagnosis = example_diagnosis()
     name = "screw_temperature"
     follows = Failure(ResidualTest.CONDITION, 1e-9, same(name), same("they follow"), condition=name)
     found = collect_diagnosed(
@@ -321,7 +320,7 @@ def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study:
 
 
 def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Study) -> None:
-    diagnosis = study.diagnose(registry().effects)
+    diagnosis = example_diagnosis()
     off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
     flagged = replace(diagnosis, failures=(off,), outliers=np.array([7, 9]))
     found = collect_diagnosed(flagged, study, registry().effects, Language.ENGLISH)
@@ -332,7 +331,7 @@ def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None
     fault = DataFault(
         FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")
     )
-    diagnosis = replace(study.diagnose(registry().effects), faults=(fault,))
+    diagnosis = replace(example_diagnosis(), faults=(fault,))
     (found,) = collect_diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
     assert (found["statement"], found["remedy"]) == ("run 3 looks swapped", "correct the file")
     runs = study.measurements.run[found["readings"]]
