@@ -191,6 +191,17 @@ def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> N
     assert weigh(second, 2) == pytest.approx(-2.0)  # the way that it came would be no way of the program
 
 
+@pytest.mark.parametrize(("silence", "weight"), [(4.0, 5.0 - 0.5 - 2 * 0.3), (3.9, 5.0 - 2.0 - 6.0)])
+def test_a_program_may_have_begun_in_a_silence_of_half_the_time_that_it_needs(
+    silence: float, weight: float
+) -> None:
+    """From the first visit to the third it needs 8 s."""
+    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), Route(SETTINGS.tolerance)
+    route.lose(silence)
+    place.add(stop(3), route)
+    assert weigh(place, 3) == pytest.approx(weight)
+
+
 @pytest.mark.parametrize(
     ("number", "turns", "weight"),
     [(1, (), 13.0), (6, (0.405,), 13.0 - 5.0 + 3.0)],
