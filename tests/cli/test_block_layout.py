@@ -71,6 +71,12 @@ def test_columns_that_hold_nothing_are_left_out() -> None:
     assert _lines(table) == ["  Name  Value mm", "  a           10", "  bc           9"]
 
 
+@pytest.mark.parametrize("cell", ["x̄", "\x1b[31mx\x1b[0m", "↑"])
+def test_marks_and_colours_take_no_room(cell: str) -> None:
+    table = _table(Column(""), Column(""), rows=((cell, "|"), ("ab", "|")))
+    assert _lines(table) == [f"  {cell}   |", "  ab  |"]
+
+
 def test_rows_stand_below_the_heading_of_their_group() -> None:
     assert _lines(_table(Column(""), rows=(("a",), ("b",)), heading="Group")) == ["  Group", "    a", "    b"]
 

@@ -8,13 +8,11 @@ from pathlib import Path
 import pytest
 
 from cli.commands import Shop
+from testing.exemplary import ExemplaryStandard
 from zlmreport.cli import main
-from zlmreport.cli.jobs import tell_requirements
-from zlmreport.document.writer import Writer
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job import days
-from zlmreport.language import Language, Words
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+from zlmreport.language import Words
 
 
 def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:
@@ -45,7 +43,7 @@ def test_nothing_is_called_sound_above_a_doubt_or_an_incomplete_uncertainty(shop
 
 
 def test_a_requirement_stays_in_a_line_where_there_is_room_and_else_says_below_what_was_found(
-    monkeypatch: pytest.MonkeyPatch,
+    shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     temperatures = Words("Temperatures reported, and where they were measured")
     expansion = Words("Results for 20 °C: measured there, corrected to it, or within 1 K of it, with U")
@@ -54,9 +52,10 @@ def test_a_requirement_stays_in_a_line_where_there_is_room_and_else_says_below_w
         Finding(temperatures, Words("not stated: temperature of the air"), met=None),
         Finding(expansion, Words("the temperature or the coefficient is not known"), met=False),
     ]
-    writer = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 1)
+    monkeypatch.setattr(ExemplaryStandard, "requirements", lambda *_: found)
     monkeypatch.setenv("COLUMNS", "80")
-    assert list(tell_requirements("EX 1", found, writer)) == [
+    shop.job()
+    assert shop.run("check", "job.yaml").output.splitlines()[1:] == [
         "  EX 1",
         "    met      At least 5 runs: 5 runs",
         "    open     Temperatures reported, and where they were measured:",
@@ -66,8 +65,8 @@ def test_a_requirement_stays_in_a_line_where_there_is_room_and_else_says_below_w
         "             the temperature or the coefficient is not known",
     ]
     monkeypatch.delenv("COLUMNS")  # as in a pipe
-    _, *lines = tell_requirements("EX 1", found[:2], writer)
-    assert lines == [
+    del found[2]
+    assert shop.run("check", "job.yaml").output.splitlines()[2:] == [
         "    met   At least 5 runs: 5 runs",
         f"    open  {temperatures.en}: not stated: temperature of the air",
     ]

@@ -5,18 +5,27 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
+from verification.issued import (
+    LABORATORY,
+    READINGS,
+    issue,
+    lay_out,
+    registry,
+    with_attachment,
+    with_results,
+)
 from zlmreport.cli import main
-from zlmreport.cli.terminal import say
-from zlmreport.cli.verify import _own_words
 from zlmreport.document.certificate.build import GENERATOR
-from zlmreport.verification.findings import QuotedText
+from zlmreport.verification.findings import CheckedCertificate, QuotedText
+from zlmreport.verification.verify import verify
 
 Run = Callable[..., tuple[int, str, str]]
+OwnLines = Callable[[list[tuple[str, str]]], list[str]]
 DIGEST = re.compile(r"[0-9A-HJKMNP-TV-Z]{4}(-[0-9A-HJKMNP-TV-Z]{4}){3}")
 
 
@@ -148,19 +157,33 @@ def test_what_a_foreign_file_says_of_itself_does_not_steer_the_terminal(report: 
     assert r"\x1b[2J\u202eReport" in output
 
 
-def own_lines(texts: list[tuple[str, str]]) -> list[str]:
-    """Return what is told of words that somebody wrote, without the heading."""
-    return list(_own_words([QuotedText(*each) for each in texts], say))[1:]
+@pytest.fixture(scope="module")
+def checked(report: bytes, tmp_path_factory: pytest.TempPathFactory) -> CheckedCertificate:
+    path = tmp_path_factory.mktemp("checked") / "report.pdf"
+    path.write_bytes(report)
+    return verify(path, registry())
 
 
-def test_a_text_that_every_measurement_repeats_is_told_once_with_its_places() -> None:
+@pytest.fixture
+def own_lines(checked: CheckedCertificate, run: Run, monkeypatch: pytest.MonkeyPatch) -> OwnLines:
+    """Return what is told of a certificate with such words that somebody wrote."""
+
+    def told(texts: list[tuple[str, str]]) -> list[str]:
+        found = replace(checked, own_words=tuple(QuotedText(*each) for each in texts))
+        monkeypatch.setattr("zlmreport.cli.verify.verify", lambda *_, **__: found)
+        return run(b"")[1].partition("no reading gives them:\n")[2].splitlines()
+
+    return told
+
+
+def test_a_text_that_every_measurement_repeats_is_told_once_with_its_places(own_lines: OwnLines) -> None:
     lines = ("", "EXX.", "EYY.", "EZZ.", "EYX.", "diagonals.", "diagonals.PPP.")
     texts = [(f"{name}customer.name", "A Customer") for name in lines]
 
     assert own_lines(texts) == ["  customer.name (also in EXX, EYY, EZZ and 3 more): 'A Customer'"]
 
 
-def test_keys_that_differ_are_told_beside_each_other() -> None:
+def test_keys_that_differ_are_told_beside_each_other(own_lines: OwnLines) -> None:
     told = own_lines(
         [("EXX.axis.name", "X"), ("EYX.axis.name", "X"), ("machine.model", "X"), ("axis.name", "Y")]
     )
@@ -168,7 +191,7 @@ def test_keys_that_differ_are_told_beside_each_other() -> None:
     assert told == ["  axis.name (in EXX, EYX), machine.model: 'X'", "  axis.name: 'Y'"]
 
 
-def test_no_measurement_stands_alone_behind_and_one_more() -> None:
+def test_no_measurement_stands_alone_behind_and_one_more(own_lines: OwnLines) -> None:
     texts = [(f"{name}.axis.name", "X") for name in ("EXX", "EYX", "EZX", "EBX")]
 
     assert own_lines(texts) == ["  axis.name (in EXX, EYX, EZX, EBX): 'X'"]

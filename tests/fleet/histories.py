@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from datetime import date, timedelta
 
+from zlmreport.fleet.drifts import Trend, judge_trends
 from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State
+from zlmreport.fleet.trend import list_series_of, select_standing
 
 FIRST = date(2025, 1, 15)
 
@@ -50,3 +52,8 @@ def history(values: Sequence[float], *, axis: str = "X", limit: float | None = 2
         entry(day, parameter(value, limit=limit), axis=axis, job=f"{axis}/{day}.yaml")
         for day, value in zip(quarters(len(values)), values, strict=True)
     ]
+
+
+def judged(entries: Iterable[LedgerEntry]) -> tuple[Trend, ...]:
+    """Return what is said of each series of a ledger."""
+    return judge_trends(list_series_of(select_standing(entries)))

@@ -100,11 +100,6 @@ def test_each_entry_has_its_own_parameters(address: str) -> None:
         assert list(ledger.list_entries()) == [ENTRY, others]
 
 
-def test_a_night_knows_whose_place_it_took(tmp_path: Path) -> None:
-    with Ledger.open(str(tmp_path / "ledger.db"), "north") as ledger:
-        assert ledger._begin(NIGHTS[1], NIGHTS[0]).took_over == NIGHTS[0]
-
-
 def test_to_begin_is_a_sign_of_life(address: str) -> None:
     with night(address) as (ledger, _):
         last = ledger.find_last_night()

@@ -7,10 +7,8 @@ import re
 from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
-from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.drifts import judge_trends
+from fleet.histories import entry, history, judged, parameter, quarters
 from zlmreport.fleet.records import LedgerEntry
-from zlmreport.fleet.trend import list_series_of, select_standing
 from zlmreport.fleet.trend_graph import LARGE, SMALL, GraphSize, Period, draw_trend
 from zlmreport.language.formatting import DecimalSign
 
@@ -21,7 +19,7 @@ def drawn(
     entries: Sequence[LedgerEntry], period: Period = PERIOD
 ) -> list[tuple[str, list[tuple[float, float]]]]:
     """Return the class and the points of each outline."""
-    (trend,) = judge_trends(list_series_of(select_standing(entries)))
+    (trend,) = judged(entries)
     image = ET.fromstring(draw_trend(trend, period, "words", DecimalSign.POINT))
     found = []
     for path in image.iter("{http://www.w3.org/2000/svg}path"):
@@ -99,7 +97,7 @@ def test_a_single_calibration_of_zero_stays_on_the_drawing() -> None:
 
 
 def lettering(entries: Sequence[LedgerEntry], size: GraphSize, sign: DecimalSign) -> list[str]:
-    (trend,) = judge_trends(list_series_of(select_standing(entries)))
+    (trend,) = judged(entries)
     image = ET.fromstring(draw_trend(trend, PERIOD, "words", sign, size))
     return ["".join(text.itertext()) for text in image.iter("{http://www.w3.org/2000/svg}text")]
 

@@ -9,7 +9,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from fleet.histories import entry, history, parameter, quarters
+from fleet.histories import entry, history, judged, parameter, quarters
 from zlmreport.fleet.causes import Cause, Shared, find_cause_of, find_shared
 from zlmreport.fleet.drifts import Trend, judge_trends
 from zlmreport.fleet.records import MODEL, LedgerEntry
@@ -19,10 +19,6 @@ from zlmreport.fleet.trend import list_series_of, select_standing
 
 LIMIT = 20.0
 CALM = [8.0, 8.4, 8.1, 8.3, 8.2, 8.0]
-
-
-def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
-    return judge_trends(list_series_of(select_standing(entries)))
 
 
 def fleet_with(values: list[float], **others: list[float]) -> Trend:

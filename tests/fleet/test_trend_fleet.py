@@ -7,27 +7,21 @@ import math
 import numpy as np
 import pytest
 
-from fleet.histories import entry, history, parameter, quarters
+from fleet.histories import entry, history, judged, parameter, quarters
 from zlmreport.fleet.drifts import (
     FALSE_SHARE,
     Trend,
     adjust_by_holm,
     choose_by_benjamini_hochberg,
-    judge_trends,
     name_in_families,
 )
-from zlmreport.fleet.records import LedgerEntry
-from zlmreport.fleet.trend import fit_line_through, list_series_of, select_standing
+from zlmreport.fleet.trend import fit_line_through, list_series_of
 
 #: The fifteen p-values of the paper of Benjamini and Hochberg (1995), section 4.
 PUBLISHED = [
     *(0.0001, 0.0004, 0.0019, 0.0095, 0.0201, 0.0278, 0.0298, 0.0344),
     *(0.0459, 0.3240, 0.4262, 0.5719, 0.6528, 0.7590, 1.0000),
 ]
-
-
-def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
-    return judge_trends(list_series_of(select_standing(entries)))
 
 
 def test_the_published_example_chooses_four() -> None:

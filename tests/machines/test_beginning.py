@@ -9,7 +9,6 @@ import pytest
 from environments import ROOT
 from zlmreport.cli import main
 from zlmreport.job.loading import load
-from zlmreport.machines.file_names import find_circle_by_name, find_error_by_name
 from zlmreport.machines.reading import read_machine
 from zlmreport.plugin.registry import find_plugins
 
@@ -22,43 +21,6 @@ NAMES = {
     "x-straightness.csv": "x-straightness.csv",
     "y-straightness.csv": "Y Geradheit horizontal.csv",
 }
-
-
-@pytest.mark.parametrize(
-    ("name", "symbol"),
-    [
-        ("EYX", "EYX"),
-        ("X-Achse_Positionierung", "EXX"),
-        ("y-straightness-z", "EZY"),
-        ("z straightness in x", "EXZ"),
-        ("x_pitch", "EBX"),
-        ("Y yaw", "ECY"),
-        ("z-roll", "ECZ"),
-        ("y1 nicken", "EAY"),
-    ],
-)
-def test_the_name_of_a_file_says_which_error_it_holds(name: str, symbol: str) -> None:
-    found = find_error_by_name(name)
-    assert (found.symbol, found.doubt) == (symbol, "")
-
-
-@pytest.mark.parametrize(
-    ("name", "doubt"),
-    [
-        ("x-straightness", "EYX or EZX"),
-        ("z-pitch", "EAZ or EBZ"),
-        ("measurement-17", "which axis moved"),
-        ("c0y-square", "which line of C0Y it is: EYX or EXY"),
-    ],
-)
-def test_what_a_name_leaves_open_is_asked(name: str, doubt: str) -> None:
-    assert doubt in find_error_by_name(name).doubt
-
-
-def test_the_name_of_a_circle_says_plane_radius_and_feed() -> None:
-    found = find_circle_by_name("ballbar xz R100mm F3000")
-    assert (found.plane, found.radius, found.feed) == ("ZX", 100.0, 3000.0)
-    assert find_circle_by_name("fast ballbar run").radius is None
 
 
 @pytest.fixture(autouse=True)
@@ -87,6 +49,47 @@ def ask(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
     assert main(["machine", *arguments, "--json"]) == 0
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
     return found
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        {
+            "EYX": "EYX",
+            "X-Achse_Positionierung": "EXX",
+            "y-straightness-z": "EZY",
+            "z straightness in x": "EXZ",
+            "x_pitch": "EBX",
+            "Y yaw": "ECY",
+            "z-roll": "ECZ",
+            "y1 nicken": "EAY",
+        },
+        {
+            "y-straightness": "not known: across which axis it is: EXY or EZY",
+            "z-pitch": "not known: about which axis it tilts: EAZ or EBZ",
+            "measurement-17": "not known: which axis moved, and which error was measured",
+            "c0y-square": "not known: which line of C0Y it is: EYX or EXY",
+        },
+    ],
+    ids=["told", "left open"],
+)
+def test_the_name_of_a_file_says_which_error_it_holds_or_what_is_asked(
+    readings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], names: dict[str, str]
+) -> None:
+    (own := tmp_path / "own").mkdir()
+    for name in names:
+        (own / f"{name}.csv").write_bytes((readings / "Z.csv").read_bytes())
+    assert main(["init", str(tmp_path / "mill"), "--machine", str(own)]) == 0
+    said = capsys.readouterr().out
+    assert [name for name, error in names.items() if f"{name}.csv: {error}\n" not in said] == []
+
+
+def test_the_name_of_a_circle_says_plane_radius_and_feed(readings: Path, tmp_path: Path) -> None:
+    named = (readings / "ballbar-cw.csv").rename(readings / "ballbar xz R100mm F3000.csv")
+    assert main(["init", str(tmp_path / "mill"), "--machine", str(named)]) == 0
+    job = (tmp_path / "mill" / "ballbar-xz-R100mm-F3000.yaml").read_text("utf-8")
+    for stated in ("plane: ZX", "radius: 100", "feed: 3000"):
+        assert f"\n  {stated}" in job
 
 
 @pytest.mark.long

@@ -4,25 +4,28 @@ import json
 
 import pytest
 
-from zlmreport.errors import InputError, Place
-from zlmreport.machines.axis_errors import make_curve_of_certificate
+from zlmreport.errors import InputError
+from zlmreport.machines.reading import read_machine
+from zlmreport.plugin.registry import find_plugins
 
 MEANS = [{"target": 0.0, "mean_fwd": 0.0}, {"target": 100.0, "mean_fwd": 2.0}]
 
 
 def read(folder, positions):
-    path = folder / "CAL-1.json"
     results = {
         "certificate": {"number": "CAL-1"},
         "measurements": {"axis": "X"},
         "evaluations": [{"positions": positions}],
     }
-    path.write_text(json.dumps(results), encoding="utf-8")
-    return make_curve_of_certificate(path, Place("machine.yaml"), lambda _path: None)
+    (folder / "CAL-1.json").write_text(json.dumps(results), encoding="utf-8")
+    path = folder / "machine.yaml"
+    path.write_text("schema: zlmreport/machine/1\nchain: XYFZ\nerrors: [CAL-1.json]\n", encoding="utf-8")
+    return read_machine(path, find_plugins()).machine.curves
 
 
 def test_the_means_of_a_certificate_are_a_curve(tmp_path):
-    assert read(tmp_path, MEANS).values == pytest.approx([0.0, 2e-6])
+    (curve,) = read(tmp_path, MEANS)
+    assert curve.values == pytest.approx([0.0, 2e-6])
 
 
 def test_a_number_that_no_certificate_states_is_refused(tmp_path):

@@ -8,6 +8,7 @@ import pytest
 
 import zlmreport as z
 from machines.simulated import added, bare_machine, circle, lagging, out_of_square as turned
+from machines.test_command import values
 from zlmreport.cli import main
 from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import ToolCourse
@@ -106,11 +107,6 @@ def test_an_error_within_its_uncertainty_is_left():
     assert (plan.taken, plan.within_uncertainty) == (("EYX",), ("C0Y",))
     with pytest.raises(InputError, match="nothing for a table across axes"):
         plan_tables(bare_machine([square("C0Y", 1e-6, u=2e-6)]), PLACE)
-
-
-def values(capsys, *arguments):
-    assert main([*map(str, arguments), "--json"]) == 0
-    return json.loads(capsys.readouterr().out)
 
 
 def test_the_command_writes_the_table_with_its_forecast(folder, tmp_path, capsys):

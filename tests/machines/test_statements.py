@@ -5,8 +5,6 @@ import json
 import pytest
 
 from zlmreport.cli import main
-from zlmreport.language import Language
-from zlmreport.machines.subjects.saying import Sayer
 
 MACHINE = """\
 schema: zlmreport/machine/1
@@ -54,12 +52,9 @@ def test_a_page_in_german_has_german_numbers_and_words(run, tmp_path):
     assert (sources["EXX"], sources["EYY"]) == ("stated", "granite square")
 
 
-def test_no_place_has_a_minus_before_a_zero(run):
-    assert "Y 0 " in run(MACHINE, "check")[1]
-
-
-def test_a_far_place_keeps_its_micrometres() -> None:
-    assert Sayer(Language.ENGLISH).write_millimetres(2.543188) == "2543.188"
+@pytest.mark.parametrize(("stated", "said"), [("-0.0000001", "0"), ("2543.188", "2543.188")])
+def test_a_place_has_its_micrometres_and_no_minus_before_a_zero(run, stated, said):
+    assert f"Y {said} " in run(MACHINE.replace("-0.0000001", stated), "check")[1]
 
 
 def test_ranges_that_do_not_overlap_are_no_lack_of_measurements(run):

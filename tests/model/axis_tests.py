@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
+from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis, PositionTable
+from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.observations import Observations
 from zlmreport_plugins.effects import zlmreport_effects
 from zlmreport_plugins.effects.polynomial import Polynomial
@@ -67,6 +70,11 @@ def pendulum_test(targets: int = 21, runs: int = 5, *, seed: int = 1, axis: Axis
 def model_of(*effects: str | Effect) -> AxisModel:
     """Return a model of effects, by identifier or as they are."""
     return AxisModel(tuple(Term(EFFECTS[each] if isinstance(each, str) else each) for each in effects))
+
+
+def formula(text: str, **parameters: Any) -> FormulaEffect:
+    """Return the effect of a formula of a job."""
+    return FormulaEffect(FormulaKeys(name="own", formula=text, parameters=parameters), AxisKind.LINEAR)
 
 
 #: What the tests take for granted of an axis: a cubic and backlash.

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 
-from model.axis_tests import AXIS, EFFECTS, linear_test, model_of, noise
-from zlmreport.job.formula_keys import FormulaKeys
+from model.axis_tests import AXIS, EFFECTS, formula, linear_test, model_of, noise
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import place_at_positions
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.curve import find_waves_along, lay_curve_positions, lay_effect_positions
 from zlmreport.model.fitting.fit import Fit, fit
 
@@ -81,10 +77,6 @@ def test_effect_alone_is_drawn_as_finely_as_in_a_model() -> None:
     assert np.ptp(drawn) == pytest.approx(np.ptp(true), rel=0.03)
 
 
-def _formula(text: str, **parameters: Any) -> FormulaEffect:
-    return FormulaEffect(FormulaKeys(name="own", formula=text, parameters=parameters), AxisKind.LINEAR)
-
-
 _PITCH = EFFECTS["screw-pitch"]
 _ONE_WAVE = _PITCH.with_settings(_PITCH.options(harmonics=(1,)))
 _METRE = linear_test(15, 2, axis=replace(AXIS, screw_pitch=0.005))
@@ -96,17 +88,17 @@ _MM, _UM = {"unit": "mm", "range": [1, 3000]}, {"unit": "um", "range": [-50, 50]
     ("drawn", "searched"),
     [
         (_ONE_WAVE, [0.005]),
-        (_formula("a*sin(2*pi*P/L)", a=_UM, L=_MM), [0.005]),
+        (formula("a*sin(2*pi*P/L)", a=_UM, L=_MM), [0.005]),
         (
-            _formula("a*sin(2*pi*P/L + b*cos(4*pi*P/M))", a=_UM, L=_MM, b={"range": [0, 2]}, M=_MM),
+            formula("a*sin(2*pi*P/L + b*cos(4*pi*P/M))", a=_UM, L=_MM, b={"range": [0, 2]}, M=_MM),
             [0.02, 1, 0.1],
         ),
-        (_formula("a*exp(-P/L)", a=_UM, L=_MM), [0.01]),
-        (_formula("a*exp(-(P - M)^2/L^2)", a=_UM, L=_MM, M=_MM), [0.015, 1.2345]),
-        (_formula("a*step(P - 777)*P/L - b*step(P - 123)", a=_UM, b=_UM, L={**_MM, "value": 3000}), [3.0]),
-        (_formula("a*sign(sin(2*pi*P/L))", a=_UM, L={**_MM, "value": 300}), [0.3]),
+        (formula("a*exp(-P/L)", a=_UM, L=_MM), [0.01]),
+        (formula("a*exp(-(P - M)^2/L^2)", a=_UM, L=_MM, M=_MM), [0.015, 1.2345]),
+        (formula("a*step(P - 777)*P/L - b*step(P - 123)", a=_UM, b=_UM, L={**_MM, "value": 3000}), [3.0]),
+        (formula("a*sign(sin(2*pi*P/L))", a=_UM, L={**_MM, "value": 300}), [0.3]),
         (
-            _formula(
+            formula(
                 "a*abs(P/L - b) + c*min(P/L, 1)", a=_UM, c=_UM, L={**_MM, "value": 1300}, b={"range": [0, 1]}
             ),
             [1.3, 0.7],
@@ -129,6 +121,6 @@ def test_between_positions_a_curve_is_what_the_model_gives(drawn: Effect, search
 
 
 def test_wave_of_a_formula_is_as_long_as_its_period_says() -> None:
-    wave = _formula("a*sin(6*pi*P/L) + b*cos(2*pi*P/L)", a=_UM, b=_UM, L=_MM)
+    wave = formula("a*sin(6*pi*P/L) + b*cos(2*pi*P/L)", a=_UM, b=_UM, L=_MM)
     fitted = fit(AxisModel((Term(wave, {"L": 0.3}),)), _LONG, noise(_LONG))
     assert find_waves_along(fitted) == {"own": pytest.approx(0.1)}

@@ -23,7 +23,6 @@ from model.axis_tests import (
 from model.hidden_effect import study
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.believing import MENTION
-from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
@@ -55,9 +54,9 @@ def _outcome(diagnosis: AxisDiagnosis) -> tuple[object, ...]:
     )
 
 
-def _compute_odds(candidate: EffectCandidate) -> float:
-    """Return 2·ln of the odds for a candidate."""
-    return 2 * math.log(candidate.probability / (1 - candidate.probability))
+def _compute_odds(probability: float) -> float:
+    """Return 2·ln of the odds of what is so probable."""
+    return 2 * math.log(probability / (1 - probability))
 
 
 def _is_like(diagnosis: AxisDiagnosis, usual: AxisDiagnosis) -> None:
@@ -65,7 +64,9 @@ def _is_like(diagnosis: AxisDiagnosis, usual: AxisDiagnosis) -> None:
     for one, other in zip(diagnosis.candidates, usual.candidates, strict=True):
         # What the model explains counts by a noise of known size, 0.2 % of it, beside the scatter: that is an
         # eighth of what is worth a mention.
-        assert _compute_odds(one) == pytest.approx(_compute_odds(other), abs=MENTION / 8)
+        assert _compute_odds(one.probability) == pytest.approx(
+            _compute_odds(other.probability), abs=MENTION / 8
+        )
         assert one.error.rms == pytest.approx(other.error.rms, rel=1e-6)
 
 

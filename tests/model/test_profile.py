@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 
-from model.axis_tests import USUAL, linear_test, model_of, noise
-from zlmreport.job.formula_keys import FormulaKeys
+from model.axis_tests import USUAL, formula, linear_test, model_of, noise
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting import profile
@@ -25,12 +21,8 @@ _PLAIN = Assumptions(parts=(), weights=np.ones(len(_DESIGN.position)))
 _UM = {"unit": "um", "range": [-50, 50]}
 
 
-def _formula(text: str, **parameters: Any) -> FormulaEffect:
-    return FormulaEffect(FormulaKeys(name="own", formula=text, parameters=parameters), AxisKind.LINEAR)
-
-
 def _fading(longest: float) -> FormulaEffect:
-    return _formula("a*exp(-P/L)", a=_UM, L={"unit": "mm", "range": [20, longest]})
+    return formula("a*exp(-P/L)", a=_UM, L={"unit": "mm", "range": [20, longest]})
 
 
 def _fitted(model: AxisModel, deviation: FloatArray) -> Fit:
@@ -81,7 +73,7 @@ def test_interval_is_open_where_the_search_ends_before_the_readings_exclude_anyt
 
 def test_interval_of_a_parameter_held_at_its_bound_begins_there() -> None:
     """A slope of 4 µm/m that may be 3 at most: the rise from there on is that of a parabola about 4."""
-    effect = _formula("k*P", k={"unit": "um/m"})
+    effect = formula("k*P", k={"unit": "um/m"})
     deviation = 4e-6 * _DESIGN.position + noise(_DESIGN, sigma=1e-6)
     free = _fitted(AxisModel((Term(effect),)), deviation)
     held = _fitted(AxisModel((Term(effect, bounds={"k": (-np.inf, 3e-6)}),)), deviation)
@@ -97,7 +89,7 @@ def test_an_end_takes_twelve_fits_at_most(monkeypatch: pytest.MonkeyPatch) -> No
     fits: list[object] = []
     descend = profile.descend
     monkeypatch.setattr(profile, "descend", lambda *given: fits.append(given) or descend(*given))
-    wave = _formula("a*sin(2*pi*P/L)", a=_UM, L={"unit": "mm", "range": [50, 900]})
+    wave = formula("a*sin(2*pi*P/L)", a=_UM, L={"unit": "mm", "range": [50, 900]})
     deviation = 2e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.3) + noise(_DESIGN, sigma=2e-6)
     found = find_intervals(_fitted(model_of("offset", wave), deviation))
     assert 0 < len(fits) <= 24 * len(found)

@@ -13,7 +13,7 @@ from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption,
 
 from document.signing.keys import certificate_of, elliptic
 from processes import PATIENCE
-from zlmreport.errors import AccessError
+from zlmreport.plugin import AccessError
 from zlmreport.plugin.notifier import Message, Occasion
 from zlmreport_plugins.notifiers import Mail, MailOptions
 

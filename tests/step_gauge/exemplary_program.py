@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.job.types import Options
-from zlmreport.language import Words
+from zlmreport.plugin import Options, Words
 from zlmreport.plugin.program import plain_name
 from zlmreport_step_gauge.paths.path import Probing, ProbingPath
 from zlmreport_step_gauge.paths.programs import coordinates, direction

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 from zlmreport_step_gauge.set_up import GaugeSetUp
 

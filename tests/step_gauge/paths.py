@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.paths.path import PathKind, PathSettings, Point
 from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path

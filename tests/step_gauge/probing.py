@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport_step_gauge.deviations import Deviations, compute_deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.probed import Probed, ProbedPoint, arrange_on_grid

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
-from zlmreport.errors import InputError, Place
+from zlmreport.plugin import InputError, Place
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import Side
 

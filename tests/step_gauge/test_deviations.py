@@ -10,7 +10,7 @@ import pytest
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport_step_gauge.deviations import RadiusSource, compute_deviations_of, compute_radius_uncertainty
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.initial_points import InitialPoints

@@ -17,12 +17,14 @@ ANSWERS = DATA.parent / "step_gauge/stepgauge.res"
 FIRST_FACE = np.array([290.862e-3, 41.013e-3, 201.28e-3])
 
 
-def sample_server() -> DmeServer:
+def sample_server(*faults: PointFault) -> DmeServer:
+    """Return a server of which the measuring moves meet faults in turn."""
     along = np.array([-0.0006, 0.9999998, 0.0])
     axes = np.array([along, np.cross(along, [0.0, 0.0, 1.0]), [0.0, 0.0, 1.0]])
     lower = np.array([[0.02 * block, -0.005, -0.005] for block in range(5)])
     boxes = Boxes(FIRST_FACE, axes, lower, lower + 0.01 * np.ones(3))
-    return DmeServer(CoordinateMachine(boxes, effective_radius=1.9985e-3))
+    machine = CoordinateMachine(boxes, effective_radius=1.9985e-3)
+    return DmeServer(machine, faults=dict(enumerate(faults, start=1)))
 
 
 def commands(name: str) -> list[str]:
@@ -111,8 +113,7 @@ MEASURE = "00004 PtMeas(X(290.862), Y(41.013), Z(201.280), IJK(0.0006000, -0.999
 
 
 def test_an_emergency_stop_is_told_unasked_too() -> None:
-    server = begun(sample_server())
-    server._faults = {1: PointFault.EMERGENCY_STOP}
+    server = begun(sample_server(PointFault.EMERGENCY_STOP))
     assert answers(server, MEASURE) == [
         "00004 &",
         'E0000 ! Error(3, 0500, Server, "Emergency stop")',
@@ -122,8 +123,7 @@ def test_an_emergency_stop_is_told_unasked_too() -> None:
 
 
 def test_with_a_lost_connection_nothing_comes_any_more() -> None:
-    server = begun(sample_server())
-    server._faults = {1: PointFault.LOST_CONNECTION}
+    server = begun(sample_server(PointFault.LOST_CONNECTION))
     assert answers(server, MEASURE) == ["00004 &"]
     assert server.is_gone
 

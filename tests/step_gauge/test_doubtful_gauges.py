@@ -12,9 +12,9 @@ import pytest
 from document.certificate.documents import lines_of, registry
 from environments import ROOT
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
+from zlmreport.plugin.renderer import Certificate
 
 _CALIBRATED = "calibrated: 2026-04-20"
 _COEFFICIENT = "expansion_coefficient: 11.5              # µm/(m·K)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from step_gauge.gauges import DEPARTURES, gauge
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport_step_gauge.extension import draw_gauge_calibration
 
 FIGURE = draw_gauge_calibration(gauge())

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport_step_gauge.initial_points import read_initial_points
 
 ROWS = [f"{block},{point},{point},2,3" for block in ("begin", "end") for point in range(1, 9)]

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from step_gauge.emulated import small_path
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
 from zlmreport_step_gauge.machines.run import PointJournal
 
 PATH = small_path().path

@@ -10,9 +10,7 @@ import pytest
 from pydantic import Field
 
 from step_gauge.exemplary_program import ExemplaryProbing, read_words
-from zlmreport.errors import InputError, Place
-from zlmreport.job.types import Options
-from zlmreport.language import Words
+from zlmreport.plugin import InputError, Options, Place, Words
 from zlmreport_step_gauge import testing as probing_programs
 from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, check_probing_program

@@ -11,7 +11,7 @@ import pytest
 
 from step_gauge.languages import LANGUAGES, LanguageError, dmis, ippdme, mv_ms
 from step_gauge.paths import PLACE, planned
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
 from zlmreport_step_gauge.testing import sample_path

@@ -10,8 +10,7 @@ from hypothesis import given, strategies as st
 
 from step_gauge.gauges import gauge
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
-from zlmreport.errors import InputError, Place
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray, InputError, Place
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import Located, compute_direction_of, locate
 

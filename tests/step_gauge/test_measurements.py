@@ -7,13 +7,9 @@ import pytest
 
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
-from zlmreport.evaluation.checks import no_missing_readings
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.types import Options
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Axis, Language, MeasurementSet, Options
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.standard import evaluate, no_missing_readings
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.measurements import (
     _NO_LOCATION,

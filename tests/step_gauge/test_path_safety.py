@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from step_gauge.paths import PLACE, planned, step_gauge
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport_step_gauge.paths.path import PathKind
 from zlmreport_step_gauge.paths.room import find_least_gap, make_obstacles
 

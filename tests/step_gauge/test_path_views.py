@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from step_gauge.paths import planned
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.paths.foretold import draw_path
 from zlmreport_step_gauge.paths.path import PathKind

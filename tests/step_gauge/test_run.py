@@ -13,7 +13,7 @@ import pytest
 from processes import PATIENCE, awaited
 from step_gauge.emulated import RADIUS, Notes, on_a_port, server, small_path
 from step_gauge.paths import planned
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
 from zlmreport_step_gauge.keys import MachineKeys
 from zlmreport_step_gauge.machines.run import LiveProbing, run_probing
 from zlmreport_step_gauge.machines.server import DmeServer

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 import pytest
 
 from processes import PATIENCE
-from zlmreport.errors import AccessError
+from zlmreport.plugin import AccessError
 from zlmreport_step_gauge.machines.session import ServerConnection, Session
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Certificate
 
 
 def composed(folder: Path, sign: str) -> Certificate:

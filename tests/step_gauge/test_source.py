@@ -10,11 +10,16 @@ import pytest
 
 from environments import ROOT
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
-from zlmreport.errors import InputError, Place
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurand import ANGLE, STRAIGHTNESS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import (
+    ANGLE,
+    STRAIGHTNESS,
+    Axis,
+    AxisKind,
+    FloatArray,
+    InputError,
+    MeasurementSet,
+    Place,
+)
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.calibration import cut_section, read_calibration

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.standard import position_statistics
 
 STANDARD = find_plugins().standard("step-gauge")
 NAN = float("nan")

@@ -13,8 +13,8 @@ from environments import ROOT
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import RADIUS
 from step_gauge.test_measurements import measured
-from zlmreport.evaluation.uncertainty.budget import Acts
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.extension import Acts
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
 from zlmreport_step_gauge.uncertainty import list_gauge_contributions, part_uncertainty
 

@@ -11,24 +11,35 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from zlmreport.document.blocks import Graph
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.evaluation.evaluation import (
-    Arithmetic,
+from zlmreport.evaluation.statistics import largest, smallest
+from zlmreport.language import same
+from zlmreport.plugin import (
+    AccessError,
     Evaluation,
+    Figure,
+    InputError,
+    JobPath,
+    MeasurementSet,
+    Options,
+    Place,
+    Words,
+)
+from zlmreport.plugin.protocols import SourceContext
+from zlmreport.plugin.renderer import Certificate, Graph
+from zlmreport.plugin.source import Provenance, SourceFile
+from zlmreport.plugin.standard import (
+    Arithmetic,
+    Band,
+    Bracket,
+    Curve,
     Finding,
+    Panel,
     PositionQuantity,
+    PositionStatistics,
     Quantity,
     QuantityGroup,
+    Role,
 )
-from zlmreport.evaluation.statistics import PositionStatistics, largest, smallest
-from zlmreport.job.types import JobPath, Options
-from zlmreport.language import Words, same
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Provenance, SourceFile
-from zlmreport.plugin.protocols import SourceContext
 from zlmreport.testing import bidirectional_test
 
 

@@ -7,12 +7,8 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from zlmreport.job.types import Options
-from zlmreport.language import Words
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Confusion, Dimension, Effect, Parameter, Shape
+from zlmreport.plugin import Axis, FloatArray, Options, Words
+from zlmreport.plugin.effect import Confusion, Design, Dimension, Effect, Parameter, Shape
 
 
 class ExemplaryOptions(Options):

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.language import Words
-from zlmreport.model.planning.programs import Motion, ProgramOptions, write_heading
+from zlmreport.model.planning.programs import write_heading
+from zlmreport.plugin import Words
+from zlmreport.plugin.program import Motion, ProgramOptions
 
 
 class ExemplaryProgram:

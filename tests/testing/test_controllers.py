@@ -11,12 +11,8 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from zlmreport.errors import InputError, Place
-from zlmreport.job.types import Options
-from zlmreport.language import Words
-from zlmreport.measurement.arrays import read_only_floats
-from zlmreport.model.compensation.cross import CrossTable
-from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.plugin import InputError, Options, Place, Words, read_only_floats
+from zlmreport.plugin.controller import CompensationTable, CrossTable
 from zlmreport.testing import (
     CONTROLLER_CHECKS,
     ControlExample,

@@ -15,11 +15,9 @@ from pydantic import Field
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.formula_parts import Formula
-from zlmreport.job.types import Options
-from zlmreport.language import Words, same
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Confusion, Shape
+from zlmreport.language import same
+from zlmreport.plugin import AxisKind, Options, Words
+from zlmreport.plugin.effect import Confusion, Design, Shape
 from zlmreport.testing import EFFECT_CHECKS, check_effect, effects, full_designs
 
 DESIGNS = full_designs()

@@ -13,13 +13,19 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from zlmreport.errors import InputError, Place
-from zlmreport.job.types import Options
-from zlmreport.language import Words
-from zlmreport.live.emulation.emulator import Emulator, Scene, Trouble
 from zlmreport.live.ports.dialogue import stream
-from zlmreport.live.ports.port import Framing, LiveConnection, Port, PortOptions
-from zlmreport.live.ports.reading import Fault, LiveReading
+from zlmreport.plugin import InputError, Options, Place, Words
+from zlmreport.plugin.instrument import (
+    Emulator,
+    Fault,
+    Framing,
+    LiveConnection,
+    LiveReading,
+    Port,
+    PortOptions,
+    Scene,
+    Trouble,
+)
 from zlmreport.testing import InstrumentTraits, instruments
 
 

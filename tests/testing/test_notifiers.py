@@ -10,9 +10,7 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from zlmreport.errors import AccessError, Place
-from zlmreport.job.types import Options
-from zlmreport.language import Words
+from zlmreport.plugin import AccessError, Options, Place, Words
 from zlmreport.plugin.protocols import Message
 from zlmreport.testing import NOTIFIER_CHECKS, NotifierTrial, check_notifier, notifiers
 

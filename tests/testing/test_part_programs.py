@@ -12,10 +12,8 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary_program import ExemplaryProgram, run_steps
-from zlmreport.job.types import Options
-from zlmreport.language import Words
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.planning.programs import Motion, ProgramOptions
+from zlmreport.plugin import AxisKind, Options, Words
+from zlmreport.plugin.program import Motion, ProgramOptions
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
 
 COUNTER = itertools.count()

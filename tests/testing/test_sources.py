@@ -12,12 +12,18 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplarySource, ExemplarySourceOptions
-from zlmreport.errors import InputError, Place
-from zlmreport.job.types import JobPath, Options
-from zlmreport.language import Words, same
-from zlmreport.measurement.arrays import read_only_floats, read_only_integers
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.language import same
+from zlmreport.measurement.arrays import read_only_integers
+from zlmreport.plugin import (
+    Axis,
+    InputError,
+    JobPath,
+    MeasurementSet,
+    Options,
+    Place,
+    Words,
+    read_only_floats,
+)
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.testing import SOURCE_CHECKS, FileContents, check_source, simulated_test, sources
 

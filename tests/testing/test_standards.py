@@ -12,11 +12,18 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
-from zlmreport.document.figures.figure import Arrow, Figure, Level, Role
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, PositionQuantity
-from zlmreport.evaluation.statistics import PositionStatistics, largest
-from zlmreport.job.types import Options
-from zlmreport.language import Words, same
+from zlmreport.evaluation.statistics import largest
+from zlmreport.language import same
+from zlmreport.plugin import Evaluation, Figure, Options, Words
+from zlmreport.plugin.standard import (
+    Arithmetic,
+    Arrow,
+    Finding,
+    Level,
+    PositionQuantity,
+    PositionStatistics,
+    Role,
+)
 from zlmreport.testing import (
     STANDARD_CHECKS,
     WorkedExample,

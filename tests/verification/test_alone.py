@@ -10,7 +10,6 @@ from verification.issued import lay_out, registry
 from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.verification.alone import format_of
 from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.verify import verify
 
@@ -29,11 +28,6 @@ def laid_out(folder: Path, documents: dict[str, bytes], *endings: str) -> Path:
     for ending in endings:
         (folder / f"VERIFY-1{ending}").write_bytes(documents[ending])
     return folder / f"VERIFY-1{endings[0]}"
-
-
-@pytest.mark.parametrize("ending", [".json", ".csv", ".xlsx", ".html"])
-def test_it_is_known_for_what_it_is(ending: str, documents: dict[str, bytes]) -> None:
-    assert format_of(documents[ending]) == ending[1:]
 
 
 @pytest.mark.parametrize("ending", [".json", ".csv", ".xlsx", ".html"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from argparse import Namespace
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -14,14 +13,12 @@ from pypdf.generic import ArrayObject, FloatObject, NameObject
 
 from document.signing.authority import authority
 from document.signing.keys import NAME, PASSWORD, pkcs12_file
-from verification.issued import LABORATORY, altered, lay_out, registry, with_digit
-from zlmreport import pipeline
+from verification.issued import LABORATORY, altered, lay_out, with_digit
+from zlmreport.cli import main
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.report import open_signer_of
 from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.errors import Place
-from zlmreport.job.loading import load
 from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
 Verify = Callable[[bytes], CheckedCertificate]
@@ -61,7 +58,7 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
 ) -> None:
     with authority() as own:
         laboratory = LABORATORY.replace("kind:", f"signature: {{timestamp: {own.address}}}, kind:")
-        job = load(lay_out(tmp_path, laboratory=laboratory), registry(), formats=("pdf",))
+        job = lay_out(tmp_path, laboratory=laboratory)
         (tmp_path / "zlmreport").mkdir()
         (tmp_path / "zlmreport" / "config.yaml").write_text("trusted: authority.pem\n")
         authorities = tmp_path / "zlmreport" / "authority.pem"
@@ -69,9 +66,10 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
         key = pkcs12_file(tmp_path / "key.p12", certificate=own.issued())
         monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
         monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
-        with open_signer_of(Namespace(sign=str(key))) as signer:
-            (document,) = pipeline.run(job, registry(), signer).documents
-    found = verified(document.content)
+        made = tmp_path / "made"
+        assert main([str(job), "--sign", str(key), "--format", "pdf", "-o", str(made)]) == 0
+    (document,) = made.glob("*.pdf")
+    found = verified(document.read_bytes())
     assert found.holds
     assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {
         VerificationVerdict.HOLDS

@@ -1,22 +1,20 @@
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 pytest.importorskip("starlette", reason="the workbench's extra is not installed")
 
-with warnings.catch_warnings():
-    warnings.simplefilter("ignore")  # it asks for a successor of httpx that is not packaged everywhere
-    from starlette.testclient import TestClient
-
+from web.browsers import DOOR, enter, pass_by
 from web.jobs import lay_out, registry
 from zlmreport.web.app import Workbench
 from zlmreport.web.guard import Door
 
-PORT = 8420
+if TYPE_CHECKING:
+    from starlette.testclient import TestClient
 
 
 @pytest.fixture(autouse=True)
@@ -40,18 +38,14 @@ def workbench(job: Path) -> Iterator[Workbench]:
 
 @pytest.fixture
 def door() -> Door:
-    return Door.at(PORT)
+    return DOOR
 
 
 @pytest.fixture
-def stranger(workbench: Workbench, door: Door) -> TestClient:
-    """Return a browser that has not been given the token."""
-    return TestClient(workbench.make_app(door), base_url=f"http://127.0.0.1:{PORT}", follow_redirects=False)
+def stranger(workbench: Workbench) -> TestClient:
+    return pass_by(workbench)
 
 
 @pytest.fixture
-def browser(stranger: TestClient, door: Door) -> TestClient:
-    """Return a browser that came by the address on the terminal."""
-    assert stranger.get(door.address).status_code == 303
-    stranger.headers["Origin"] = f"http://127.0.0.1:{PORT}"
-    return stranger
+def browser(workbench: Workbench) -> TestClient:
+    return enter(workbench)

@@ -14,10 +14,10 @@ from starlette.testclient import TestClient
 from cli.test_capture import JOB, PLUGIN, WHOLE
 from environments import ROOT
 from processes import PATIENCE
+from web.browsers import enter
 from zlmreport.live.capture.journal import read_history
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.web.app import Workbench
-from zlmreport.web.guard import Door
 
 
 class Desk:
@@ -51,11 +51,7 @@ def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.Fixtur
     path = tmp_path / "job.yaml"
     path.write_text(JOB.replace("MOVES", getattr(request, "param", WHOLE)), encoding="utf-8")
     workbench = Workbench.of([path], find_plugins(files=[PLUGIN]), [PLUGIN])
-    door = Door.at(8420)
-    browser = TestClient(workbench.make_app(door), base_url="http://127.0.0.1:8420", follow_redirects=False)
-    browser.get(door.address)
-    browser.headers["Origin"] = "http://127.0.0.1:8420"
-    yield Desk(browser)
+    yield Desk(enter(workbench))
     workbench.end()
 
 

@@ -160,9 +160,15 @@ def test_readings_in_a_box_are_set_aside_together_and_undone_together(
     assert job.read_text(encoding="utf-8") == text
 
 
+#: Lines that a record of steps may come to hold, and that are passed over.
+NO_STEPS = ["", "{", "[]", "1", '{"schema": "other/1"}', '{"schema": "zlmreport/workbench-history/1"}']
+
+
 def test_undo_puts_back_what_was(job: Path, browser: TestClient, before: dict[str, Any]) -> None:
     text = job.read_text(encoding="utf-8")
     once = click(browser, before, action="add", effect="screw-pitch")
+    with job.with_name("job.history.jsonl").open("a", encoding="utf-8") as record:
+        record.writelines(f"{line}\n" for line in NO_STEPS)
     twice = click(browser, once, action="remove", effect="offset")
     assert twice["undo"] == "offset removed"
     back = click(browser, twice, action="undo")
@@ -195,6 +201,13 @@ def test_what_was_undone_is_done_again_until_something_else_is_done(
     assert (
         browser.post("/api/change", json={"based_on": other["digest"], "action": "redo"}).status_code == 409
     )
+
+
+def test_a_step_that_cannot_be_recorded_is_said(
+    job: Path, browser: TestClient, before: dict[str, Any]
+) -> None:
+    job.with_name("job.history.jsonl").mkdir()
+    assert "cannot be" in refused(browser, before, action="add", effect="screw-pitch")
 
 
 def test_what_somebody_else_wrote_is_not_undone(

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from starlette.testclient import TestClient
 
+from web.browsers import enter
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.web.bench import Bench
-from zlmreport.web.comparison import ComparedTests
+from zlmreport.web.app import Workbench
 
 #: What the other test reads more at a target upwards and downwards, in µm.
 _MORE = {"+": 2.5, "-": -1.5}
@@ -48,8 +48,10 @@ def _shifted(path: Path) -> str:
 
 
 def _compared(*paths: Path) -> dict[str, Any]:
-    bench, *others = (Bench(path, registry()) for path in paths)
-    return ComparedTests.of(bench, others).list_values(Language.ENGLISH)
+    workbench = Workbench.of(paths, registry())
+    found: dict[str, Any] = enter(workbench).get("/api/tests?lang=en").json()
+    workbench.end()
+    return found
 
 
 @pytest.fixture(scope="module")
@@ -157,30 +159,32 @@ def test_positioning_may_have_its_symbol_in_one_test_and_none_in_the_other(
 
 
 @pytest.fixture
-def comparison(folder: Path, tmp_path: Path) -> Callable[[], tuple[ComparedTests, Path]]:
+def browser(folder: Path, tmp_path: Path) -> Iterator[TestClient]:
+    """Return a browser before a test of an axis and an earlier one, which may be spoilt."""
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
-    bench, other = (Bench(tmp_path / name, registry()) for name in ("after.yaml", "before.yaml"))
-    return lambda: (ComparedTests.of(bench, [other]), tmp_path / "before.csv")
+    workbench = Workbench.of([tmp_path / "after.yaml", tmp_path / "before.yaml"], registry())
+    yield enter(workbench)
+    workbench.end()
 
 
 def test_a_test_that_cannot_be_read_is_named_and_is_there_again_when_it_can(
-    comparison: Callable[[], tuple[ComparedTests, Path]],
+    browser: TestClient, tmp_path: Path
 ) -> None:
-    made, readings = comparison()
-    kept, stamp = readings.read_bytes(), made.make_stamp()
+    readings = tmp_path / "before.csv"
+    kept, stamp = readings.read_bytes(), browser.get("/api/stamp").json()["tests"]
     readings.unlink()
-    assert made.make_stamp() != stamp
-    without = made.list_values(Language.ENGLISH)
+    assert browser.get("/api/stamp").json()["tests"] != stamp
+    without = browser.get("/api/tests").json()
     assert without["tests"] == []
     assert "before.csv" in without["problems"][0]
     readings.write_bytes(kept)
-    assert len(made.list_values(Language.ENGLISH)["tests"]) == 2
+    assert len(browser.get("/api/tests").json()["tests"]) == 2
 
 
-def test_nothing_is_written_beside_the_other_tests(
-    comparison: Callable[[], tuple[ComparedTests, Path]],
-) -> None:
-    made, readings = comparison()
-    before = {path: path.read_bytes() for path in readings.parent.iterdir()}
-    made.list_values(Language.ENGLISH)
-    assert {path: path.read_bytes() for path in readings.parent.iterdir()} == before
+def test_nothing_is_written_beside_the_other_tests(browser: TestClient, tmp_path: Path) -> None:
+    def files() -> dict[Path, bytes]:
+        return {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+
+    before = files()
+    browser.get("/api/tests")
+    assert files() == before

@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from environments import ROOT
 from processes import awaited
+from web.browsers import enter, pass_by
 from web.jobs import registry
 from zlmreport.errors import InputError
-from zlmreport.language import Language
-from zlmreport.web.folder import JobFolder, JobRow, JobState, collect_row, find_jobs_in, look_at
+from zlmreport.web.folder import JobFolder
 from zlmreport.web.folder_app import FolderWorkbench
-from zlmreport.web.guard import Door
 
 TODAY = dt.date(2026, 11, 26)
 
@@ -31,14 +31,8 @@ def folder(job: Path) -> Iterator[FolderWorkbench]:
 
 
 @pytest.fixture
-def listing(folder: FolderWorkbench, door: Door) -> TestClient:
-    """Return a browser that came by the address on the terminal."""
-    client = TestClient(
-        folder.make_app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False
-    )
-    assert client.get(door.address).status_code == 303
-    client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
-    return client
+def listing(folder: FolderWorkbench) -> TestClient:
+    return enter(folder)
 
 
 def rows(listing: TestClient) -> list[dict[str, Any]]:
@@ -73,8 +67,8 @@ def test_a_click_in_a_folder_is_written_into_its_job(job: Path, listing: TestCli
     assert "    - screw-pitch\n" in job.read_text("utf-8")
 
 
-def test_nobody_opens_a_job_without_the_token(folder: FolderWorkbench, door: Door) -> None:
-    stranger = TestClient(folder.make_app(door), base_url=f"http://127.0.0.1:{door.port}")
+def test_nobody_opens_a_job_without_the_token(folder: FolderWorkbench) -> None:
+    stranger = pass_by(folder)
     key = next(iter(folder.folder.list_paths()))
     assert [stranger.get(path).status_code for path in ("/api/folder", f"/jobs/{key}/api/job")] == [403, 403]
 
@@ -99,29 +93,38 @@ def test_a_job_that_fails_opens_and_says_what_is_wrong(job: Path, listing: TestC
     assert "did you mean 'offset'?" in listing.get(f"/jobs/{row['key']}/api/job").json()["problems"][0]
 
 
+def test_an_axis_is_due_after_its_interval_from_the_day_of_the_measurement(
+    job: Path, listing: TestClient
+) -> None:
+    text = job.read_text("utf-8")
+    for interval in (7, 8, 98, 99):  # days; the measurement was eight days ago
+        own = f"{text.replace('EXAMPLE-X-7', f'X-{interval}')}\nfleet: {{interval: {interval}}}\n"
+        job.with_name(f"{interval}.yaml").write_text(own, "utf-8")
+    assert {each["name"]: (each["due"], each["state"]) for each in rows(listing)} == {
+        "7.yaml": ("2026-11-25", "overdue"),
+        "8.yaml": ("2026-11-26", "soon"),
+        "98.yaml": ("2027-02-24", "soon"),
+        "99.yaml": ("2027-02-25", "fine"),
+        "job.yaml": ("", "fine"),
+    }
+    assert listing.get("/api/folder?lang=de").json()["jobs"][0]["words"] == "überfällig"
+
+
 @pytest.mark.parametrize(
-    ("due", "state"),
+    ("was", "now", "state"),
     [
-        (TODAY - dt.timedelta(days=1), JobState.OVERDUE),
-        (TODAY, JobState.SOON),
-        (TODAY + dt.timedelta(days=90), JobState.SOON),
-        (TODAY + dt.timedelta(days=91), JobState.FINE),
-        (None, JobState.FINE),
+        ("  - iso230-2:2014", "  - {standard: 'iso230-2:2014', tolerances: {A: 5}}", "not-met"),
+        ("x-axis.csv", "none.csv", "fails"),
     ],
 )
-def test_an_axis_is_due_after_its_interval(due: dt.date | None, state: JobState) -> None:
-    assert JobRow("", "", JobState.FINE, due=due).date(TODAY, is_latest=True).state is state
-
-
-@pytest.mark.parametrize("state", [JobState.FAILS, JobState.NOT_MET, JobState.OVERDUE])
-def test_being_due_soon_hides_nothing_worse(state: JobState) -> None:
-    assert JobRow("", "", state, due=TODAY).date(TODAY, is_latest=True).state is state
-
-
-def test_the_interval_counts_from_the_day_of_the_measurement(job: Path) -> None:
-    job.write_text(f"{job.read_text('utf-8')}\nfleet: {{interval: 180}}\n", "utf-8")
-    row, _ = look_at(JobRow("", ""), job, registry())
-    assert row.due == dt.date(2027, 5, 17)
+def test_what_is_worse_than_being_overdue_is_said_of_an_axis_that_is(
+    job: Path, listing: TestClient, was: str, now: str, state: str
+) -> None:
+    text = job.read_text("utf-8")
+    assert was in text
+    job.write_text(f"{text.replace(was, now)}\nfleet: {{interval: 7}}\n", "utf-8")
+    (row,) = rows(listing)
+    assert row["state"] == state, row["problems"]
 
 
 def test_an_earlier_test_of_an_axis_needs_nobody(job: Path, listing: TestClient) -> None:
@@ -156,44 +159,28 @@ def test_a_later_test_leaves_behind_none_of_another_axis_or_error(
     assert states == {"later.yaml": "fine", "job.yaml": "earlier" if "EXX" in other else "fine"}
 
 
-def test_a_limit_that_is_not_met_is_said(job: Path) -> None:
-    text = job.read_text("utf-8").replace(
-        "  - iso230-2:2014", "  - {standard: 'iso230-2:2014', tolerances: {A: 5}}"
-    )
-    job.write_text(text, "utf-8")
-    row, _ = look_at(JobRow("", ""), job, registry())
-    assert row.state is JobState.NOT_MET, row.problems
-
-
-def test_only_jobs_are_listed(job: Path) -> None:
+def test_only_jobs_are_listed_whatever_the_case_of_their_ending(job: Path, listing: TestClient) -> None:
     folder = job.parent
     (folder / "fleet.yaml").write_text("schema: zlmreport/fleet/1\n", "utf-8")
     hidden = folder / ".old"
     hidden.mkdir()
-    shutil.copy(job, hidden)
-    assert find_jobs_in(folder) == (job,)
+    for copy in (hidden, folder / "y.YAML", folder / "z.Yml"):
+        shutil.copy(job, copy)
+    assert {each["name"] for each in rows(listing)} == {"job.yaml", "y.YAML", "z.Yml"}
 
 
 def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no job or machine file lies here"):
-        find_jobs_in(tmp_path)
+        JobFolder(tmp_path, registry(), lambda: TODAY).list_paths()
 
 
 @pytest.mark.long
 def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
-    circle = Path(__file__).parents[2] / "configs" / "circle" / "certificate.yaml"
-    row, _ = look_at(JobRow("", ""), circle, registry())
-    assert row.state is not JobState.FAILS, row.problems
-    assert "no installed effect acts on that" in row.closed
-
-
-def test_a_state_is_told_in_german() -> None:
-    row = JobRow("k", "x.yaml", JobState.OVERDUE, due=dt.date(2026, 11, 1))
-    assert collect_row(row, Language.GERMAN)["words"] == "überfällig"
-
-
-@pytest.mark.parametrize("ending", [".YAML", ".Yml"])
-def test_a_job_is_found_whatever_the_case_of_its_ending(tmp_path: Path, ending: str) -> None:
-    job = tmp_path / f"x-axis{ending}"
-    job.write_text("schema: zlmreport/job/1\n")
-    assert find_jobs_in(tmp_path) == (job,)
+    folder = JobFolder(ROOT / "configs" / "circle", registry(), lambda: TODAY)
+    (row,) = (
+        each
+        for each in rows(enter(FolderWorkbench(folder, registry())))
+        if each["name"] == "certificate.yaml"
+    )
+    assert row["state"] != "fails", row["problems"]
+    assert "no installed effect acts on that" in row["closed"]

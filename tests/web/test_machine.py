@@ -12,15 +12,14 @@ import pytest
 from starlette.testclient import TestClient
 
 from environments import ROOT
+from web.browsers import enter, pass_by
 from web.jobs import registry
 from zlmreport.errors import InputError
 from zlmreport.language import Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
-from zlmreport.web.guard import Door
 from zlmreport.web.machine_app import MachineWorkbench
 from zlmreport.web.machine_bench import MachineBench
 from zlmreport.web.machine_diagnoses import answer
-from zlmreport.web.machine_view import MachineView
 
 PLACE = "machine.yaml"
 
@@ -33,13 +32,17 @@ def machine(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def page(machine: Path, door: Door) -> Iterator[TestClient]:
-    """Return a browser that came by the address on the terminal."""
+def page(machine: Path) -> Iterator[TestClient]:
     made = MachineWorkbench.of(machine, registry())
-    client = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
-    assert client.get(door.address).status_code == 303
-    client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
-    yield client
+    yield enter(made)
+    made.end()
+
+
+@pytest.fixture(scope="module")
+def reader() -> Iterator[TestClient]:
+    """Return a browser before the example itself, in which nobody clicks."""
+    made = MachineWorkbench.of(ROOT / "configs" / "machine" / PLACE, registry())
+    yield enter(made)
     made.end()
 
 
@@ -73,8 +76,8 @@ def test_a_click_adds_the_effect_and_the_error_falls_and_a_step_back_restores_th
     assert (taken_back["undo"], taken_back["redo"]) == (None, "servo-mismatch added")
 
 
-def test_a_test_is_drawn_with_prediction_band_and_residual(page: TestClient) -> None:
-    (test,) = page.get("/api/job").json()["tests"]
+def test_a_test_is_drawn_with_prediction_band_and_residual(reader: TestClient) -> None:
+    (test,) = reader.get("/api/job").json()["tests"]
     assert [each["title"] for each in test["axes"]] == ["Angle", "X", "Y", "Turn", "Sense"]
     assert len(test["readings"]["deviation"]) == len(test["readings"]["residual"]) == 720
     assert [each["direction"] for each in test["model"]] == [1, -1]
@@ -92,16 +95,16 @@ def test_a_format_that_states_what_a_job_measured_is_not_offered(page: TestClien
     assert "no format" in asked.text
 
 
-def test_where_it_differs_points_at_the_readings_there(page: TestClient) -> None:
-    found = page.get("/api/job").json()
+def test_where_it_differs_points_at_the_readings_there(reader: TestClient) -> None:
+    found = reader.get("/api/job").json()
     first, readings = found["failures"][0], found["tests"][0]["readings"]
     assert first["statement"].startswith("counter-clockwise from ")
     senses = {readings["direction"][readings["place"].index(each)] for each in first["readings"]}
     assert senses == {1}
 
 
-def test_the_numbers_say_what_of_the_axes_makes_what(page: TestClient) -> None:
-    found = page.get("/api/results").json()
+def test_the_numbers_say_what_of_the_axes_makes_what(reader: TestClient) -> None:
+    found = reader.get("/api/results").json()
     kinds = [each["kind"] for each in found["tests"]["circle-xy"]]
     assert (kinds[0], kinds[-1], "notice" in kinds) == ("table", "graph", False)
     said = [each["text"] for each in found["tests"]["circle-xy"] if each["kind"] == "paragraph"]
@@ -109,8 +112,8 @@ def test_the_numbers_say_what_of_the_axes_makes_what(page: TestClient) -> None:
     assert [each["key"] for each in found["sections"]] == ["work-space", "cross-tables", "errors"]
 
 
-def test_a_step_is_seen_before_it_is_taken(page: TestClient) -> None:
-    found = page.get("/api/step", params={"of": "servo-mismatch", "test": "circle-xy"}).json()
+def test_a_step_is_seen_before_it_is_taken(reader: TestClient) -> None:
+    found = reader.get("/api/step", params={"of": "servo-mismatch", "test": "circle-xy"}).json()
     before, after = (max(map(abs, found[name]["residual"])) for name in ("before", "after"))
     assert after < 0.3 * before
 
@@ -160,19 +163,16 @@ def test_what_makes_no_sense_is_refused_in_words(
     assert said in answered.json()["problems"][0]
 
 
-def test_nobody_opens_a_machine_without_the_token(machine: Path, door: Door) -> None:
-    made = MachineWorkbench.on(machine, registry())
-    stranger = TestClient(made.make_app(door), base_url=f"http://127.0.0.1:{door.port}")
-    assert stranger.get("/api/job").status_code == 403
+def test_nobody_opens_a_machine_without_the_token(machine: Path) -> None:
+    assert pass_by(MachineWorkbench.on(machine, registry())).get("/api/job").status_code == 403
 
 
-def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path) -> None:
+def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path, page: TestClient) -> None:
     line = (machine.parent / "x-positioning.yaml").read_text("utf-8").replace("EXAMPLE-2026-0021", "LINE")
     (machine.parent / "x-elsewhere.yaml").write_text(line, "utf-8")
     text = machine.read_text("utf-8").replace("[circle-xy.yaml]", "[circle-xy.yaml, x-elsewhere.yaml]")
     machine.write_text(text, "utf-8")
-    bench = MachineBench(machine, registry())
-    _, drawn = MachineView(bench, bench.load(), Language.GERMAN).list_page()["tests"]
+    _, drawn = page.get("/api/job?lang=de").json()["tests"]
     assert (drawn["kind"], drawn["arrows"]) == ("line", ["↓", "↑"])
     assert [each["title"] for each in drawn["axes"]] == ["Ort auf der Linie", "X", "Richtung"]
 
@@ -230,11 +230,11 @@ def test_tables_are_written_beside_the_machine_once_their_sign_is_known_and_thei
     assert asked_for_tables(page, "write", moves="minus").status_code == 422  # nothing is written over
 
 
-def test_a_circle_run_again_is_held_against_the_tables(page: TestClient) -> None:
-    found = asked_for_tables(page, "confirm", moves="minus", circles=["circle-xy.yaml"]).json()
+def test_a_circle_run_again_is_held_against_the_tables(reader: TestClient) -> None:
+    found = asked_for_tables(reader, "confirm", moves="minus", circles=["circle-xy.yaml"]).json()
     assert [each["key"] for each in found["sections"]] == ["confirmation"]
     said = found["sections"][0]["blocks"][0]["text"]
     assert said.startswith("Not in effect: the circles show 0.000 ± 0.010 of the tables.")
-    other = asked_for_tables(page, "confirm", moves="minus", circles=["../circle-xy.yaml"])
+    other = asked_for_tables(reader, "confirm", moves="minus", circles=["../circle-xy.yaml"])
     assert "there is no job '../circle-xy.yaml'" in other.json()["problems"][0]
-    assert asked_for_tables(page, "confirm", moves="sideways").status_code == 400
+    assert asked_for_tables(reader, "confirm", moves="sideways").status_code == 400

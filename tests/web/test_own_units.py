@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from starlette.testclient import TestClient
 
+from web.browsers import enter
 from web.jobs import registry
-from zlmreport.language import Language
-from zlmreport.web.bench import Bench
-from zlmreport.web.commands import list_offered
-from zlmreport.web.comparison import ComparedTests
-from zlmreport.web.view import make_results
+from zlmreport.web.app import Workbench
 
 _JOB = """schema: zlmreport/job/1
 certificate: {number: S-1, kind: report}
@@ -26,7 +25,7 @@ _SLOPE = 12.0
 
 
 @pytest.fixture
-def straight(tmp_path: Path) -> Bench:
+def straight(tmp_path: Path) -> Iterator[TestClient]:
     rows = [
         f"{target},{direction},{run},{_SLOPE * target / 1000 + 0.3 * (run - 2):.1f}"
         for run in (1, 2, 3)
@@ -34,13 +33,16 @@ def straight(tmp_path: Path) -> Bench:
         for target in range(0, 401, 50)[:: 1 if direction == "+" else -1]
     ]
     (tmp_path / "straight.csv").write_text("\n".join(["target,direction,run,deviation", *rows]) + "\n")
-    for name in ("job.yaml", "second.yaml"):
-        (tmp_path / name).write_text(_JOB)
-    return Bench(tmp_path / "job.yaml", registry())
+    jobs = [tmp_path / "job.yaml", tmp_path / "second.yaml"]
+    for job in jobs:
+        job.write_text(_JOB)
+    workbench = Workbench.of(jobs, registry())
+    yield enter(workbench)
+    workbench.end()
 
 
-def test_of_the_standards_panel(straight: Bench) -> None:
-    (standard,) = make_results(straight, straight.load(), Language.GERMAN)["standards"]
+def test_of_the_standards_panel(straight: TestClient) -> None:
+    (standard,) = straight.get("/api/results?lang=de").json()["standards"]
     slope = standard["rows"][-1]
     assert standard["unit"] == "µm"
     assert (slope["value"], slope["limit"]) == ("12,00 µm/m", "–")
@@ -48,17 +50,17 @@ def test_of_the_standards_panel(straight: Bench) -> None:
     assert not any(each["value"].endswith("m") for each in standard["rows"][:-1])
 
 
-def test_no_control_corrects_a_straightness_and_no_page_says_what_would_be_left(straight: Bench) -> None:
-    loaded = straight.load()
-    (standard,) = make_results(straight, loaded, Language.ENGLISH)["standards"]
+def test_no_control_corrects_a_straightness_and_no_page_says_what_would_be_left(
+    straight: TestClient,
+) -> None:
+    (standard,) = straight.get("/api/results?lang=en").json()["standards"]
     assert {each["by_table"] for each in standard["rows"]} == {each["by_model"] for each in standard["rows"]}
     assert {each["by_model"] for each in standard["rows"]} == {None}
-    assert list_offered(straight, loaded, Language.ENGLISH)["takesTable"] is False
+    assert straight.get("/api/job").json()["offered"]["takesTable"] is False
 
 
-def test_of_compared_tests(straight: Bench) -> None:
-    second = Bench(straight.path.with_name("second.yaml"), registry())
-    (standard,) = ComparedTests.of(straight, [second]).list_values(Language.ENGLISH)["standards"]
+def test_of_compared_tests(straight: TestClient) -> None:
+    (standard,) = straight.get("/api/tests?lang=en").json()["standards"]
     for cell in standard["rows"][-1]["cells"]:
         assert (cell["value"], cell["unit"]) == ("12.00", "µm/m")
         assert cell["number"] == pytest.approx(_SLOPE)

@@ -12,16 +12,16 @@ import numpy as np
 
 from live.capture.virtual import PORT, World, inhabited
 from zlmreport.cli import main
-from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.simulation import load_simulation
-from zlmreport.job.types import Options
 from zlmreport.live.capture.events import Event, Recorded
 from zlmreport.live.capture.journal import History, read_history
-from zlmreport.live.emulation.emulator import Scene
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.files import read_description_of
 from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
+from zlmreport.plugin import Options
+from zlmreport.plugin.instrument import Scene
 from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin.standard import evaluate
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it
 #: is, and a bad line may take more.

@@ -18,8 +18,9 @@ from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.job.simulation import load_simulation
 from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Emulator, Scene, Troubles
+from zlmreport.live.emulation.emulator import Troubles
 from zlmreport.model.simulation.files import read_description_of
+from zlmreport.plugin.instrument import Emulator, Scene
 from zlmreport.plugin.registry import find_plugins
 
 #: The share of kills before a capture follows the axis, and how long it takes until then, s.

@@ -12,9 +12,9 @@ from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import MOMENTARY
 from zlmreport.live.capture.visits import ListedVisit, Settings, visit_list
-from zlmreport.live.ports.reading import LiveReading
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
+from zlmreport.plugin.instrument import LiveReading
 
 MM, UM = 1e-3, 1e-6
 #: At 100 mm/s the axis cannot run 5 mm over a target and come back within 0.1 s.

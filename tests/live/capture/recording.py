@@ -12,9 +12,9 @@ from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.journal import Journal, capture
 from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import visit_list
-from zlmreport.live.ports.reading import LiveReading
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.planning.plan import AxisPlan
+from zlmreport.plugin import AxisKind
+from zlmreport.plugin.instrument import LiveReading
 
 #: Of the clock of `moves.Axis`, when a capture begins.
 BEGIN = 100.0

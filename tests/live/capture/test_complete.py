@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from live.capture.calibration import BENCHES, Bench, calibration
-from zlmreport.live.capture.events import Closed, DatumTaken, Finished, Recorded
+from zlmreport.live.capture.events import Closed, Finished, Recorded
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin.instrument import DatumTaken
 
 #: By how much a parameter changes at most if each deviation changes by 1: a standard deviation of n = 5 by
 #: √(5/4), so the accuracy, from a mean and two standard deviations to another, by 2·(1 + 2·√(5/4)).

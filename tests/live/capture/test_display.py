@@ -10,9 +10,9 @@ import pytest
 
 from live.capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed
 from zlmreport.live.capture.display import JumpWatch, Offsets
-from zlmreport.live.capture.events import DatumHolds, Event, Recorded, Resumed, ScaleChanged, Unclear
+from zlmreport.live.capture.events import Event, Recorded, Resumed, Unclear
 from zlmreport.live.capture.follower import Follower
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin.instrument import DatumHolds, LiveReading, ScaleChanged
 
 INCH = 25.4
 #: The actual position at each target, mm off.

@@ -10,7 +10,8 @@ from live.capture.bad_lines import LINES, on_a_bad_line
 from live.capture.calibration import BENCHES
 from live.capture.faulty_line import FaultyLine
 from zlmreport.live.capture.events import Missed, Recorded
-from zlmreport.live.emulation.emulator import MovingAxis, Scene
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.plugin.instrument import Scene
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.lines import MODELS, UmdEmulator
 

@@ -11,8 +11,6 @@ import pytest
 from live.capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed, planned
 from zlmreport.live.capture.events import (
     Closed,
-    DatumMoved,
-    DatumTaken,
     Elsewhere,
     Missed,
     MovedBeforeDatum,
@@ -23,13 +21,12 @@ from zlmreport.live.capture.events import (
     TrackLost,
     Unclear,
     WrongDirection,
-    ZeroLost,
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.ports.reading import Fault
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import Approach
+from zlmreport.plugin.instrument import DatumMoved, DatumTaken, Fault, ZeroLost
 
 BEAM_LOST = {"faults": Fault.BEAM_LOST, "message": "the beam is broken", "value": float("nan")}
 UNREADABLE = {"faults": Fault.UNREADABLE, "value": float("nan")}

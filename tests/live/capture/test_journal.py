@@ -11,11 +11,11 @@ import pytest
 from live.capture.moves import Axis, kinds, planned
 from live.capture.recording import header, recorded, written
 from processes import PYTHON, run
-from zlmreport.errors import AccessError
 from zlmreport.live.capture.events import Ended, Interrupted, Resumed
 from zlmreport.live.capture.journal import Journal, read_history, seal
-from zlmreport.live.ports.reading import Fault
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import AccessError
+from zlmreport.plugin.instrument import Fault
 
 
 @pytest.fixture

@@ -8,8 +8,6 @@ from pathlib import Path
 import pytest
 
 from zlmreport import pipeline
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.schema import make_job_schema
 from zlmreport.live.capture.journal import Journal, read_history
@@ -21,6 +19,8 @@ from zlmreport.live.capture.of_job import (
     make_header_of,
 )
 from zlmreport.model.planning.plan import propose
+from zlmreport.plugin import AccessError, InputError, Place
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()

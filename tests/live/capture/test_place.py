@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
-from math import exp, inf, log
+from math import exp, log
 from statistics import NormalDist
 
 import pytest
@@ -14,10 +14,10 @@ from live.capture.moves import SETTINGS, Axis, following, happened, kinds, liste
 from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
 from zlmreport.live.capture.motion import Programme, Route
-from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merge
-from zlmreport.live.ports.reading import LiveReading
-from zlmreport.measurement.approach import Approach
+from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import Approach
+from zlmreport.plugin.instrument import LiveReading
 
 TARGETS = (0, 50, 100, 150, 200)
 THERE, BACK = TARGETS, TARGETS[::-1]
@@ -125,12 +125,8 @@ def test_what_once_was_misfiled_or_lost_is_asked_about(method: Method, seed: int
 
 
 #: Targets 100 mm apart: 1 s of way and 3 s of rest from one to the next.
-PROGRAMME = Programme(listed(targets=TARGETS[::2], runs=2), SETTINGS)
+PROGRAMME = Programme(listed(targets=range(0, 500, 100), runs=2), SETTINGS)
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
-
-
-def placed(taken: int = 0) -> PlaceInProgram:
-    return PlaceInProgram(PROGRAMME, SETTINGS, taken, last=None)
 
 
 def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> TargetStandstill:
@@ -141,91 +137,145 @@ def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Targe
     )
 
 
-def test_explanations_that_end_alike_weigh_together() -> None:
-    guess = _Guess(0, log(0.25), None, 0, 0)
-    assert exp(_merge([guess, guess]).weight) == pytest.approx(0.5)
+def from_start(*turns: float) -> Route:
+    """Return the way from the start of the program, with turning points."""
+    route = Route(SETTINGS.tolerance)
+    for position in (PROGRAMME.start, PROGRAMME.start + 0.01, *turns, *(each - 0.01 for each in turns)):
+        route.add(position)
+    return route
+
+
+def at_first_visit(*, is_seen: bool = True) -> tuple[PlaceInProgram, Route]:
+    """Return a program that made its first visit at 0 s; nobody sees what comes then, if it is not seen."""
+    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), from_start()
+    place.add(stop(1), route)
+    assert [index for _, index, _ in place.settle_stops()] == [0]
+    if not is_seen:
+        route.lose()
+    return place, route
+
+
+def weigh(place: PlaceInProgram, number: int) -> float:
+    """Return the logarithm of how much likelier a visit is than that the stop is none of the program."""
+    odds = place.list_odds()
+    return log(odds[number - 1] / odds[None])
 
 
 def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> None:
-    place, route = placed(), Route(SETTINGS.tolerance)
+    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), Route(SETTINGS.tolerance)
     route.add(PROGRAMME.start)
     place.add(stop(1), route)
-    place.take_word(3)
-    place.add(stop(5, DOWN, 4.0), route)
-    assert place.list_odds()[4] > 0.9
+    place.take_word(5)
+    place.add(stop(7, DOWN, 4.0), route)
+    assert place.list_odds()[6] > 0.9
 
 
 def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
-    place = PlaceInProgram(Programme(listed(targets=TARGETS), SETTINGS), SETTINGS, 0)
-    weights = [place._weigh_by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2, 3)]
-    assert weights[2] < weights[1] < weights[0] == 0.0
+    weights = []
+    for number in (2, 3, 4):
+        place, route = at_first_visit()
+        place.add(stop(number), route)
+        weights.append(weigh(place, number))
+    assert weights == pytest.approx([13.0, 12.0, 11.0])
 
 
 def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> None:
     """Told to begin, the axis came from anywhere: not with the second run while the first is to be read."""
-    place, route = placed(), Route(SETTINGS.tolerance)
-    first, next_target, second_run = (place._weigh_from_rest(-1, index, [], route) for index in (0, 1, 6))
-    assert second_run == -inf < next_target < first == 0.0
+    anywhere = Route(SETTINGS.tolerance)
+    first, second = (PlaceInProgram(PROGRAMME, SETTINGS, 0) for _ in range(2))
+    first.add(stop(1), anywhere)
+    second.add(stop(2), anywhere)
+    odds = first.list_odds()
+    assert odds[10] < 1e-3 * odds[0]
+    assert weigh(first, 1) == pytest.approx(13.0)
+    assert weigh(second, 2) == pytest.approx(-2.0)  # the way that it came would be no way of the program
 
 
-def test_a_program_that_hurried_left_out_as_many_rests_as_time_is_short() -> None:
-    """Two visits on are 2 s of way and two rests of 3 s."""
-    place, planned = placed(), PROGRAMME.compute_time(0, 2)
-    assert planned == pytest.approx(8.0)
-    likely, less = (place._weigh_hurry(0, 2, planned - 3.0 * each) for each in (1.0, 2.0))
-    assert likely / less == pytest.approx(exp(1.5))
-    assert place._weigh_hurry(0, 2, planned - 0.3) == pytest.approx(likely)  # one rest at the least
-    assert place._weigh_hurry(0, 2, (planned - 6.0) / 2) == 0.0  # faster than an axis goes
-
-
-def test_no_time_at_all_is_a_time_too_short_and_not_a_second() -> None:
-    place = placed()
-    guess = _Guess(0, 0.0, 5.0, 0, 0)
-    at_once, late = (place._weigh_by_time(guess, 1, stop(2, time=time)) for time in (5.0, 9.0))
-    assert at_once == -20.0
-    assert late > 0.0
-
-
-def test_a_time_is_as_likely_as_its_distance_from_the_plan_and_what_was_left_out() -> None:
-    """30 % too early, in logarithms: one standard deviation; a rest left out counts as well."""
-    time = PROGRAMME.compute_time(0, 1) * exp(-0.3)
-    weight = placed()._weigh_by_time(_Guess(0, 0.0, 0.0, 0, 0), 1, stop(2, time=time))
-    assert exp(weight) == pytest.approx(NormalDist(0, 0.3).pdf(-0.3) + exp(-3.0 - 1.5))
-
-
-def test_the_way_from_the_start_with_its_turns_speaks_for_a_visit() -> None:
-    """The fourth visit is behind a turn; two visits in between went unseen, and one more."""
-    route = Route(SETTINGS.tolerance)
-    route.add(PROGRAMME.start)
-    assert placed()._weigh_from_rest(-1, 3, [0.205], route) == pytest.approx(3.0 - 1.0 * 3)
-
-
-def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
-    near, far = (replace(stop(1), position=stop(1).position + each) for each in (1e-3, 50e-3))
-    beside = replace(stop(1), target=2)
-    assert [placed()._is_same(stop(1), each) for each in (near, far, beside)] == [True, False, False]
-
-
-def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_read() -> None:
-    told, ran_on = PlaceInProgram(PROGRAMME, SETTINGS, 2, last=5.0)._guesses
-    assert (told.place, told.is_told) == (1, True)
-    assert (ran_on.place, ran_on.is_told, ran_on.time, ran_on.weight) == (1, False, 5.0, -7.0)
+@pytest.mark.parametrize(("silence", "weight"), [(4.0, 5.0 - 0.5 - 2 * 0.3), (3.9, 5.0 - 2.0 - 6.0)])
+def test_a_program_may_have_begun_in_a_silence_of_half_the_time_that_it_needs(
+    silence: float, weight: float
+) -> None:
+    """From the first visit to the third it needs 8 s."""
+    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), Route(SETTINGS.tolerance)
+    route.lose(silence)
+    place.add(stop(3), route)
+    assert weigh(place, 3) == pytest.approx(weight)
 
 
 @pytest.mark.parametrize(
-    ("before", "after", "files", "weight"),
+    ("number", "turns", "weight"),
+    [(1, (), 13.0), (6, (0.405,), 13.0 - 5.0 + 3.0)],
+    ids=["first", "behind a turn, five unseen"],
+)
+def test_the_way_from_the_start_with_its_turns_speaks_for_a_visit(
+    number: int, turns: tuple[float, ...], weight: float
+) -> None:
+    place = PlaceInProgram(PROGRAMME, SETTINGS, 0)
+    place.add(stop(number, DOWN if turns else UP), from_start(*turns))
+    assert weigh(place, number) == pytest.approx(weight)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "left_out"),
     [
-        (UP, DOWN, (1, 1), 0.0),  # it was seen how the axis came
-        (None, None, (1, 1), 0.0),  # nor is it now
-        (None, UP, (1, 1), 0.0),
-        (None, DOWN, (1, None), -13.0),  # the other way round: no stop of the program
+        (4.0 * exp(-0.3), 1.0),  # 30 % too early, in logarithms: one standard deviation
+        (3.9, 1.0),  # one rest at the least
+        (1.2, 1.0),
+        (0.9, 3.1 / 3.0),
+    ],
+)
+def test_a_time_is_as_likely_as_its_distance_from_the_plan_and_the_rests_that_were_left_out(
+    seconds: float, left_out: float
+) -> None:
+    place, route = at_first_visit(is_seen=False)
+    place.add(stop(2, time=seconds), route)
+    likely = NormalDist(0, 0.3).pdf(log(seconds / 4.0)) + exp(-3.0 - 1.5 * left_out)
+    assert weigh(place, 2) == pytest.approx(13.0 + log(likely))
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.4])
+def test_a_time_that_no_axis_goes_so_fast_in_speaks_for_no_visit(seconds: float) -> None:
+    """What is left is that the program began anew, in the one run as well as in the other."""
+    place, route = at_first_visit(is_seen=False)
+    place.add(stop(2, time=seconds), route)
+    assert weigh(place, 2) == pytest.approx(weigh(place, 12))
+
+
+def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
+    for distance, odds_of_none in ((1e-3, 0.0), (50e-3, exp(-13.0 + 4.0))):
+        place, route = at_first_visit()
+        place.add(replace(stop(1), position=stop(1).position + distance), route)
+        odds = place.list_odds()
+        assert odds.get(None, 0.0) / odds[0] == pytest.approx(odds_of_none)
+
+
+def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_read() -> None:
+    """Either the operator began it anew and three visits went unseen, or it ran on for their time."""
+    told, ran_on = (PlaceInProgram(PROGRAMME, SETTINGS, 1, last) for last in (None, 5.0))
+    for each in (told, ran_on):
+        each.add(stop(5, time=5.0 + 4 * 4.0), Route(SETTINGS.tolerance))
+    began = -3.0 - 6.0
+    unwatched = -7.0 - 0.5 - 3 * 0.05 + log(NormalDist(0, 0.3).pdf(0.0) + exp(-3.0 - 1.5))
+    assert weigh(told, 5) == pytest.approx(5.0 + began)
+    assert weigh(ran_on, 5) == pytest.approx(5.0 + log(exp(began) + exp(unwatched)), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "time", "indices"),
+    [
+        (UP, DOWN, 4.0, [1, 1]),  # it was seen how the axis came
+        (None, UP, 4.0, [None, 1]),
+        (None, DOWN, 4.0, [None, None]),  # the other way round: no stop of the program
+        (None, DOWN, 8 * 4.0, [None]),  # or the ninth visit: it is asked about
     ],
 )
 def test_an_axis_that_goes_on_shows_how_it_came(
-    before: Approach | None, after: Approach | None, files: tuple[int | None, ...], weight: float
+    before: Approach | None, after: Approach | None, time: float, indices: list[int | None]
 ) -> None:
-    guess = placed()._go_on(_Guess(1, 0.0, 0.0, 0, 0, files=(1,)), stop(2, before), stop(2, after))
-    assert (guess.place, guess.files, guess.weight) == (1, files, weight)
+    place, route = at_first_visit(is_seen=False)
+    for heading in (before, after):
+        place.add(stop(2, heading, time), route)
+    assert [index for _, index, _ in place.settle_stops()] == indices
 
 
 @pytest.mark.parametrize(

@@ -15,8 +15,7 @@ import pytest
 import serial
 
 from zlmreport.cli import capture
-from zlmreport.live.emulation.emulator import Emulator
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin.instrument import Emulator, LiveReading
 
 #: The name under which an emulated instrument is found.
 PORT = "socket://emulated:1"

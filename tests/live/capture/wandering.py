@@ -12,8 +12,8 @@ from live.capture.moves import MM, SETTINGS, listed, planned
 from zlmreport.live.capture.events import Event, Missed, Recorded
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.ports.reading import LiveReading
 from zlmreport.model.planning.methods import Method, plan_path
+from zlmreport.plugin.instrument import LiveReading
 
 TARGETS = (0, 12, 20, 34, 40)
 RUNS = 3

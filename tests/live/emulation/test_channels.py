@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from processes import PATIENCE
-from zlmreport.errors import AccessError
 from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Planned, Trouble, Troubles
-from zlmreport.live.ports.port import Framing, Port
+from zlmreport.live.emulation.emulator import Planned, Troubles
+from zlmreport.plugin import AccessError
+from zlmreport.plugin.instrument import Framing, Port, Trouble
 
 
 def test_a_terminal_has_the_name_that_it_is_given_as_long_as_it_lives(tmp_path: Path) -> None:

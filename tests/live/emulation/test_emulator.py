@@ -6,7 +6,8 @@ import statistics
 
 import pytest
 
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Trouble, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.plugin.instrument import Trouble
 
 #: 2 s at 0, 1 s to 0.1 m, 2 s there, 1 s back; over and over.
 AXIS = MovingAxis((0.0, 0.1), feed=0.1, dwell=2.0)

@@ -9,10 +9,9 @@ from itertools import count, islice
 import pytest
 
 from processes import PATIENCE
-from zlmreport.errors import AccessError, Place
 from zlmreport.live.ports.ahead import ReadAhead
-from zlmreport.live.ports.port import Framing, Port
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.plugin import AccessError, Place
+from zlmreport.plugin.instrument import Framing, LiveReading, Port
 
 
 def _readings(number: int) -> Iterator[LiveReading]:

@@ -7,9 +7,9 @@ from random import Random
 
 import pytest
 
-from zlmreport.live.emulation.emulator import MovingAxis, Scene
-from zlmreport.live.ports.clock import ArrivalClock, SampleClock
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.live.ports.clock import ArrivalClock
+from zlmreport.plugin.instrument import LiveReading, SampleClock, Scene
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.lines import MODELS, UmdEmulator, UmdModel
 

@@ -10,8 +10,7 @@ from hypothesis import given, strategies as st
 
 from zlmreport.live.ports import dialogue
 from zlmreport.live.ports.dialogue import Lines, ask, ask_at_rate, make_unreadable
-from zlmreport.live.ports.port import Framing, Port
-from zlmreport.live.ports.reading import Fault, LiveReading
+from zlmreport.plugin.instrument import Fault, Framing, LiveReading, Port
 
 
 def test_an_answer_is_returned_as_soon_as_it_is_understood() -> None:

@@ -11,10 +11,10 @@ from typing import Any, Literal
 import pytest
 
 from processes import PATIENCE
-from zlmreport.errors import AccessError, InputError
 from zlmreport.live.emulation.channels import PseudoTerminal
-from zlmreport.live.ports.dialogue import Patience
-from zlmreport.live.ports.port import Framing, Port, show_beginning
+from zlmreport.live.ports.port import show_beginning
+from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin.instrument import Framing, Patience, Port
 
 
 def test_a_port_that_is_not_there_is_named_with_those_that_are() -> None:

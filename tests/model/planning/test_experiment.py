@@ -16,7 +16,6 @@ from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.planning.changes import keep_within_travel
 from zlmreport.model.planning.deciding import (
     collect_experiment,
     plan_deciding_experiment,
@@ -136,11 +135,6 @@ def test_an_overrun_that_leaves_no_room_does_not_stop_the_experiment(plan: str) 
     found = _experiment("backlash", ("plan: {}", f"plan: {plan}")).plan
     assert found is not None
     assert 0 <= min(found.stops) <= max(found.stops) <= 0.6
-
-
-def test_outermost_targets_move_in_by_the_overrun() -> None:
-    plan = AxisPlan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
-    np.testing.assert_allclose(keep_within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])
 
 
 def test_job_of_an_experiment_is_planned_as_it_was_simulated(tmp_path: Path) -> None:

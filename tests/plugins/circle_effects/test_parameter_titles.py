@@ -4,8 +4,9 @@ import re
 
 import pytest
 
-from zlmreport.language import Language
-from zlmreport.model.effects.circle_effect import CircleEffect, title_parameter
+from zlmreport.model.effects.circle_effect import title_parameter
+from zlmreport.plugin import Language
+from zlmreport.plugin.circle_effect import CircleEffect
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import circle_designs
 

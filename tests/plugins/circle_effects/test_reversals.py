@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from machines.simulated import circle, nothing
-from zlmreport.language import Language
 from zlmreport.machines.design import clear_of_reversals, make_thinned_design
-from zlmreport.plugin import MICROMETRE
+from zlmreport.plugin import MICROMETRE, Language
 from zlmreport.plugin.circle_effect import Estimate
 from zlmreport.plugin.registry import find_plugins
 

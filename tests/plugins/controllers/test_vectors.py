@@ -7,10 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from zlmreport.errors import InputError, Place
-from zlmreport.measurement.arrays import read_only_floats
-from zlmreport.measurement.axis import Axis
-from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.plugin import Axis, InputError, Place, read_only_floats
+from zlmreport.plugin.controller import CompensationTable
 from zlmreport.plugin.registry import find_plugins
 
 PLACE = Place("job.yaml", 1)

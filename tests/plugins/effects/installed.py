@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin.effect import Design, Effect
 from zlmreport.testing import full_designs
 from zlmreport_plugins.effects import zlmreport_effects
 from zlmreport_step_gauge.effects import zlmreport_effects as effects_of_gauge

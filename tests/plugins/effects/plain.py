@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.model.effects.design import Design
+from zlmreport.plugin.effect import Design
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,9 @@ def wave(angle: float, v: Values, order: int = 1) -> float:
     return v[f"sine{suffix}"] * math.sin(order * angle) + v[f"cosine{suffix}"] * math.cos(order * angle)
 
 
-def both_waves(angle: float, v: Values) -> float:
-    return wave(angle, v) + wave(angle, v, 2)
+def waves(angle: float, v: Values) -> float:
+    orders = (int(name.partition("_")[2] or 1) for name in v if name.startswith("sine"))
+    return sum(wave(angle, v, order) for order in orders)
 
 
 def interpolated(table: tuple[Sequence[float], Sequence[float]] | None, position: float) -> float:
@@ -94,10 +95,10 @@ def interval(r: Reading) -> float:
 EQUATIONS: Mapping[str, Equation] = {
     "offset": lambda _, v: v["offset"],
     "scale-error": lambda r, v: v["slope"] * r.P * 1e-3,
-    "polynomial": lambda r, v: sum(v[f"c{k}"] * normal(r) ** k for k in range(4)),
+    "polynomial": lambda r, v: sum(v[f"c{k}"] * normal(r) ** k for k in range(len(v))),
     "cosine-error": lambda r, v: -v["shortening"] * r.P * 1e-3,
-    "screw-pitch": lambda r, v: both_waves(2 * math.pi * r.P / v["period"], v),
-    "encoder-interpolation": lambda r, v: both_waves(2 * math.pi * r.P / v["period"], v),
+    "screw-pitch": lambda r, v: waves(2 * math.pi * r.P / v["period"], v),
+    "encoder-interpolation": lambda r, v: waves(2 * math.pi * r.P / v["period"], v),
     "periodic": lambda r, v: wave(2 * math.pi * r.P / v["period"], v),
     "scale-joint": lambda r, v: v["step"] if v["joint"] < r.P else 0.0,
     "scale-kink": lambda r, v: v["slope"] * 1e-3 * (r.P - v["kink"]) if v["kink"] < r.P else 0.0,

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from plugins.effects.installed import EFFECTS, design_for
 from plugins.effects.plain import EQUATIONS, readings
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect, Parameter, find_unit_of
+from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.plugin.effect import Design, Effect, Parameter
 from zlmreport.testing import full_designs
 
 #: Vapour pressures of the two arithmetics differ by 5e-5 of 1200 Pa at most, which is 2e-5 ppm of about 1.
@@ -46,16 +46,20 @@ def test_effect_follows_its_equation(identifier: str, method: str) -> None:
     np.testing.assert_allclose(computed, expected, rtol=0, atol=size * TOLERANCE.get(identifier, 1e-9))
 
 
+@pytest.mark.parametrize("identifier", ["polynomial", "screw-pitch", "encoder-interpolation"])
+def test_every_order_and_every_choice_of_harmonics_follows_the_equation(identifier: str) -> None:
+    for form in EFFECTS[identifier].forms():
+        computed, expected = _compared(form, design_for(identifier))
+        np.testing.assert_allclose(computed, expected, rtol=0, atol=np.abs(expected).max() * 1e-9)
+
+
 @pytest.mark.parametrize(
     "identifier",
     [
-        "offset",
-        "polynomial",
-        "backlash",
-        "scale-joint",
-        "compensation-sign",
-        "compensation-shift",
-        "thermal-drift",
+        *("offset", "polynomial", "encoder-interpolation", "periodic", "scale-joint"),
+        *("compensation-sign", "compensation-shift", "backlash", "backlash-bow", "reversal-relaxation"),
+        *("directional-pitch", "thermal-drift", "datum-temperature", "time-periodic", "datum-step"),
+        "first-run",
     ],
 )
 def test_effect_that_rotary_axes_have_too_is_in_arc_seconds_there(identifier: str) -> None:

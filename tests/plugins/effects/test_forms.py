@@ -9,7 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.effects.installed import EFFECTS, design_for
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport_plugins.effects.polynomial import PolynomialOptions
 
 NO_THETA = np.empty(0)

@@ -6,8 +6,8 @@ import pytest
 
 import zlmreport_plugins.effects
 from plugins.effects.installed import EFFECTS, design_for
-from zlmreport.language import Language
 from zlmreport.measurement.measurand import list_measurands_of
+from zlmreport.plugin import Language
 from zlmreport.plugin.effect import measurements_of_catalogue
 from zlmreport.testing import full_designs
 

@@ -12,11 +12,10 @@ from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.sizes import scaled_effect
 from plugins.effects.installed import EFFECTS, ROTARY_ONLY, design_for
 from zlmreport.model.effects.axis_model import Term
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import compute_deviation_by, simulate
+from zlmreport.plugin.effect import Design, Effect
 
 SIGMA = 0.5e-6
 #: Which face of a gauge is touched is no course of a condition, and no plan pauses: nothing simulates these.

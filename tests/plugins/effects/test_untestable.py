@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from plugins.effects.installed import EFFECTS, ROTARY_ONLY, design_for
-from zlmreport.language import Language
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import Language
+from zlmreport.plugin.effect import Design
 
 LINEAR_ONLY = {
     *("cosine-error", "screw-pitch", "abbe", "scale-expansion", "screw-expansion", "thermal-growth"),

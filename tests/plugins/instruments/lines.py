@@ -11,8 +11,8 @@ from typing import Any
 
 from processes import PATIENCE
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Emulator, Troubles
-from zlmreport.live.ports.reading import LiveReading
+from zlmreport.live.emulation.emulator import Troubles
+from zlmreport.plugin.instrument import Emulator, LiveReading
 from zlmreport.plugin.protocols import Instrument
 
 

@@ -8,9 +8,9 @@ import pytest
 
 from plugins.instruments.exchanges import questions_and_answers
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.errors import AccessError
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
-from zlmreport.live.ports.reading import Fault
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.plugin import AccessError
+from zlmreport.plugin.instrument import Fault, Scene, Trouble
 from zlmreport_plugins.instruments.ids3010 import Ids3010, Ids3010Emulator, IdsAnswer, answer_to, question
 
 EXCHANGE = questions_and_answers()

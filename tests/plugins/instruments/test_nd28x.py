@@ -6,8 +6,8 @@ import pytest
 
 from plugins.instruments.exchanges import dialogue
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
-from zlmreport.live.ports.reading import Fault
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.plugin.instrument import Fault, Scene, Trouble
 from zlmreport_plugins.instruments import nd28x as spoken
 from zlmreport_plugins.instruments.nd28x import Nd28x, Nd28xEmulator
 

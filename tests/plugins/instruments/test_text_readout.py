@@ -8,9 +8,8 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.live.emulation.emulator import MovingAxis, Scene
-from zlmreport.live.ports.port import Framing
-from zlmreport.live.ports.reading import Fault
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.plugin.instrument import Fault, Framing, Scene
 from zlmreport_plugins.instruments.text_readout import (
     TextDecoder,
     TextEmulator,

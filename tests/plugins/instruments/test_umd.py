@@ -9,10 +9,8 @@ import numpy as np
 import pytest
 
 from plugins.instruments.exchanges import DATA, lines
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
-from zlmreport.live.ports.dialogue import WrongDeviceError
-from zlmreport.live.ports.reading import Fault, LiveReading
-from zlmreport.measurement.refractive_index import index_change
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.plugin.instrument import Fault, LiveReading, Scene, Trouble, WrongDeviceError, index_change
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, compute_cycle_length
 from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, find_frame_in
 

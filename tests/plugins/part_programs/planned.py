@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.model.planning.programs import Motion
+from zlmreport.plugin.program import Motion
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import sample_motion
 

@@ -6,8 +6,7 @@ import pytest
 
 from plugins.part_programs.controls import CONTROLS, fanuc, heidenhain, linuxcnc, siemens
 from plugins.part_programs.planned import written
-from zlmreport.errors import InputError
-from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin import Axis, AxisKind, InputError
 from zlmreport.testing import sample_motion
 
 controls = pytest.mark.parametrize("control", CONTROLS)

@@ -12,8 +12,8 @@ import pytest
 from plugins.part_programs.controls import CONTROLS, linuxcnc
 from plugins.part_programs.planned import written
 from processes import run
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import Approach
 from zlmreport.testing import sample_motion
 
 controls = pytest.mark.parametrize("control", CONTROLS)

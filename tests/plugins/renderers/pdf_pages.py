@@ -12,9 +12,9 @@ from pypdf import PageObject, PdfReader
 from pypdf.generic import DictionaryObject
 
 from document.typesetting import samples
-from zlmreport.document.blocks import Table, write_cell_text
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.document.blocks import write_cell_text
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Certificate, Table
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 #: A number as it is printed; a standard's year and the like are among them.

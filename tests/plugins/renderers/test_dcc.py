@@ -14,9 +14,9 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
-from zlmreport.evaluation.evaluation import Conformity, Decision
+from zlmreport.plugin import InputError
+from zlmreport.plugin.renderer import Certificate, Decision
+from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 

@@ -16,13 +16,10 @@ from pypdf import PdfReader
 from document.certificate.documents import certificate, having
 from document.certificate.everything import EVERYTHING, write_tables
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
-from zlmreport.document.blocks import Facts, Notice, Paragraph, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.evaluation import compare_parameters
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Axis, AxisKind, InputError, MeasurementSet, Place
 from zlmreport.plugin.protocols import SourceContext
+from zlmreport.plugin.renderer import Certificate, Facts, Notice, Paragraph, Table
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.dcc.source import DccSource
 from zlmreport_plugins.renderers.pdf import PdfRenderer

@@ -14,8 +14,8 @@ import pytest
 
 from document.typesetting import samples
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.html import HtmlRenderer
 
 

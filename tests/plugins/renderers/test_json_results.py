@@ -18,16 +18,13 @@ from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
 from model.hidden_effect import example_diagnosis
 from zlmreport.document.certificate.attachments import Source, SourceRole
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.decision import make_decision_rule, with_decisions
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, NoBudget
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
-from zlmreport.job.types import Options
-from zlmreport.language import Language, Words
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.provenance import Exclusion, SourceFile
+from zlmreport.measurement.provenance import Exclusion
+from zlmreport.plugin import Approach, AxisKind, Language, MeasurementSet, Options, Words
+from zlmreport.plugin.extension import Acts, Distribution
+from zlmreport.plugin.renderer import Budget, Certificate, NoBudget
+from zlmreport.plugin.source import SourceFile
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))

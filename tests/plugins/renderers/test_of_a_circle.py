@@ -19,7 +19,7 @@ from jsonschema import Draft202012Validator
 from document.certificate.circles import CIRCLE, document, report
 from document.certificate.documents import registry
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
+from zlmreport.plugin.renderer import Certificate
 from zlmreport.verification.verify import verify
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer

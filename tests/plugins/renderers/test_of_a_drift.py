@@ -16,8 +16,8 @@ from jsonschema import Draft202012Validator
 
 from document.certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.job.job import Job
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import Certificate
 from zlmreport.verification.verify import verify
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer

@@ -10,8 +10,8 @@ import pytest
 
 from document.certificate.documents import ROOT, certificate, registry
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
+from zlmreport.plugin.renderer import Certificate
 from zlmreport.verification.verify import verify
 from zlmreport_plugins.union_jack_lines import LINES
 

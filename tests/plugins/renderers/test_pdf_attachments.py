@@ -12,7 +12,7 @@ from pypdf import PdfReader
 from pypdf.generic import DictionaryObject
 
 from document.typesetting import samples
-from zlmreport.document.certificate.attachments import Attachment, Relationship
+from zlmreport.plugin.renderer import Attachment, Relationship
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 ATTACHED = (

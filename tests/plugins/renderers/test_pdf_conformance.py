@@ -15,10 +15,10 @@ from environments import ROOT
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import sample
 from zlmreport import pipeline
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 

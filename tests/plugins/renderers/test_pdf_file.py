@@ -17,8 +17,7 @@ from weasyprint import HTML
 from document.typesetting import samples
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
 from processes import PYTHON, run
-from zlmreport.errors import AccessError
-from zlmreport.language import Language
+from zlmreport.plugin import AccessError, Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer, press
 
 TESTS = Path(samples.__file__).parents[2]

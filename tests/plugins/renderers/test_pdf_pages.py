@@ -8,9 +8,8 @@ import pytest
 
 from document.typesetting import samples
 from plugins.renderers.pdf_pages import page_of, read, sample, texts
-from zlmreport.document.blocks import Align, Column, Paragraph, RowGroup, Section, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Align, Certificate, Column, Paragraph, RowGroup, Section, Table
 
 MILLIMETRES = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}
 POINT = 25.4 / 72

@@ -11,8 +11,8 @@ import pikepdf
 import pytest
 
 from document.typesetting import samples
-from zlmreport.document.blocks import Align, Column, Graph, Paragraph, RowGroup, Section, Table
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Align, Column, Graph, Paragraph, RowGroup, Section, Table
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 _ROWS = (("a", "1"), ("b", "2"))

@@ -15,8 +15,8 @@ from plugins.renderers.pdf_pages import (
     sample,
     texts,
 )
-from zlmreport.document.blocks import Notice, Section
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Notice, Section
 
 
 @pytest.mark.parametrize("language", Language)

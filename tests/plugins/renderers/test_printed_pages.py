@@ -9,7 +9,7 @@ import pytest
 from document.typesetting import samples
 from plugins.renderers import pdf_pages, typst_pages
 from plugins.renderers.pdf_pages import texts
-from zlmreport.document.blocks import Facts, Notice, Section
+from zlmreport.plugin.renderer import Facts, Notice, Section
 
 
 @pytest.fixture(params=[pdf_pages, typst_pages], ids=["pdf", "pdf-typst"])

@@ -14,11 +14,8 @@ import openpyxl
 import pytest
 
 from document.typesetting import samples
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.evaluation.uncertainty.budget import NoBudget
-from zlmreport.language import Language, Words
-from zlmreport.measurement.measurand import ANGLE
-from zlmreport.measurement.units import ARCSECOND
+from zlmreport.plugin import ANGLE, ARCSECOND, Language, Words
+from zlmreport.plugin.renderer import Certificate, NoBudget
 from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, make_harmless
 

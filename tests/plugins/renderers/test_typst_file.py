@@ -19,9 +19,8 @@ from plugins.renderers.pdf_pages import elements, fonts
 from plugins.renderers.test_pdf_attachments import ATTACHED, specifications
 from plugins.renderers.typst_pages import read, sample
 from processes import PYTHON, run
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import AccessError
-from zlmreport.language import Language
+from zlmreport.plugin import AccessError, Language
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 

@@ -10,11 +10,20 @@ from pypdf import PdfReader
 from document.typesetting import samples
 from plugins.renderers.pdf_pages import page_of, texts
 from plugins.renderers.typst_pages import read, sample
-from zlmreport.document.blocks import Align, Column, Facts, Notice, Paragraph, RowGroup, Section, Table
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import (
+    Align,
+    Certificate,
+    Column,
+    Facts,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Table,
+)
 
 _POINTS = 72 / 25.4
 _PAPERS = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}

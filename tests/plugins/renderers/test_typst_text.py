@@ -18,12 +18,10 @@ from plugins.renderers import pdf_pages
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers, texts
 from plugins.renderers.typst_pages import read, sample
 from zlmreport import pipeline
-from zlmreport.document.blocks import Facts, Formulas, Graph, Notice, Paragraph, Table
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.renderer import Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
 from zlmreport_plugins.renderers.pdf_typst.words import AS_WORDS, MARKED, SYMBOL, fit_text_with_symbols
 
 

@@ -8,8 +8,8 @@ from io import BytesIO
 from pypdf import PdfReader
 
 from document.typesetting import samples
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 

@@ -9,10 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from zlmreport.errors import InputError, Place
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
 from zlmreport.plugin.protocols import DataSource, SourceContext
 
 DATA = Path(__file__).parents[2] / "data"

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from plugins.sources.reading import DATA, File
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport_plugins.sources.ecmc import Ecmc
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl

@@ -10,9 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.sources.reading import UM, File, said
-from zlmreport.errors import InputError
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurand import DISPLACEMENT
+from zlmreport.plugin import DISPLACEMENT, Axis, InputError
 from zlmreport_plugins.sources.channels_csv import ChannelsCsv
 
 X1 = Axis("X1", quantity=DISPLACEMENT)

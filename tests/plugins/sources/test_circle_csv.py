@@ -9,11 +9,8 @@ import numpy as np
 import pytest
 
 from plugins.sources.reading import MM, UM, File, said
-from zlmreport.errors import InputError
 from zlmreport.looking import look_at
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE
+from zlmreport.plugin import CIRCLE, Axis, InputError, NominalCircle
 from zlmreport.plugin.registry.find import find_plugins
 from zlmreport_plugins.sources.circle_csv import CircleCsv
 

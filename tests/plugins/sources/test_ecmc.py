@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
+from zlmreport.plugin import Approach, Axis, AxisKind
 from zlmreport_plugins.sources.ecmc import Ecmc
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 

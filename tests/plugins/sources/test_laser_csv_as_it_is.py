@@ -15,9 +15,8 @@ from pydantic import ValidationError
 from plugins.sources.reading import UM, File, said
 from plugins.sources.test_any_file import WIDE, damaged
 from plugins.sources.untidy_files import FILES
-from zlmreport.errors import InputError
 from zlmreport.looking import look_at
-from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin import Axis, AxisKind, InputError
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 

@@ -8,11 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from zlmreport.errors import InputError, Place
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import find_error_named
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 

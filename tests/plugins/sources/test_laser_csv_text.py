@@ -11,8 +11,7 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.sources.reading import File, assert_same_readings
-from zlmreport.errors import AccessError, InputError
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import AccessError, InputError, MeasurementSet
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 HEADER = "target,direction,run,deviation\n"

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from plugins.sources.reading import File, assert_same_readings, said
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
+from zlmreport.measurement.measurement_set import MissingReading
+from zlmreport.plugin import Approach, MeasurementSet
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.laser_csv.options import run_and_direction
 

@@ -9,7 +9,7 @@ import pytest
 
 from environments import ROOT
 from plugins.sources.reading import MM, File
-from zlmreport.measurement.axis import Axis
+from zlmreport.plugin import Axis
 from zlmreport_plugins.sources.plate_csv import PlateCsv
 from zlmreport_plugins.union_jack_lines import LINE, LINES
 

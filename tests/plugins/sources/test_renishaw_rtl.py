@@ -10,10 +10,8 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MissingReading
+from zlmreport.plugin import Approach, Axis, AxisKind, Language
 from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl
 

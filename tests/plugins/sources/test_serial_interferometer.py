@@ -11,15 +11,13 @@ import pytest
 from live.capture.moves import MM, UM, Axis, listed, planned
 from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
-from zlmreport.errors import AccessError, InputError
-from zlmreport.language import Language
 from zlmreport.live.capture.events import Ended, Resumed
 from zlmreport.live.capture.journal import Journal
-from zlmreport.live.ports.reading import Fault
 from zlmreport.measurement import axis as axes
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
+from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.model.planning.methods import Method
+from zlmreport.plugin import AccessError, Approach, InputError, Language, MeasurementSet
+from zlmreport.plugin.instrument import Fault
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from zlmreport.plugin import Evaluation, MeasurementSet
 from zlmreport.plugin.protocols import Standard
+from zlmreport.plugin.standard import evaluate
 from zlmreport_plugins.standards import iso230_2, nmtba, vdi
 
 STANDARDS: dict[str, Standard] = {
@@ -10,3 +12,8 @@ STANDARDS: dict[str, Standard] = {
     for module in (iso230_2, vdi, nmtba)
     for standard in module.zlmreport_standards()
 }
+
+
+def evaluated(identifier: str, measurements: MeasurementSet) -> Evaluation:
+    standard = STANDARDS[identifier]
+    return evaluate(standard, measurements, standard.options(), {})

@@ -10,8 +10,8 @@ import pytest
 
 from plugins.standards.installed import STANDARDS
 from plugins.standards.oracle import evaluated_plainly
-from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.standard import position_statistics
 
 #: Some tens of operations, each rounded to a double, on readings that cancel to no less than this part.
 RELATIVE = 1e-12

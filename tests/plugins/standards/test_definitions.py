@@ -7,9 +7,9 @@ import re
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluation import Quantity, QuantityGroup
-from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
+from zlmreport.plugin import Language
+from zlmreport.plugin.standard import Quantity, QuantityGroup
 
 ISO_1988 = "A A_fwd A_bwd R R_fwd R_bwd B B_mean"
 ISO_SINCE_1997 = "A A_fwd A_bwd E E_fwd E_bwd M R R_fwd R_bwd B B_mean"

@@ -5,14 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plugins.standards.installed import STANDARDS
-from zlmreport.document.figures.figure import Arrow, Bracket, Figure, Panel, Role
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.language import Language
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
+from plugins.standards.installed import STANDARDS, evaluated
+from zlmreport.plugin import Approach, Axis, AxisKind, Figure, Language, MeasurementSet
+from zlmreport.plugin.standard import Arrow, Bracket, Panel, Role
 from zlmreport.testing import bidirectional_test, simulated_test
 
 ISO = [identifier for identifier in STANDARDS if identifier.startswith("iso230-2")]
@@ -28,11 +23,6 @@ ONE_RUN = simulated_test(runs=1)
 UPWARDS = simulated_test(approaches=[Approach.POSITIVE])
 DOWNWARDS = simulated_test(approaches=[Approach.NEGATIVE])
 ROOT_2 = np.sqrt(2)  # s of two readings that differ by 2
-
-
-def evaluated(identifier: str, measurements: MeasurementSet = TEST) -> Evaluation:
-    standard = STANDARDS[identifier]
-    return evaluate(standard, measurements, standard.options(), {})
 
 
 def figures(identifier: str, measurements: MeasurementSet = TEST) -> dict[str, Figure]:
@@ -218,7 +208,7 @@ def test_nmtba_arrow_is_half_the_largest_spread() -> None:
 def test_nmtba_shows_its_offset_as_an_arrow_from_zero_to_the_middle_of_the_band() -> None:
     shown = panel("nmtba", "overall")
     (middle,) = [level.y for level in shown.levels]
-    offset = evaluated("nmtba").value("O")
+    offset = evaluated("nmtba", TEST).value("O")
     assert offset is not None
 
     assert middle == pytest.approx((brackets(shown)["P"].low + brackets(shown)["P"].high) / 2)

@@ -8,12 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurand import DISPLACEMENT
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import DISPLACEMENT, Axis, Evaluation, Language, MeasurementSet
+from zlmreport.plugin.standard import evaluate
 from zlmreport_plugins.standards.iso230_3 import Iso230Part3
 from zlmreport_plugins.standards.iso230_3.quantities import DRIFT
 

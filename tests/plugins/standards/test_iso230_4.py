@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from plugins.standards.circle_oracle import least_squares, minimum_zone_width
-from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.plugin.standard import position_statistics
 from zlmreport_plugins.standards.iso230_4 import Iso230Part4, Iso230Part4Options
 from zlmreport_plugins.standards.iso230_4.circles import (
     find_minimum_zone,

@@ -10,12 +10,10 @@ import pytest
 from hypothesis import given, strategies as st
 
 from cli.commands import Shop
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.language import Language
 from zlmreport.machines.kinematics import Chain, deviation
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import Axis, Evaluation, Language, MeasurementSet
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.iso230_6 import Iso230Part6
 from zlmreport_plugins.standards.iso230_6.quantities import BODY, DIAGONAL, DIAGONALS, FACES

@@ -13,9 +13,8 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.plugin import Axis, AxisKind, Evaluation
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 
 PUBLISHED = Path(__file__).parents[2] / "data" / "published"

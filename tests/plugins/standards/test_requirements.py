@@ -7,10 +7,8 @@ import pytest
 
 from evaluation.findings import said
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluation import Basis, Finding
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Approach, Axis, AxisKind, MeasurementSet
+from zlmreport.plugin.standard import Basis, Finding
 from zlmreport.testing import bidirectional_test, simulated_test
 
 ROTARY = Axis("C", AxisKind.ROTARY)

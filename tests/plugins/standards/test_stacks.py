@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.plugin.standard import position_statistics
 
 STACK = np.random.default_rng(5).normal(scale=1e-6, size=(3, 1000, 2, 21, 5))
 

@@ -5,12 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import MeasurementSet
+from plugins.standards.installed import evaluated
+from zlmreport.plugin import Approach, Axis, AxisKind, MeasurementSet
 from zlmreport.testing import bidirectional_test, simulated_test
 
 LONG = simulated_test(13, 1, length=3000)
@@ -20,11 +16,6 @@ UPWARDS = simulated_test(approaches=[Approach.POSITIVE])
 DOWNWARDS = simulated_test(approaches=[Approach.NEGATIVE])
 ONE_RUN_UPWARDS = simulated_test(runs=1, approaches=[Approach.POSITIVE])
 SINCE_1997 = ("iso230-2:1997", "iso230-2:2006", "iso230-2:2014")
-
-
-def evaluated(identifier: str, measurements: MeasurementSet) -> Evaluation:
-    standard = STANDARDS[identifier]
-    return evaluate(standard, measurements, standard.options(), {})
 
 
 def defined(identifier: str, measurements: MeasurementSet) -> str:

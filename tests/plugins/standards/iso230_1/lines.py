@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import find_error_named
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import Axis, Evaluation, MeasurementSet
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 from plugins.standards.iso230_1.lines import evaluated, hp, line, together, values
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
-from zlmreport.language import Language
 from zlmreport.machines.kinematics import Chain, deviation
-from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import Axis, Language
+from zlmreport.plugin.extension import Acts
+from zlmreport.plugin.standard import evaluate
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings, strategies as st
 from hypothesis.extra.numpy import arrays
 
 from plugins.standards.iso230_1.lines import evaluated, hp, line, values
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport_plugins.standards.iso230_1.reference_lines import LineName, residuals, slope, straightness
 
 LINES: tuple[LineName, ...] = ("least-squares", "end-points", "minimum-zone")

@@ -6,10 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import Axis, Evaluation, MeasurementSet
+from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, PLACES

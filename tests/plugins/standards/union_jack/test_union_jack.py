@@ -11,10 +11,9 @@ import pytest
 from hypothesis import given, strategies as st
 
 from plugins.standards.union_jack.plates import evaluated, line, read, values
-from zlmreport.evaluation.uncertainty.budget import Acts, Contribution
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import Axis, Language, MeasurementSet
+from zlmreport.plugin.extension import Acts, Contribution
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.standards.union_jack.heights import find_plate_of
