@@ -24,11 +24,11 @@ from zlmreport.evaluation.uncertainty.budget import (
     Contribution,
     Distribution,
     compute_effect_along,
+    find_full_range,
 )
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
     compute_reading_times,
-    find_drift_range,
     sample_drifts,
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
@@ -97,7 +97,7 @@ def of_this_test(
             (drift,) = sample_drifts(kind, times, 1, generator)
             (stated,) = budget.acting(Acts.IN_TIME)
             runs = np.searchsorted(truth.runs, truth.run)
-            errors += find_drift_range(stated) * drift[np.where(truth.approach > 0, 0, 1), truth.target, runs]
+            errors += find_full_range(stated) * drift[np.where(truth.approach > 0, 0, 1), truth.target, runs]
         found = _evaluated(replace(truth, deviation=truth.deviation + errors), standard)
         true = _evaluated(truth, standard)
         (expanded,) = propagate(budget, [(found, partial(standard.arithmetic, options=Options()))], simulated)

@@ -177,9 +177,12 @@ class StepGaugeEvaluation:
     position_quantities = BY_POSITION
     notes = NOTES
 
-    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold what the formulas need against the test."""
-        return _list_findings(measurements)
+        yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
+        yield no_missing_readings(measurements)
+        if measurements.is_bidirectional:
+            yield _check_radius_from_elsewhere(measurements)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the parameters, and errors and reversal by position."""
@@ -188,13 +191,6 @@ class StepGaugeEvaluation:
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the graphs of errors and of the reversal."""
         return draw_graphs(evaluation)
-
-
-def _list_findings(measurements: MeasurementSet) -> Iterator[Finding]:
-    yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
-    yield no_missing_readings(measurements)
-    if measurements.is_bidirectional:
-        yield _check_radius_from_elsewhere(measurements)
 
 
 def _check_radius_from_elsewhere(measurements: MeasurementSet) -> Finding:

@@ -106,8 +106,8 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
         return join_lines(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
     source = registry.source(job.source.identifier)
     set_ups = {
-        choice.identifier: extension.set_up(job, choice.options)
-        for extension, choice in registry.list_extensions_of(job)
+        each.identifier: registry.extension(each.identifier).set_up(job, each.options)
+        for each in job.extensions
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
@@ -164,8 +164,8 @@ def compose(  # noqa: PLR0913 - what a document is made of
 
     def describe(writer: Writer) -> list[Described]:
         said = [
-            extension.described(job, choice.options, writer)
-            for extension, choice in registry.list_extensions_of(job)
+            registry.extension(each.identifier).described(job, each.options, writer)
+            for each in job.extensions
         ]
         return [each for each in said if each]
 
@@ -186,7 +186,11 @@ def compose(  # noqa: PLR0913 - what a document is made of
                 (
                     *find_doubts(line, of_line, [each.evaluation for each in by]),
                     *_find_doubts_of_runs(of_line),
-                    *_find_doubts_of_extensions(line, of_line, registry),
+                    *(
+                        words
+                        for each in line.extensions
+                        for words in registry.extension(each.identifier).doubts(line, each.options, of_line)
+                    ),
                 ),
             )
             for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
@@ -298,12 +302,6 @@ def _find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
             yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 
-def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:
-    """Yield what the extensions of a job doubt of their groups of keys."""
-    for extension, choice in registry.list_extensions_of(job):
-        yield from extension.doubts(job, choice.options, measurements)
-
-
 def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
     """Return the uncertainty budget of the set-up, with what its extensions contribute."""
     if job.tests:
@@ -319,8 +317,8 @@ def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registr
         return join_budgets(budgets, brought, job.axis.measurand.contributors, negligible)
     own = tuple(
         contribution
-        for extension, choice in registry.list_extensions_of(job)
-        for contribution in extension.contributions(job, choice.options, measurements)
+        for each in job.extensions
+        for contribution in registry.extension(each.identifier).contributions(job, each.options, measurements)
     )
     return make_budget_of(job, measurements, own)
 

@@ -89,7 +89,8 @@ def test_a_gauge_is_held_against_logged_air_where_none_is_stated(tmp_path: Path)
     )
     job = load(path, registry())
     measurements = pipeline.read(job, registry())
-    ((extension, choice),) = registry().list_extensions_of(job)
+    (choice,) = job.extensions
+    extension = registry().extension(choice.identifier)
     for logged, count in ((26.0, 1), (22.0, 0), (np.nan, 0)):
         air = np.full(measurements.deviation.size, logged + 273.15)
         conditions = {**measurements.conditions, "air_temperature": air}

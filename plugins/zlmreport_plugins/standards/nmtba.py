@@ -16,7 +16,6 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.plugin import (
-    BoolArray,
     Evaluation,
     Figure,
     FloatArray,
@@ -220,7 +219,8 @@ def mean_deviation(statistics: PositionStatistics) -> FloatArray:
     total = np.where(count > 0, count * statistics.mean, 0.0).sum(axis=-2)
     with np.errstate(invalid="ignore"):
         mean = total / count.sum(axis=-2)
-    return np.where(_find_lacking_a_direction(statistics), np.nan, mean)
+    lacks_a_direction = np.any(count == 0, axis=-2) & statistics.is_bidirectional[..., np.newaxis]
+    return np.where(lacks_a_direction, np.nan, mean)
 
 
 def position_spread(statistics: PositionStatistics, mean: FloatArray) -> FloatArray:
@@ -258,12 +258,6 @@ def parameters(mean: FloatArray, spread: FloatArray) -> dict[str, FloatArray]:
 def offset(upper: FloatArray, lower: FloatArray) -> FloatArray:
     """O = −½·(max[X̄_j + P_sj/2] + min[X̄_j − P_sj/2]): what centres the band on zero. Shape (...)."""
     return -(largest_over_positions(upper) + smallest_over_positions(lower)) / 2
-
-
-def _find_lacking_a_direction(statistics: PositionStatistics) -> BoolArray:
-    """Tell where a test of both directions has readings of only one, shape (..., position)."""
-    lacks: BoolArray = np.any(statistics.count == 0, axis=-2)
-    return lacks & statistics.is_bidirectional[..., np.newaxis]
 
 
 class _Graphs:

@@ -74,8 +74,8 @@ def run(options: Namespace) -> int:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry).line(options.test, Place("zlmreport capture --test"))
-    for extension, choice in registry.list_extensions_of(job):
-        live = extension.live(job, choice.options)
+    for choice in job.extensions:
+        live = registry.extension(choice.identifier).live(job, choice.options)
         if live:
             return _run_live(live, options)
     if options.journal:

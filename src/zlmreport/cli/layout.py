@@ -110,13 +110,19 @@ def _part_columns(
     def measure(number: int) -> int:
         return max(measure_width(row[number]) for row in rows)
 
-    while texts := [number for number in shown[1:] if _is_text(columns[number])]:
+    texts = [
+        number
+        for number in shown[1:]
+        if columns[number].kind is ColumnKind.VALUES and columns[number].align is not Align.RIGHT
+    ]
+    while texts:
         kept = [[row[number] for number in shown] for row in rows]
         _, spare = _break_heads([columns[number] for number in shown], kept, room)
         name = measure(shown[0])
         if name + spare >= min(name, _SHORTEST_NAME):
             break
         longest = max(texts, key=measure)
+        texts.remove(longest)
         shown.remove(longest)
         sentences.append(longest)
     return shown, sentences
@@ -135,10 +141,6 @@ def _draw_rows(columns: Sequence[Column], rows: Sequence[Sequence[str]], spare: 
         yield [*(_shorten_name(each, name) for each in drawn[:1]), *drawn[1:]]
 
 
-def _is_text(column: Column) -> bool:
-    return column.kind is ColumnKind.VALUES and column.align is not Align.RIGHT
-
-
 def _break_heads(
     columns: Sequence[Column], rows: Sequence[Sequence[str]], room: int
 ) -> tuple[list[list[str]], int]:
@@ -152,7 +154,8 @@ def _break_heads(
         for number, column in enumerate(columns):
             is_bar = column.kind is ColumnKind.BARS
             widest = _SHORTEST_BAR if is_bar else max((measure_width(row[number]) for row in rows), default=0)
-            heads.append([""] if is_bar else _break_head(_write_head(column), widest, lines))
+            head = " ".join(filter(None, (say(write_cell_text(column.heading)), column.unit)))
+            heads.append([""] if is_bar else _break_head(head, widest, lines))
             widths.append(max(widest, *map(measure_width, heads[-1])))
         spare = room - sum(widths) - _GAP * (len(widths) - 1)
         if spare >= bars * (_BAR_WIDTH - _SHORTEST_BAR):
@@ -177,10 +180,6 @@ def _list_sentences(row: Sequence[str], columns: Iterable[tuple[int, Column]]) -
         heading = write_cell_text(column.heading)
         if row[number] not in {"", NOTHING}:
             yield from wrap(f"{heading}: {row[number]}" if heading else row[number], _FURTHER_IN)
-
-
-def _write_head(column: Column) -> str:
-    return " ".join(filter(None, (say(write_cell_text(column.heading)), column.unit)))
 
 
 def _shorten_name(text: str, longest: int) -> str:

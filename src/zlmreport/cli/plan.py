@@ -161,7 +161,8 @@ def _plan_of_extension(
     job: Job, registry: Registry
 ) -> tuple[Extension, ExtensionChoice, ExtensionPlan] | None:
     """Return the plan of the first extension of a job that plans its test; None if none does."""
-    for extension, choice in registry.list_extensions_of(job):
+    for choice in job.extensions:
+        extension = registry.extension(choice.identifier)
         plan = extension.plan(job, choice.options)
         if plan:
             return extension, choice, plan

@@ -89,7 +89,7 @@ def _find_other_reading(mistake: Mistake) -> Callable[[Scalar], Any] | None:
         return None
     if node.is_nothing:
         return (lambda _: {}) if mistake.kinds & GROUP_EXPECTED else None
-    return _find_spelling if mistake.kinds <= TEXT_EXPECTED else None
+    return (lambda scalar: LocatedText(scalar.text, scalar.place)) if mistake.kinds <= TEXT_EXPECTED else None
 
 
 def _read_plain_values(node: Node, path: Path, readings: Mapping[Path, Callable[[Scalar], Any]]) -> Any:
@@ -104,10 +104,6 @@ def _read_plain_values(node: Node, path: Path, readings: Mapping[Path, Callable[
     return readings.get(path, _resolve)(node)
 
 
-def _find_spelling(scalar: Scalar) -> LocatedText:
-    return LocatedText(scalar.text, scalar.place)
-
-
 def _resolve(scalar: Scalar) -> float | LocatedText | None:
     """Read a value as YAML 1.2 does, but for the truth values, which the keys that take them read."""
     if scalar.is_nothing:
@@ -119,7 +115,7 @@ def _resolve(scalar: Scalar) -> float | LocatedText | None:
             return float(scalar.text)
         if _NO_NUMBER.fullmatch(scalar.text):
             return float(scalar.text.replace(".", ""))
-    return _find_spelling(scalar)
+    return LocatedText(scalar.text, scalar.place)
 
 
 def find_all_contradictions(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
@@ -115,19 +115,12 @@ def choose_effects_of(
 
     `listed`: The list; anything else has been refused before, and gives none.
     """
-    items = listed.items if isinstance(listed, Items) else ()
-    return tuple(_choose_effects(items, registry, problems, within))
-
-
-def _choose_effects(
-    items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
-) -> Iterator[EffectChoice]:
     found: list[EffectChoice] = []
-    for item in items:
+    for item in listed.items if isinstance(listed, Items) else ():
         if isinstance(item, Keys) and "formula" in item.entries:
             choice = _choose_formula(item, registry, problems, within)
             if choice:
-                yield choice
+                found.append(choice)
             continue
         named = _name_effect(item)
         if named is None:
@@ -145,7 +138,7 @@ def _choose_effects(
             if effect.several and choice.identifier in taken:
                 choice = choice.renumber(find_next_number(choice.installed, found))
             found.append(choice)
-            yield choice
+    return tuple(found)
 
 
 def _report_no_effect(item: Node, within: str) -> Problem:

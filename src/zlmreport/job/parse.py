@@ -231,13 +231,13 @@ class _Reader:
         for unseen in _find_hidden(event.value):
             self._refuse(event, f"{describe_character(unseen[0])} in a text; remove it")
             break
-        return Scalar(self._find_place(event), event.value, plain=not event.style)
+        return Scalar(place(event.start_mark, self._file), event.value, plain=not event.style)
 
     def _read_items(self, start: yaml.Event, depth: int) -> Items:
         items = []
         while not isinstance(event := self._take_next(), yaml.SequenceEndEvent):
             items.append(self._read_node(event, depth + 1))
-        return Items(self._find_place(start), tuple(items))
+        return Items(place(start.start_mark, self._file), tuple(items))
 
     def _read_keys(self, start: yaml.Event, depth: int) -> Keys:
         entries: dict[str, KeyEntry] = {}
@@ -255,7 +255,7 @@ class _Reader:
                 if isinstance(value, Scalar) and value.plain and not value.text:
                     value = Scalar(key.place, "")
                 entries[key.text] = KeyEntry(key.text, key.place, value)
-        return Keys(self._find_place(start), MappingProxyType(entries))
+        return Keys(place(start.start_mark, self._file), MappingProxyType(entries))
 
     def _find_aliased(self, event: yaml.AliasEvent) -> Node:
         if event.anchor not in self._anchors:
@@ -277,13 +277,10 @@ class _Reader:
             )
 
     def _refuse(self, event: yaml.Event, message: str) -> None:
-        self.problems.append(Problem(self._find_place(event), message))
+        self.problems.append(Problem(place(event.start_mark, self._file), message))
 
     def _make_error(self, event: yaml.Event, message: str) -> InputError:
-        return InputError([*self.problems, Problem(self._find_place(event), message)])
-
-    def _find_place(self, event: yaml.Event) -> Place:
-        return place(event.start_mark, self._file)
+        return InputError([*self.problems, Problem(place(event.start_mark, self._file), message)])
 
 
 NOT_YAML = "is not YAML from here on; compare with the lines above"

@@ -1,7 +1,9 @@
 """The languages of a certificate, and `Words`: a phrase in English that is translated when it is written.
 
 A sentence that reaches a page is written once, in English, at its place in the code: `Words`. What it is in
-other languages stands in a catalogue of translations, a file for each language (`catalogues`).
+other languages stands in a catalogue of translations, a file for each language in `translations`: there
+``zlmreport.po`` is for translators, and ``zlmreport.mo``, made from it by ``docs/generate/translations.py``,
+is what a run reads. English needs none.
 """
 
 from __future__ import annotations
@@ -9,13 +11,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
+from functools import lru_cache
+from gettext import NullTranslations, translation
+from pathlib import Path
 from typing import Protocol, runtime_checkable
 
-from zlmreport.language.catalogues import translate
 from zlmreport.language.formatting import DecimalSign, write_general_number
 
 #: The place of a phrase whose value chooses between singular and plural.
 _COUNTED = "number"
+_CATALOGUES = Path(__file__).parent / "translations"
 
 
 class Language(StrEnum):
@@ -85,11 +90,29 @@ class Words:
         """Return the phrase in one language, its places filled."""
         phrase = getattr(self, language.value) if language is not Language.ENGLISH else None
         if phrase is None:
-            number = self.values.get(_COUNTED, 1)
-            phrase = translate(self.en, language.value, self.context, plural=self.plural, number=number)
+            phrase = self._translate(language)
         if not self.values:
             return phrase
         return phrase.format_map({name: _write_in(value, language) for name, value in self.values.items()})
+
+    def _translate(self, language: Language) -> str:
+        """Return the phrase, its places unfilled, as the catalogue has it; in English where it does not."""
+        catalogue = _load_catalogue(language.value)
+        number = self.values.get(_COUNTED, 1)
+        count = number if isinstance(number, int) else 2
+        if self.plural and self.context:
+            return catalogue.npgettext(self.context, self.en, self.plural, count)
+        if self.plural:
+            return catalogue.ngettext(self.en, self.plural, count)
+        # An empty phrase would be answered with the head of the catalogue.
+        if not self.en:
+            return self.en
+        return catalogue.pgettext(self.context, self.en) if self.context else catalogue.gettext(self.en)
+
+
+@lru_cache
+def _load_catalogue(language: str) -> NullTranslations:
+    return translation("zlmreport", _CATALOGUES, languages=[language], fallback=True)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,13 +6,7 @@ from dataclasses import dataclass
 from math import floor, isfinite, log10
 
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import (
-    DecimalSign,
-    round_pair,
-    write_fixed_number,
-    write_percentage,
-    write_stated_number,
-)
+from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number, write_percentage
 
 _SIGNIFICANT_DIGITS = 3
 _NUMBER, _BELOW = Words("{number}"), Words("< {least}")
@@ -21,28 +15,24 @@ _LEAST_PART = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
-class _Rounded:
+class RoundedNumber:
     """A number with the digits that it has for good: two that print alike are alike."""
 
     english: str
 
     def in_language(self, language: Language) -> str:
+        """Return it with the decimal sign of a language."""
         return self.english.replace(DecimalSign.POINT, language.decimal_sign)
 
 
 def number_words(value: float, decimals: int) -> Words:
     """Return a number with fixed decimals."""
-    return _NUMBER.given(number=_Rounded(write_fixed_number(value, decimals)))
+    return _NUMBER.given(number=RoundedNumber(write_fixed_number(value, decimals)))
 
 
 def write_share(share: float) -> Words:
     """Return a share in whole per cent, without the sign %, as `write_percentage` does."""
-    return _NUMBER.given(number=_Rounded(write_percentage(share)))
-
-
-def say_stated_number(value: float) -> Words:
-    """Return a number that somebody states, to its last digit."""
-    return _NUMBER.given(number=_Rounded(write_stated_number(value)))
+    return _NUMBER.given(number=RoundedNumber(write_percentage(share)))
 
 
 def write_significant(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
@@ -67,5 +57,7 @@ def write_part(value: float, whole: float) -> Words:
 
 def write_pair(value: float, expanded_uncertainty: float) -> tuple[Words, Words]:
     """Return a value and its uncertainty, rounded together as `round_pair` does."""
-    number, u = (_NUMBER.given(number=_Rounded(each)) for each in round_pair(value, expanded_uncertainty))
+    number, u = (
+        _NUMBER.given(number=RoundedNumber(each)) for each in round_pair(value, expanded_uncertainty)
+    )
     return number, u

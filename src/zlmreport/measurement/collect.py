@@ -117,7 +117,9 @@ def collect(
             sound.append(reading)
     if sound:
         measurements = _arrange_readings(sound, axis, provenance)
-        found.extend(_find_problems_of(measurements, [reading.place for reading in sound]))
+        places = [reading.place for reading in sound]
+        misread = list(_check_columns_are_what_they_say(measurements, places))
+        found.extend(misread or (each for check in _CHECKS for each in check(measurements, places)))
         if not found:
             return measurements
     elif not found:
@@ -219,15 +221,6 @@ def cap_problems(problems: Sequence[Problem]) -> list[Problem]:
     if more:
         named.append(Problem(more[0].place, f"and {len(more)} more"))
     return named
-
-
-def _find_problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
-    """Return everything that is wrong with the readings together.
-
-    `measurements`: The readings, arranged but not checked.
-    """
-    misread = list(_check_columns_are_what_they_say(measurements, places))
-    return misread or [problem for check in _CHECKS for problem in check(measurements, places)]
 
 
 def _check_columns_are_what_they_say(

@@ -10,7 +10,8 @@ from typing import TypeVar, overload
 
 from zlmreport.errors import did_you_mean
 from zlmreport.language import Words
-from zlmreport.language.numbers import say_stated_number
+from zlmreport.language.formatting import write_stated_number
+from zlmreport.language.numbers import RoundedNumber
 from zlmreport.measurement.arrays import FloatArray
 
 #: 0 °C in kelvin.
@@ -38,7 +39,7 @@ def say_with_unit(value: float, symbol: str) -> Words:
 
 def say_stated(value: float, symbol: str) -> Words:
     """Return a value that somebody states, such as a position or a limit, to its last digit with its unit."""
-    return Words(with_unit("{value}", symbol)).given(value=say_stated_number(value))
+    return Words(with_unit("{value}", symbol)).given(value=RoundedNumber(write_stated_number(value)))
 
 
 def write_behind(symbol: str) -> str:

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
+from zlmreport.evaluation.uncertainty.budget import find_full_range
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
     compute_mean_drift_variance,
     compute_reading_times,
-    find_drift_range,
     sample_drifts,
 )
 from zlmreport.plugin.extension import Acts, Distribution
@@ -31,7 +31,7 @@ def drawn(kind: Drift, times: np.ndarray) -> np.ndarray:
 
 def test_a_range_is_that_of_the_rectangle_with_its_standard_uncertainty() -> None:
     drifting = contribution(1 / math.sqrt(12), Acts.IN_TIME, Distribution.RECTANGULAR)
-    assert find_drift_range(drifting) == pytest.approx(MICROMETRE)
+    assert find_full_range(drifting) == pytest.approx(MICROMETRE)
 
 
 def test_readings_have_their_own_times_as_shares_of_the_test() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 from zlmreport.plugin import Words
 from zlmreport.plugin.table import TextColumn, TextTable
@@ -45,7 +45,9 @@ def list_remarks(
             yield Words("Runs were counted: the n-th reading of a target in a direction is of run n.")
         elif layout.run is None:
             yield Words("The file names no runs: all readings were taken as one run.")
-        yield from _say_other_conditions(layout.conditions)
+        others = [each.text for each in layout.conditions if each.name not in COLUMN_NAMES]
+        if others:
+            yield Words("Columns kept as conditions, as found: {names}.").given(names=", ".join(others))
     if options.missing:
         yield Words("A reading counts as missing where the file has {words}.").given(
             words=", ".join(options.missing)
@@ -63,12 +65,6 @@ def _place(table: TextTable, options: LaserCsvOptions) -> Iterator[Words]:
     elif options.lines or options.skip_rows or options.ends_before:
         lines = [row.line for row in (table.header, *table.rows) if row.line] or [table.header.line]
         yield Words("Lines {first} to {last} of the file were read.").given(first=lines[0], last=lines[-1])
-
-
-def _say_other_conditions(conditions: Iterable[TextColumn]) -> Iterator[Words]:
-    others = [condition.text for condition in conditions if condition.name not in COLUMN_NAMES]
-    if others:
-        yield Words("Columns kept as conditions, as found: {names}.").given(names=", ".join(others))
 
 
 def _list_columns(columns: Sequence[TextColumn]) -> Words:

@@ -161,9 +161,31 @@ class Iso230Part6:
                 )
         return Arithmetic(found)
 
-    def figures(self, evaluation: Evaluation, options: DiagonalOptions) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
-        """Return the mean deviations along body diagonals, and along those of faces."""
-        return _draw_figures(evaluation)
+    def figures(self, evaluation: Evaluation, options: DiagonalOptions) -> Iterator[Figure]:  # noqa: ARG002 - no key of its own
+        """Yield the mean deviations along body diagonals, and along those of faces."""
+        tests = evaluation.measurements.tests
+        for key, names, title in (("body", BODY, _OF_BODY), ("faces", FACE, _OF_FACES)):
+            shown = [name for name in names if name in tests]
+            if not shown:
+                continue
+            axis = tests[shown[0]].axis
+            yield Figure(
+                key=key,
+                title=title,
+                alternative=_SEEN.given(
+                    values=same_in_all_languages(PartRow(tuple(shown))),
+                    largest=_say_largest(evaluation, shown),
+                ),
+                x_title=_ALONG,
+                y_title=_DEVIATION,
+                x_unit=axis.position_unit.symbol,
+                y_unit=axis.deviation_unit.symbol,
+                panels=tuple(
+                    _make_panel(name, tests[name], evaluation.statistics.tests[name]) for name in shown
+                ),
+                is_wide=True,
+                height=_HEIGHT,
+            )
 
 
 def squareness(
@@ -256,29 +278,6 @@ def _check_whole(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Itera
         whole=position_in_words(axis, whole),
     )
     yield Finding(_OVER_WHOLE, said, met=False)
-
-
-def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
-    tests = evaluation.measurements.tests
-    for key, names, title in (("body", BODY, _OF_BODY), ("faces", FACE, _OF_FACES)):
-        shown = [name for name in names if name in tests]
-        if not shown:
-            continue
-        axis = tests[shown[0]].axis
-        yield Figure(
-            key=key,
-            title=title,
-            alternative=_SEEN.given(
-                values=same_in_all_languages(PartRow(tuple(shown))), largest=_say_largest(evaluation, shown)
-            ),
-            x_title=_ALONG,
-            y_title=_DEVIATION,
-            x_unit=axis.position_unit.symbol,
-            y_unit=axis.deviation_unit.symbol,
-            panels=tuple(_make_panel(name, tests[name], evaluation.statistics.tests[name]) for name in shown),
-            is_wide=True,
-            height=_HEIGHT,
-        )
 
 
 def _say_largest(evaluation: Evaluation, names: Iterable[str]) -> Words:

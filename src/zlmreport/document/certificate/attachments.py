@@ -136,7 +136,7 @@ def list_sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | No
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
 
     def add(role: SourceRole, file: SourceFile) -> None:
-        found.setdefault((_find_path(file, first, from_root), file.sha256), (role, file))
+        found.setdefault((from_root.find_path(file, first), file.sha256), (role, file))
 
     known: dict[SourceFile, SourceRole] = {}
     for part in job.parts:
@@ -163,7 +163,7 @@ def list_sources_of_several(files: Sequence[SourceFile], tree: Keys, number: str
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
     first = files[0].path
     for file in files:
-        path = _find_path(file, first, from_root)
+        path = from_root.find_path(file, first)
         found.setdefault((path, file.sha256), (SourceRole.TEST if found else SourceRole.JOB, file))
     return _name_sources(found, number)
 
@@ -233,20 +233,19 @@ class _FromRoot:
             frozenset(name for name, number in count.items() if number > 1),
         )
 
-    def has(self, path: Path, job: Path) -> bool:
-        """Return whether a file is told so: it is stated, or nothing else leads to it."""
-        if path in self.stated:
-            return True
+    def find_path(self, file: SourceFile, job: Path | None) -> str:
+        """Return the path by which a job comes to a file; only its name where the job does not state one.
+
+        It is told from the root if it is stated so, or if nothing else leads to it.
+        """
+        path = file.path
+        if path is None or job is None:
+            return file.name
         is_elsewhere = path.name in self.ambiguous and not path.is_relative_to(job.parent)
-        return is_elsewhere and any(each.parent in path.parents for each in self.stated)
-
-
-def _find_path(file: SourceFile, job: Path | None, from_root: _FromRoot) -> str:
-    """Return the path by which a job comes to a file; only its name where the job does not state one."""
-    if file.path is None or job is None:
-        return file.name
-    path = file.path
-    return find_path_from_job(path, job, str(path) if from_root.has(path, job) else None) or file.name
+        is_told = path in self.stated or (
+            is_elsewhere and any(each.parent in path.parents for each in self.stated)
+        )
+        return find_path_from_job(path, job, str(path) if is_told else None) or file.name
 
 
 def _make_unique(name: str, taken: set[str], number: str) -> str:

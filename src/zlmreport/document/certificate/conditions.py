@@ -214,7 +214,7 @@ def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
     )
     yield Fact(
         Words("Angular errors"),
-        _file_name(keys.angular_errors),
+        _write_table(keys.angular_errors, writer),
         ("axis.angular_errors",),
     )
     yield Fact(
@@ -226,11 +226,9 @@ def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
 
 def _write_table(stated: str | Path | None, writer: Writer) -> str | None:
     """Write the table that was active during the test; the word for none."""
-    return _file_name(stated) if isinstance(stated, Path | None) else writer.say(_NO_TABLE)
-
-
-def _file_name(path: Path | None) -> str | None:
-    return path.name if path else None
+    if isinstance(stated, Path):
+        return stated.name
+    return writer.say(_NO_TABLE) if stated else None
 
 
 def _list_measurement_facts(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:

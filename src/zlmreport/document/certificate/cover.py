@@ -314,24 +314,21 @@ _WHERE_IT_STANDS = Words("where the machine stands: {location}")
 def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
     """Return where the work was done: the place that is stated, or where the machine is said to stand."""
     match keys.location:
-        case Location(kind=kind, address=address):
+        case Location(kind=kind, address=stated):
             party = keys.laboratory if kind == "laboratory" else keys.customer
-            return _find_place_of_kind(kind, address or (party and party.address) or "")
+            address = stated or (party and party.address) or ""
+            words, line = _KINDS.get(kind), _write_in_a_line(address)
+            if words is None:
+                words = same(line)
+            elif address:
+                words = named(words, line)
+            return PlaceOfWork(kind, address, words, ("location",))
         case str(location):
             return PlaceOfWork("other", location, same(_write_in_a_line(location)), ("location",))
     if keys.machine.location:
         words = _WHERE_IT_STANDS.given(location=keys.machine.location)
         return PlaceOfWork("other", keys.machine.location, words, ("machine.location",))
     return None
-
-
-def _find_place_of_kind(kind: str, address: str) -> PlaceOfWork:
-    words = _KINDS.get(kind)
-    if words is None:
-        words = same(_write_in_a_line(address))
-    elif address:
-        words = named(words, _write_in_a_line(address))
-    return PlaceOfWork(kind, address, words, ("location",))
 
 
 def _write_in_a_line(address: str) -> str:

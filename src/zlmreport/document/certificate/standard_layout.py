@@ -5,14 +5,14 @@ Editions that give the same numbers share their page, and it says so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias, TypeGuard
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conditions, conformity, origin, results, statements
+from zlmreport.document.certificate.cover import Behind, lay_out_cover
 from zlmreport.document.certificate.document import Head
-from zlmreport.document.certificate.first_page import lay_out_first_page
 from zlmreport.document.certificate.material import (
     LaidOut,
     Material,
@@ -43,6 +43,10 @@ _LITTLE = 0.5
 #: Panels that have room beside each other.
 _MOST_BESIDE = 2
 
+#: Groups of conditions by their job keys, in the order in which they leave the first page; an extension's has
+#: none.
+_LEAST_LOOKED_FOR = ("", "environment", "instrument", "measurement", "axis", "circle", "machine")
+
 #: Evaluations that share a page, page by page.
 Pages: TypeAlias = list[tuple[Evaluated, ...]]
 
@@ -63,7 +67,7 @@ def lay_out(of: Material) -> LaidOut:
     pages = group_together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
     below_title = page - measure_head_height(of)
-    on_cover, behind = lay_out_first_page(of, pages, below_title)
+    on_cover, behind = _lay_out_first_page(of, pages, below_title)
     free = below_title - columns.estimate_height(on_cover)
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
     return LaidOut(
@@ -81,6 +85,48 @@ def lay_out(of: Material) -> LaidOut:
         ),
         is_compact=True,
     )
+
+
+def _lay_out_first_page(
+    of: Material, pages: Sequence[tuple[Evaluated, ...]], room: float
+) -> tuple[tuple[Block, ...], tuple[Facts, ...]]:
+    """Return the blocks under the title, and the groups of conditions that stand behind.
+
+    Who and what, the results in brief, the decision rule and the statements stand together, whatever a job
+    states. What is long stands behind, and the page says where: first conditions of the measurement, group by
+    group, then what U means. Where even that leaves too little room, it is the results that go on on the next
+    page.
+
+    `pages`: Evaluations that share their results in brief. `room`: What the page has below its title, points.
+    """
+    groups = list(
+        conditions.list_groups_beside_identification(of.job, of.measurements, of.described, of.writer)
+    )
+    for behind in _list_ways(of, [key for key, _ in groups]):
+        blocks = lay_out_cover(of, pages, behind)
+        if columns.estimate_height(blocks) <= room:
+            break
+    left = [group for key, group in groups if key in behind.conditions]
+    return blocks, tuple(left)
+
+
+def _list_ways(of: Material, groups: Collection[str]) -> Iterator[Behind]:
+    """Yield what stands behind, from nothing to all that can; a section that a job leaves out takes none.
+
+    `groups`: The job keys of the conditions that the first page has where there is room.
+    """
+    wanted = of.job.keys.certificate.sections
+    behind = Behind()
+    yield behind
+    if wanted is None or "conditions" in wanted:
+        for key in _LEAST_LOOKED_FOR:
+            if key in groups:
+                behind = replace(behind, conditions=behind.conditions | {key})
+                yield behind
+    if wanted is None or "uncertainty" in wanted:
+        behind = replace(behind, explains_uncertainty=True)
+        yield behind
+    yield replace(behind, results=True)
 
 
 def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:

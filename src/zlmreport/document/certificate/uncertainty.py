@@ -184,7 +184,9 @@ def _lay_out_blocks(
     yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
         yield from lay_out_own_blocks(budget, axis, writer, with_bars=with_bars)
-    yield from _list_declared(budget, writer)
+    if budget.negligible:
+        reasons = (named(wording.name_contributor(name), reason) for name, reason in budget.negligible)
+        yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
 
 
 def lay_out_own_blocks(
@@ -195,12 +197,6 @@ def lay_out_own_blocks(
         yield _lay_out_table(budget, writer)
         if with_bars:
             yield Graph(draw_budget(budget, axis))
-
-
-def _list_declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
-    if budget.negligible:
-        reasons = (named(wording.name_contributor(name), reason) for name, reason in budget.negligible)
-        yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
 
 
 def _lay_out_table(budget: Budget, writer: Writer) -> Table:

@@ -84,17 +84,11 @@ class DrawnDimension:
     is_among_lines: bool = False
 
     @property
-    def line_box(self) -> Box:
-        """The room of the dimension line with its heads."""
-        half = 2 * HEAD_HALF_WIDTH
-        return Box(
-            self.x - half, self.span.low - self.span.tail, self.x + half, self.span.high + self.span.tail
-        )
-
-    @property
     def boxes(self) -> tuple[Box, Box]:
-        """The room of line and label."""
-        return self.line_box, self.label.box
+        """The room of the dimension line with its heads, and that of the label."""
+        half, tail = 2 * HEAD_HALF_WIDTH, self.span.tail
+        line = Box(self.x - half, self.span.low - tail, self.x + half, self.span.high + tail)
+        return line, self.label.box
 
 
 def _place_dimension(span: DimensionSpan, x: float, side: float, height: float) -> DrawnDimension:

@@ -261,7 +261,8 @@ def _name_ranges(evaluation: Evaluation, name: Words) -> list[Words]:
 
 def alternative_text(*sentences: Words | None) -> Words:
     """Return the sentences as one text; None is left out."""
-    return _join_sentences([sentence for sentence in sentences if sentence is not None])
+    said = {f"part{number}": each for number, each in enumerate(filter(None, sentences))}
+    return Words(" ".join(f"{{{part}}}" for part in said), values=said)
 
 
 def graph_in_words(evaluation: Evaluation) -> Words:
@@ -315,8 +316,3 @@ def _describe_bracket(axis: Axis, bracket: Bracket) -> Words:
         low_at=say_stated(bracket.low_at, axis.position_unit.symbol),
         high_at=say_stated(bracket.high_at, axis.position_unit.symbol),
     )
-
-
-def _join_sentences(sentences: list[Words]) -> Words:
-    pattern = " ".join(f"{{part{number}}}" for number in range(len(sentences)))
-    return Words(pattern, values={f"part{number}": each for number, each in enumerate(sentences)})

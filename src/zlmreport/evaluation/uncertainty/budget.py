@@ -173,6 +173,11 @@ def from_range(full_range: float, distribution: Distribution) -> float:
     return full_range / distribution.range_over_standard_uncertainty
 
 
+def find_full_range(contribution: Contribution) -> float:
+    """Return the range, m or rad, of an error whose values in it are all alike: a drift, a last digit."""
+    return contribution.standard_uncertainty * Distribution.RECTANGULAR.range_over_standard_uncertainty
+
+
 def compute_misalignment_range(misalignment: float, length: float) -> float:
     """Return the range of the cosine error, R²/(2L), m.
 

@@ -13,7 +13,6 @@ from enum import Enum
 
 import numpy as np
 
-from zlmreport.evaluation.uncertainty.budget import Contribution, Distribution
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -42,11 +41,6 @@ def choose_drift_kinds(measurements: MeasurementSet) -> tuple[Drift, ...]:
     """
     is_continuous = measurements.axis.measurand.is_continuous
     return tuple(kind for kind in Drift if not (is_continuous and kind is Drift.NOISE))
-
-
-def find_drift_range(contribution: Contribution) -> float:
-    """Return the full range of what drifts, m or rad."""
-    return contribution.standard_uncertainty * Distribution.RECTANGULAR.range_over_standard_uncertainty
 
 
 def compute_reading_times(measurements: MeasurementSet) -> FloatArray:

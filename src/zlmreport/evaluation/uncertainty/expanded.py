@@ -16,12 +16,12 @@ from zlmreport.evaluation.uncertainty.budget import (
     Budget,
     NoBudget,
     compute_effect_along,
+    find_full_range,
 )
 from zlmreport.evaluation.uncertainty.drift import (
     choose_drift_kinds,
     compute_mean_drift_variance,
     compute_reading_times,
-    find_drift_range,
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS, StandardArithmetic, propagate
 from zlmreport.evaluation.uncertainty.rounding import compute_mean_rounding_variance, find_hiding_resolution
@@ -127,7 +127,7 @@ def compute_mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUnce
         of_approach, of_mean = compute_mean_drift_variance(
             compute_reading_times(measurements), choose_drift_kinds(measurements)
         )
-        squares = sum(find_drift_range(each) ** 2 for each in drifting)
+        squares = sum(find_full_range(each) ** 2 for each in drifting)
         by_approach = by_approach + squares * of_approach
         bidirectional = bidirectional + squares * of_mean
     for each in budget.changing:

@@ -27,12 +27,12 @@ from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Budget,
     compute_effect_along,
+    find_full_range,
 )
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
     choose_drift_kinds,
     compute_reading_times,
-    find_drift_range,
     sample_drifts,
 )
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
@@ -412,7 +412,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         if ways.drift:
             for each in drifting:
                 drifts = sample_drifts(ways.drift, times, count, generator)
-                drifts *= find_drift_range(each)
+                drifts *= find_full_range(each)
                 own += drifts
         trial = slice(first, first + count)
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, find_full_range
 from zlmreport.measurement.arrays import FloatArray
 
 #: Pooled standard deviation, in steps, from which rounding errors are independent.
@@ -73,7 +73,7 @@ def find_hiding_resolution(budget: Budget, readings: FloatArray) -> Contribution
         return None
     mean = np.where(there, readings, 0.0).sum(axis=-1, keepdims=True) / np.maximum(count, 1)
     squares = float((np.where(there, readings - mean, 0.0) ** 2).sum())
-    return found[0] if math.sqrt(squares / freedom) < _LOUD * _step_of(found[0]) else None
+    return found[0] if math.sqrt(squares / freedom) < _LOUD * find_full_range(found[0]) else None
 
 
 def sample_rounding(
@@ -99,7 +99,7 @@ def sample_axes(
 
     `readings`: (approach, position, run), m or rad; NaN where there is none.
     """
-    step = _step_of(resolution)
+    step = find_full_range(resolution)
     cells = np.ascontiguousarray(readings.reshape(-1, readings.shape[-1]) / step)
     quiet = _judge_quietness(cells.tobytes(), cells.shape)
     chosen = generator.choice(len(_SIGMAS), count, p=quiet.of_sigma)
@@ -123,11 +123,6 @@ def compute_mean_rounding_variance(
     errors = np.nan_to_num(shown - before)
     means = errors.sum(axis=-1) / np.maximum(np.isfinite(readings).sum(axis=-1), 1)
     return np.mean(means**2, axis=0), np.mean(means.mean(axis=1) ** 2, axis=0)
-
-
-def _step_of(resolution: Contribution) -> float:
-    """Return the step d, m or rad."""
-    return resolution.standard_uncertainty * Distribution.RECTANGULAR.range_over_standard_uncertainty
 
 
 @dataclass(frozen=True, slots=True)

@@ -104,20 +104,23 @@ class Guarded:
         `accept`: Takes this object, the answer and what was asked, and returns what is handed on; raises
             `Unacceptable` for what no plugin must answer.
         """
-        if accept is None:
-            return partial(self._ask, name, method)
+        return partial(self._ask, name, method, accept)
 
-        def answer(*arguments: Any, **keywords: Any) -> Any:
-            return accept(self, method(*arguments, **keywords), *arguments, **keywords)
-
-        return partial(self._ask, name, answer)
-
-    def _ask(self, name: str, question: Callable[..., Any], /, *arguments: Any, **keywords: Any) -> Any:
+    def _ask(
+        self,
+        name: str,
+        method: Callable[..., Any],
+        accept: Callable[..., Any] | None,
+        /,
+        *arguments: Any,
+        **keywords: Any,
+    ) -> Any:
         """Return an answer; whatever is raised instead becomes one message."""
         before, wrong = PRESENCE.begin(f"{self._who}: {name}"), ""
         try:
             try:
-                return question(*arguments, **keywords)
+                answer = method(*arguments, **keywords)
+                return answer if accept is None else accept(self, answer, *arguments, **keywords)
             finally:
                 wrong = PRESENCE.end(before)
                 if wrong:
@@ -139,17 +142,17 @@ class _GuardedConnection(Guarded):
 
     def __enter__(self) -> Self:
         """Return the connection."""
-        self._ask("open", self._offered.__enter__)
+        self._ask("open", self._offered.__enter__, None)
         return self
 
     def __exit__(self, *raised: object) -> None:
         """Close the port."""
-        self._ask("open", self._offered.__exit__, *raised)
+        self._ask("open", self._offered.__exit__, None, *raised)
 
     def readings(self) -> Iterator[Any]:
         """Yield what the instrument yields."""
-        readings = self._ask("readings", lambda: iter(self._offered.readings()))
-        while (reading := self._ask("readings", next, readings, _NOTHING)) is not _NOTHING:
+        readings = self._ask("readings", lambda: iter(self._offered.readings()), None)
+        while (reading := self._ask("readings", next, None, readings, _NOTHING)) is not _NOTHING:
             yield reading
 
 

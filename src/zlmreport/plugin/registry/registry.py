@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
@@ -15,7 +15,6 @@ from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugin.registry.candidate import DISABLE, FailedPlugin, Plugin, PluginCandidate
 
 if TYPE_CHECKING:
-    from zlmreport.job.choices import ExtensionChoice
     from zlmreport.job.job import Job
     from zlmreport.model.effects.circle_effect import CircleEffect
     from zlmreport.model.effects.effect import Effect
@@ -290,11 +289,6 @@ class Registry:
     def extension(self, identifier: str, named_at: Place | None = None) -> Extension:
         """Return a group of job keys that a plugin adds, as `find` does."""
         return self.find(kinds.EXTENSION, identifier, named_at)
-
-    def list_extensions_of(self, job: Job) -> Iterator[tuple[Extension, ExtensionChoice]]:
-        """Yield the extensions whose groups of keys a job has."""
-        for choice in job.extensions:
-            yield self.extension(choice.identifier), choice
 
     def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
         """Return a live instrument, as `find` does."""
