@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of, noise
+from model.axis_tests import EFFECTS, SIGMA, USUAL, known, linear_test, model_of, noise
 from model.worlds import (
     built,
     corrected_twice,
@@ -130,3 +130,13 @@ def test_ratio_that_is_not_as_its_effect_means_it_is_said_with_that_meaning() ->
     assert re.fullmatch(
         r"control-increment: a factor of 0\.\d+ fits \(1: each command is rounded\)\.", said
     ), said
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_two_runs_that_stand_off_are_these_two_and_not_every_run(seed: int) -> None:
+    design = linear_test(11, 5, seed=seed)
+    first = int(design.cycle.min())
+    runs = 2.5 * SIGMA * np.isin(design.cycle, [first, first + 2])
+    found = diagnosed(model_of("offset"), design, runs + noise(design, seed=seed + 50))
+    assert {each.identifier for each in found.together} == {"first-run", "run-displaced"}
+    assert found.remainder is None

@@ -256,13 +256,18 @@ class SetSearch:
         """Return the evidence that the best set without any of some effects lacks, of all looked at.
 
         All else may be another there: other effects, and the size of every curve without a name. It has no
-        form without a name that is not in the set: what has a name goes before a form that does the same.
+        form without a name that is not in the set: what has a name goes before a form that does the same. And
+        where the same curves are left, it has no more names: one cause goes before two that do the same.
 
         `names`: As they are installed.
         """
-        forms = list_unnamed(found)
+        forms, loud = list_unnamed(found), self._list_loud(found)
         others = [
-            each.score for (known, own), each in self._sets.best.items() if not known & names and own <= forms
+            each.score
+            for (known, own), each in self._sets.best.items()
+            if not known & names
+            and own <= forms
+            and (len(each.named) <= len(found.named) or (own, self._list_loud(each)) != (forms, loud))
         ]
         return min(others, default=np.inf) - found.score
 
