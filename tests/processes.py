@@ -18,6 +18,8 @@ Found = TypeVar("Found")
 
 #: The longest that is waited for a program, s: far longer than any takes on a busy machine.
 PATIENCE = 500.0
+#: The same for one that was killed: it ends whatever it does, once its turn comes.
+_DYING = 500.0
 PYTHON = sys.executable
 ZLMREPORT = (PYTHON, "-m", "zlmreport")
 
@@ -31,7 +33,7 @@ def group(*command: Any, **settings: Any) -> Iterator[subprocess.Popen[Any]]:
     finally:
         with suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
-        process.wait(PATIENCE)
+        process.wait(_DYING)
         for stream in filter(None, (process.stdin, process.stdout, process.stderr)):
             stream.close()
 

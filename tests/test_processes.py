@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import select
+import signal
 import subprocess
 
 import pytest
@@ -36,6 +37,16 @@ def test_a_program_that_says_nothing_is_not_waited_for_without_end(monkeypatch: 
         program.lines(1)
     with pytest.raises(subprocess.TimeoutExpired):
         processes.run("sleep", "1000")
+
+
+def test_a_program_that_was_killed_is_waited_for_however_little_patience_there_is(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(processes, "PATIENCE", 0.0)
+    with processes.group("sleep", "1000", stdout=subprocess.PIPE) as process:
+        assert process.stdout
+    assert process.returncode == -signal.SIGKILL
+    assert process.stdout.closed
 
 
 def test_a_program_that_must_succeed_says_why_it_did_not() -> None:
