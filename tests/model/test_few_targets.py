@@ -8,6 +8,7 @@ import pytest
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 
@@ -33,6 +34,15 @@ def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targe
     assert found.verdict is DiagnosisVerdict.UNEXPLAINED
     assert found.remainder is not None
     assert found.remainder.shape.en.startswith("irregular from position to position")
+
+
+@pytest.mark.parametrize(("targets", "seed"), [(7, 1), (7, 5), (9, 4), (11, 1), (11, 3)])
+def test_no_formula_is_proposed_for_what_no_form_follows(targets: int, seed: int) -> None:
+    design = linear_test(targets, 5, seed=seed)
+    found = _diagnose(design, _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50))
+    assert found.remainder is not None
+    assert found.remainder.course is Course.IRREGULAR
+    assert found.remainder.formula is None
 
 
 @pytest.mark.parametrize(("targets", "seed"), [(6, 0), (6, 3), (7, 2), (7, 3), (7, 5), (9, 0), (9, 3)])

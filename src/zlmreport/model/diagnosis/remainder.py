@@ -113,7 +113,9 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
     squares = float(np.sum(fitted.residual**2))
     main, *further = [_describe_part(each, design) for each in shares]
-    form = shares[0].member or _find_following(search, bare, whole)
+    # A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
+    limit = found.score + TOLD_APART if main.course is Course.IRREGULAR else np.inf
+    form = shares[0].member or _find_following(search, bare, whole, limit)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
         share=min(1.0, float(np.sum(whole**2)) / squares) if squares else 0.0,
@@ -261,17 +263,20 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             yield _Share(explained, part.course, part.shape, None)
 
 
-def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
-    """Return the form that follows a curve best; None if none follows most of it."""
-    contest = search.contest
-    best = search.find_best_unnamed(bare)
-    if best is None:
+def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray, limit: float) -> SetMember | None:
+    """Return the form that follows a curve best; None if none follows most of it.
+
+    `limit`: The score beyond which it is none that the readings could ask for.
+    """
+    contest, with_form = search.contest, search.find_best_with_form(bare)
+    if with_form is None or with_form.score > limit:
         return None
-    columns = best.effect.columns(contest.design, best.theta)
+    form = with_form.members[-1]
+    columns = form.effect.columns(contest.design, form.theta)
     columns = contest.space.single.undo_whitening(contest.space.of(columns))
     gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
     left = float(np.sum((whole - columns @ gamma) ** 2))
-    return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
+    return form if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
 
 
 def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:

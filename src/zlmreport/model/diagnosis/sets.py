@@ -514,10 +514,10 @@ class SetSearch:
         tried = self._climbs.look_ahead(found, replace(self._whole, with_forms=False))
         return list({each.members[-1].identifier: each for each in reversed(tried)}.values())[::-1]
 
-    def find_best_unnamed(self, found: EffectSet) -> SetMember | None:
-        """Return the form without a name that adds most to a set; None if none adds anything."""
+    def find_best_with_form(self, found: EffectSet) -> EffectSet | None:
+        """Return a set with the form without a name, its last, that adds most; None if none adds anything."""
         tried = self._climbs.look_ahead(found, replace(self._whole, with_names=False))
-        return tried[0].members[-1] if tried else None
+        return tried[0] if tried else None
 
 
 def _changes_without_name(member: SetMember) -> bool:
