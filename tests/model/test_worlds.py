@@ -140,3 +140,13 @@ def test_two_runs_that_stand_off_are_these_two_and_not_every_run(seed: int) -> N
     found = diagnosed(model_of("offset"), design, runs + noise(design, seed=seed + 50))
     assert {each.identifier for each in found.together} == {"first-run", "run-displaced"}
     assert found.remainder is None
+
+
+def test_values_of_a_set_are_those_beside_the_others_of_it() -> None:
+    slope, kink = 15e-6, 20e-6
+    deviation = slope * _DESIGN.position + kink * np.maximum(0.0, _DESIGN.position - 0.5) + noise(_DESIGN)
+    found = diagnosed(model_of("offset"), _DESIGN, deviation)
+    assert {each.identifier for each in found.together} == {"scale-error", "scale-kink"}
+    values = {each.identifier: each.estimates[0] for each in found.candidates}
+    for name, true in (("scale-error", slope), ("scale-kink", kink)):
+        assert abs(values[name].value - true) < values[name].expanded_uncertainty

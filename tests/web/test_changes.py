@@ -203,11 +203,13 @@ def test_what_was_undone_is_done_again_until_something_else_is_done(
     )
 
 
-def test_a_step_that_cannot_be_recorded_is_said(
+def test_a_step_that_cannot_be_recorded_is_said_and_not_done(
     job: Path, browser: TestClient, before: dict[str, Any]
 ) -> None:
+    content = job.read_bytes()
     job.with_name("job.history.jsonl").mkdir()
     assert "cannot be" in refused(browser, before, action="add", effect="screw-pitch")
+    assert job.read_bytes() == content
 
 
 def test_what_somebody_else_wrote_is_not_undone(

@@ -34,6 +34,7 @@ from zlmreport.web.journal import (
     find_redoable,
     find_undoable,
     make_entry,
+    record_change,
 )
 
 _KEY = "model.effects"
@@ -109,14 +110,9 @@ def change(bench: Bench, request: Request) -> None:
         step = ACTIONS[request.action](bench, loaded, request)
         step.edit.write()
         after = bench.fit_whole(bench.load())
-        BenchJournal.of(bench.path).append(
-            make_entry(
-                request.action,
-                step.subject,
-                (content, step.edit.content),
-                (_write_rms(before), _write_rms(after)),
-            )
-        )
+        errors = _write_rms(before), _write_rms(after)
+        entry = make_entry(request.action, step.subject, (content, step.edit.content), errors)
+        record_change(bench.path, entry)
 
 
 def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:

@@ -15,7 +15,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import Appended, make_unreadable, make_unwritable
+from zlmreport.files import Appended, demand, make_unreadable, make_unwritable, rewrite
+from zlmreport.job.parse import LARGEST
 
 SUFFIX = ".history.jsonl"
 SCHEMA = "zlmreport/workbench-history/1"
@@ -79,6 +80,20 @@ class BenchJournal:
                 file.append(f"{line}\n".encode())
         except OSError as error:
             raise make_unwritable(self.path, error) from error
+
+
+def record_change(job: Path, entry: JournalStep) -> None:
+    """Write a change of a job into its record; where that fails, the job is as it was before.
+
+    Raises `AccessError` if the record cannot be written.
+    """
+    try:
+        BenchJournal.of(job).append(entry)
+    except AccessError:
+        # Nobody could take back on the page what is not recorded. What somebody else wrote since stays.
+        if hashlib.sha256(demand(job, LARGEST)).hexdigest() == entry.after:
+            rewrite(job, entry.content, lambda _: None)
+        raise
 
 
 def make_entry(

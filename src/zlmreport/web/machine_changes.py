@@ -21,6 +21,7 @@ from zlmreport.web.journal import (
     find_redoable,
     find_undoable,
     make_entry,
+    record_change,
 )
 from zlmreport.web.machine_bench import LoadedMachine, MachineBench
 
@@ -42,7 +43,7 @@ def change_machine(bench: MachineBench, request: Request) -> None:
         subject = _ACTIONS[request.action](bench, loaded, request)
         after = _write_rms(bench, bench.load())
         changed = content, demand(bench.path, LARGEST)
-        BenchJournal.of(bench.path).append(make_entry(request.action, subject, changed, (before, after)))
+        record_change(bench.path, make_entry(request.action, subject, changed, (before, after)))
 
 
 def _add(bench: MachineBench, loaded: LoadedMachine, request: Request) -> str:

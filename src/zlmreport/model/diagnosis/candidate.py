@@ -47,7 +47,8 @@ class EffectCandidate:
     probability: float
     evidence: float  #: 2·ln of the odds for it against nothing in its place.
     error: ErrorNumbers  #: After adding it alone.
-    estimates: tuple[ParameterEstimate, ...]  #: Its own parameters after adding it alone.
+    #: Its own parameters: of one of the set beside the others of it, of any other after adding it alone.
+    estimates: tuple[ParameterEstimate, ...]
     #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
     share: float | None
     explains: Words  #: The same in words.
@@ -65,8 +66,13 @@ class EffectCandidate:
         return self.effect.identifier
 
 
-def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[EffectCandidate]:
-    """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
+def list_candidates(
+    finding: ContestFinding, before: ErrorNumbers, complete: Fit
+) -> Iterator[EffectCandidate]:
+    """Yield the effects of a set, each with its equals behind it; where there is no set, the others.
+
+    `complete`: The model with the whole set, in which the effects of the set have their values.
+    """
     seen: set[str] = set()
     for each in finding.named:
         group = (each.leading, *each.equals)
@@ -74,14 +80,14 @@ def list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[E
             if one.identifier not in seen:
                 seen.add(one.identifier)
                 rest = [other for other in group if other is not one]
-                yield from _make_candidate(finding.fit, one, rest, before)
+                yield from _make_candidate(finding.fit, one, rest, before, complete)
     for each in finding.named:
         for other in each.behind:
             if other.identifier not in seen:
                 seen.add(other.identifier)
-                yield from _make_candidate(finding.fit, other, (), before)
+                yield from _make_candidate(finding.fit, other, (), before, complete)
     for other in finding.others:
-        yield from _make_candidate(finding.fit, other, (), before)
+        yield from _make_candidate(finding.fit, other, (), before, complete)
 
 
 def list_questions(fitted: Fit, effects: Container[str]) -> tuple[Words, ...]:
@@ -95,7 +101,7 @@ def list_questions(fitted: Fit, effects: Container[str]) -> tuple[Words, ...]:
 
 
 def _make_candidate(
-    base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
+    base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers, complete: Fit
 ) -> Iterator[EffectCandidate]:
     """Yield an effect as a candidate, if the readings determine it beside the job's model."""
     try:
@@ -103,7 +109,11 @@ def _make_candidate(
     except ModelError:
         return
     share = _share(base, after, before.noise_rms)
-    estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
+    own, alone = (
+        tuple(each for each in fitted.estimates if each.effect == rival.identifier)
+        for fitted in (complete, after)
+    )
+    estimates = own or alone
     question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
     contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
     values = {each.parameter.name: each.value for each in estimates}

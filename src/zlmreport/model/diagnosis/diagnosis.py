@@ -217,7 +217,7 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
 def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosis:
     """Return what a diagnosis says of what was found; faults of the data come first."""
     observed, fitted, finding = asked.observed, held.fit, held.finding
-    complete, candidates = held.complete, tuple(list_candidates(finding, held.error))
+    complete, candidates = held.complete, tuple(list_candidates(finding, held.error, held.complete))
     # What the readings do not determine beside the job's model is no candidate.
     known = {each.identifier for each in candidates}
     leading = (each.leading.member.effect for each in finding.named)
