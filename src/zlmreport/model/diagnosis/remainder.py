@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Words
+from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.believing import TOLD_APART
@@ -139,7 +139,7 @@ def _unite_alike(shares: Iterable[_Share], beside: Callable[[FloatArray], FloatA
     """
     united: dict[tuple[Course, str], _Share] = {}
     for each in shares:
-        key = each.course, each.shape.en if each.member is None else each.member.identifier
+        key = each.course, each.shape.in_language(Language.ENGLISH)
         known = united.get(key)
         values = beside(each.values)
         united[key] = replace(each, values=values if known is None else known.values + values)
