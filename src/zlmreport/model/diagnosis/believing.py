@@ -29,9 +29,11 @@ _IRREGULAR = (NAMED_BESIDE, 2 * NAMED_BESIDE)
 TOLD_APART = 6.0
 #: What a rival may lack that is told of.
 BEHIND = 40.0
+#: Evidence that decides nothing: odds of 5 to 3.
+_TOSS_UP = 1.0
 #: How many names one curve without a name replaces, and what evidence the set with it may lack, that they are
-#: not told: of many at odds up to 20 to 1, of two only where it is better.
-_REPLACED = ((3, TOLD_APART), (2, 0.0))
+#: not told: of many at odds up to 20 to 1, of two where it is a toss-up.
+_REPLACED = ((3, TOLD_APART), (2, _TOSS_UP))
 
 
 def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str] = frozenset()) -> EffectSet:
