@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from model.axis_tests import EFFECTS
 from model.hidden_effect import example, example_diagnosis
-from model.test_statements import LEFT
 from zlmreport.cli.model_lines import find_next_step, tell_diagnosis
 from zlmreport.language import Language, same
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
-from zlmreport.model.diagnosis.remainder import NamesInstead
 
 
 def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:
@@ -31,17 +28,3 @@ def test_what_no_test_of_such_an_axis_could_see_is_not_counted() -> None:
     assert of_rotary
     only = replace(found, not_testable=tuple(of_rotary), visibility=())
     assert "cannot see or try" not in "\n".join(tell_diagnosis(only, example(), "job.yaml", None, {}))
-
-
-def test_what_one_effect_may_be_is_decided_next() -> None:
-    left = replace(LEFT, instead=NamesInstead((EFFECTS["abbe"],), 0.4))
-    found = replace(
-        example_diagnosis(),
-        verdict=DiagnosisVerdict.UNEXPLAINED,
-        together=(),
-        candidates=(),
-        remainder=left,
-    )
-    assert find_next_step(found, "job.yaml") == "zlmreport plan job.yaml --decide abbe --output next"
-    both = replace(left, instead=NamesInstead((EFFECTS["abbe"], EFFECTS["first-run"]), 0.4))
-    assert find_next_step(replace(found, remainder=both), "job.yaml") == "zlmreport job.yaml"

@@ -27,7 +27,6 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.building import is_outstanding
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.effect import is_of_another_axis
@@ -121,16 +120,10 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
         return f"zlmreport model build {path}"
     if diagnosis.verdict is DiagnosisVerdict.MISSING and diagnosis.together:
         return f"zlmreport model add {path} {_quote_for_shell(write_effect_argument(diagnosis.together[0]))}"
-    return _find_step_for(diagnosis.remainder, path) or f"zlmreport {path}"
-
-
-def _find_step_for(left: Remainder | None, path: str) -> str:
-    """Return the command that what has no name asks for; empty if it asks for none."""
-    if left and left.instead and len(left.instead.effects) == 1:
-        return f"zlmreport plan {path} --decide {left.instead.effects[0].identifier} --output next"
+    left = diagnosis.remainder
     if left and left.formula:
         return f"zlmreport model add {path} {_quote_for_shell(write_formula_entry(left.formula))}"
-    return ""
+    return f"zlmreport {path}"
 
 
 def _quote_for_shell(argument: str) -> str:
