@@ -58,9 +58,9 @@ def test_a_terminal_notices_a_reader_who_comes_late() -> None:
 
 def test_a_terminal_that_nobody_reads_knows_it() -> None:
     with PseudoTerminal() as terminal:
-        for _ in range(20):
+        for _ in range(100):  # faster than a busy computer delivers them
             terminal.send(b"a line that nobody reads\r\n")
-            terminal.wait(0.01)
+            terminal.wait(0.0005)
         assert not terminal.is_read
 
 
