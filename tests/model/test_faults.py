@@ -151,6 +151,15 @@ def test_effect_of_reversed_shape_is_no_slip_of_a_run() -> None:
     assert found.faults == ()
 
 
+def test_what_the_model_says_of_a_run_is_no_slip_of_it() -> None:
+    """Of five runs the first has a slope of the other sign, and nearly the size, as a model knows."""
+    model = model_of("offset", "scale-error", "first-run-slope")
+    slope = np.where(_DESIGN.run == 1, 17e-6, -25e-6)
+    deviation = slope * _DESIGN.position + noise(_DESIGN, sigma=1e-6)
+    assert run_faults(fit(model_of("offset", "scale-error"), _DESIGN, deviation)) != ()
+    assert run_faults(fit(model, _DESIGN, deviation)) == ()
+
+
 def test_effect_of_reversed_shape_is_no_lagging_sensor() -> None:
     shape = hidden(_DESIGN, "air-index", model=_MODEL)
     found = diagnose(_MODEL, observations(_DESIGN, noise(_DESIGN, seed=0) - shape), INSTALLED)

@@ -59,10 +59,15 @@ def _said(words: Words | None, language: Language = Language.ENGLISH) -> str | N
             "time-periodic",
             "period",
             60.0,
-            "60 s: 0.33 times what is usual; measured so, and in the right unit?",
+            "period in time 60 s, where 180 s or more is usual: measured so, and in the right unit?",
         ),
         ("screw-expansion", "expansion", 5e-6, None),
-        ("scale-joint", "step", 50e-6, "50 µm: 10 times what is usual; measured so, and in the right unit?"),
+        (
+            "scale-joint",
+            "step",
+            50e-6,
+            "height of the step 50 µm: 10 times what is usual; measured so, and in the right unit?",
+        ),
         ("backlash", "lost_motion", -8e-6, None),
         ("offset", "offset", 1.0, None),
     ],
@@ -77,6 +82,11 @@ def test_it_is_asked_in_german_too() -> None:
     said = _said(ask_of(_parameter("backlash", "lost_motion"), 800e-6, AXIS), Language.GERMAN)
     assert said is not None
     assert said.startswith("800 µm: das 20-fache des bei einer Spindel Üblichen; ein Riemen,")
+    said = _said(ask_of(_parameter("thermal-growth", "time_constant"), 113.0, AXIS), Language.GERMAN)
+    assert (
+        said
+        == "Zeitkonstante 110 s, wo 300 s oder mehr üblich ist: so gemessen, und in der richtigen Einheit?"
+    )
 
 
 @pytest.mark.parametrize(("value", "times"), [(100e-6, "2,5-fache"), (6000e-6, "150-fache")])

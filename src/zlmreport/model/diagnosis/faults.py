@@ -140,7 +140,8 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) ->
     """Return slips of single runs that explain what the repeats differ by.
 
     An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
-    any effect does, also one that is physically impossible, and surpass every shape without a name.
+    the model and any effect does, also one that is physically impossible, and surpass every shape without a
+    name.
 
     `rivals`: The same with each of the best effects.
     `changes`: Evidence of what changes in time, or from run to run, without a name, on all degrees of freedom
@@ -151,7 +152,7 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) ->
     if len(runs) < _FEWEST_RUNS:
         return ()
     spread = find_repeats(design, deviation).squares
-    by_effects = min((*map(_sum_squares_within, rivals), spread))
+    by_effects = min((*map(_sum_squares_within, (fitted, *rivals)), spread))
     tried = [
         (kind, run, left, whole, count)
         for run in runs.tolist()

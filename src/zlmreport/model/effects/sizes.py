@@ -11,8 +11,11 @@ from zlmreport.model.effects.effect import Parameter, find_unit_of
 #: So many times beyond what is usual, or below it, a value is asked for.
 _FAR = 2.0
 _VALUE = Words("{value}{unit}")
-_IS_IT = Words("{value}: {times} times what is usual; measured so, and in the right unit?")
-_IS_IT_AT_ALL = Words("{value}: beyond what is usual; measured so, and with the right sign?")
+_IS_IT = Words("{name} {value}: {times} times what is usual; measured so, and in the right unit?")
+_IS_IT_SO_LITTLE = Words(
+    "{name} {value}, where {least} or more is usual: measured so, and in the right unit?"
+)
+_IS_IT_AT_ALL = Words("{name} {value}: beyond what is usual; measured so, and with the right sign?")
 
 
 def find_usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple[float, float]:
@@ -47,10 +50,18 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
         return None
     low, _ = find_usual_range(parameter, axis.kind)
     question = (parameter.question_below or parameter.question) if value < low else parameter.question
-    usual = _IS_IT_AT_ALL if times == float("inf") else _IS_IT
+    if question is None and times < 1.0:
+        question = _IS_IT_SO_LITTLE.given(least=_write_value(parameter, low, axis))
+    elif question is None:
+        question = _IS_IT_AT_ALL if times == float("inf") else _IS_IT
+    return question.given(
+        name=parameter.description, value=_write_value(parameter, value, axis), times=float(f"{times:.2g}")
+    )
+
+
+def _write_value(parameter: Parameter, value: float, axis: Axis) -> Words:
     unit = find_unit_of(parameter.dimension, axis.kind)
-    written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
-    return (question or usual).given(value=written, times=float(f"{times:.2g}"))
+    return _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
 
 
 def name_of(parameter: Parameter, value: float) -> Words | None:
