@@ -94,6 +94,7 @@ class Outcome:
     remainder: bool  #: Whether something is told to be left without a name.
     is_placed: bool  #: Whether the stranger is larger where it is told to lie than elsewhere.
     is_unexplained: bool  #: Whether a diagnosis on the way said that no installed effect explains the rest.
+    is_nameless: bool  #: Whether one of these named no effect either that may be it, at what odds.
     seconds: float  #: CPU of the dearest diagnosis.
 
     @property
@@ -211,13 +212,14 @@ def _tells_stranger(
 def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
-    verdicts: list[DiagnosisVerdict] = []
+    unexplained: list[AxisDiagnosis] = []
 
     def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
-        verdicts.append(found.verdict)
+        if found.verdict is DiagnosisVerdict.UNEXPLAINED:
+            unexplained.append(found)
         return found
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
@@ -225,8 +227,18 @@ def followed(drawn: Drawn) -> Outcome:
     equals = {each.identifier: frozenset(each.equals) for each in built.steps if not each.is_removed}
     left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
     is_placed = remainder is not None and is_where_told(remainder, drawn)
-    is_unexplained = DiagnosisVerdict.UNEXPLAINED in verdicts
-    return Outcome(drawn, names, equals, left, remainder is not None, is_placed, is_unexplained, max(seconds))
+    is_nameless = any(each.remainder is None or each.remainder.instead is None for each in unexplained)
+    return Outcome(
+        drawn,
+        names,
+        equals,
+        left,
+        remainder is not None,
+        is_placed,
+        is_unexplained=bool(unexplained),
+        is_nameless=is_nameless,
+        seconds=max(seconds),
+    )
 
 
 def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
@@ -304,6 +316,7 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
     named = sum(each.remainder for each in outcomes)
     strangers = sum(each.drawn.stranger is not None for each in outcomes)
     unexplained = sum(each.is_unexplained for each in outcomes)
+    nameless = sum(each.is_nameless for each in outcomes)
     placed = sum(each.is_placed for each in outcomes)
     seconds = np.median([each.seconds for each in outcomes])
     others, wrong = summed(lambda each: each.others), summed(lambda each: each.wrong)
@@ -312,8 +325,8 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
         f"{summed(lambda each: each.drawn.causes)} causes found, other names: {others}, of them wrong: "
         f"{wrong}, the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a "
         f"name in {named}, where the stranger is in {placed} of {strangers}; told on the way that nothing "
-        f"installed explains what is left in {unexplained}; the dearest diagnosis of an axis takes "
-        f"{seconds:.1f} s of CPU in the median.\n"
+        f"installed explains what is left in {unexplained}, in {nameless} of them without a name that may be "
+        f"it; the dearest diagnosis of an axis takes {seconds:.1f} s of CPU in the median.\n"
         f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
         f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} of "
         f"all stand in the model or are named as equals of what stands there."

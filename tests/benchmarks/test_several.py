@@ -159,7 +159,15 @@ def test_a_stranger_stands_beside_the_causes() -> None:
 def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> None:
     drawn = _draw_alone()
     whole = Outcome(
-        drawn, drawn.causes, {}, 1.0, remainder=False, is_placed=False, is_unexplained=False, seconds=2.0
+        drawn,
+        drawn.causes,
+        {},
+        1.0,
+        remainder=False,
+        is_placed=False,
+        is_unexplained=False,
+        is_nameless=False,
+        seconds=2.0,
     )
     first, *_ = drawn.causes
     half = Outcome(
@@ -170,6 +178,7 @@ def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> Non
         remainder=True,
         is_placed=False,
         is_unexplained=False,
+        is_nameless=False,
         seconds=4.0,
     )
     assert (half.found, half.wrong) == ((first,), ("no such effect",))
@@ -187,7 +196,15 @@ def test_a_cause_that_is_named_as_an_equal_of_what_was_added_makes_one_name_righ
     equals = {"its twin": frozenset({first}), "another": frozenset({first})}
     built = ("its twin", "another", *others)
     outcome = Outcome(
-        drawn, built, equals, 1.0, remainder=False, is_placed=False, is_unexplained=False, seconds=2.0
+        drawn,
+        built,
+        equals,
+        1.0,
+        remainder=False,
+        is_placed=False,
+        is_unexplained=False,
+        is_nameless=False,
+        seconds=2.0,
     )
     assert outcome.others == ("its twin", "another")
     assert outcome.wrong == ("another",)
@@ -206,7 +223,15 @@ def test_lost_motion_is_the_mean_of_a_gap_that_changes(mean: float, names: tuple
     equals = {"backlash-gradient": frozenset({"backlash"})}
     built = (*drawn.causes, "backlash-gradient")
     said = Outcome(
-        beside, built, equals, 1.0, remainder=True, is_placed=True, is_unexplained=True, seconds=2.0
+        beside,
+        built,
+        equals,
+        1.0,
+        remainder=True,
+        is_placed=True,
+        is_unexplained=True,
+        is_nameless=True,
+        seconds=2.0,
     )
     assert said.wrong == (() if names else ("backlash-gradient",))
 
@@ -222,7 +247,17 @@ def test_scale_error_is_the_mean_of_a_slope_that_changes() -> None:
 def test_what_a_cause_has_as_a_part_by_its_definition_is_no_wrong_name() -> None:
     drawn = replace(_draw_alone(), causes=("backlash", "polynomial"))
     built = ("backlash", "scale-error")
-    part = Outcome(drawn, built, {}, 1.0, remainder=True, is_placed=False, is_unexplained=False, seconds=2.0)
+    part = Outcome(
+        drawn,
+        built,
+        {},
+        1.0,
+        remainder=True,
+        is_placed=False,
+        is_unexplained=False,
+        is_nameless=False,
+        seconds=2.0,
+    )
     assert part.wrong == ()
     whole = replace(part, built=(*built, "polynomial"))
     assert whole.wrong == ("scale-error",)
@@ -290,6 +325,18 @@ def test_a_stranger_in_time_is_placed_by_the_moment() -> None:
 def test_what_is_left_is_placed_where_the_stranger_is_largest() -> None:
     drawn = _draw_beside()
     last = report(
-        [Outcome(drawn, (), {}, 2.0, remainder=True, is_placed=True, is_unexplained=True, seconds=1.0)]
+        [
+            Outcome(
+                drawn,
+                (),
+                {},
+                2.0,
+                remainder=True,
+                is_placed=True,
+                is_unexplained=True,
+                is_nameless=True,
+                seconds=1.0,
+            )
+        ]
     )
     assert "where the stranger is in 1 of 1" in last
