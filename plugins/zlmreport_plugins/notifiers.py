@@ -1,4 +1,4 @@
-"""Sends news of a fleet: mail by SMTP (subject, sender, password), or apprise, which is an extra.
+"""Sends news of a fleet, worded by `fleet/news.py`: mail by SMTP (server, sender, password), or apprise.
 
 A password, or an address that holds one, comes from the environment and is in no file and no message.
 """

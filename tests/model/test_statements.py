@@ -14,7 +14,7 @@ from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
-from zlmreport.model.diagnosis.report import write_verdict_statement
+from zlmreport.model.diagnosis.report import write_statement_after_build, write_verdict_statement
 
 LEFT = Remainder(
     rms=1.234e-6,
@@ -93,6 +93,17 @@ def test_what_is_left_beside_a_name_is_told_after_it() -> None:
     assert statement.endswith(
         "Beside that something is left without a name: a bump, around 250 mm; root mean square 1.2 µm."
     )
+
+
+def test_what_is_left_after_a_build_stands_beside_its_steps_and_else_alone() -> None:
+    last = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, remainder=LEFT)
+    after_steps, alone = (
+        write_statement_after_build(last, has_steps=each).in_language(Language.ENGLISH)
+        for each in (True, False)
+    )
+    left = "a bump, around 250 mm; root mean square 1.2 µm."
+    assert after_steps == f"Beside that something is left without a name: {left}"
+    assert alone == f"Something is left that no installed effect explains: {left}"
 
 
 def test_what_others_take_the_place_of_is_told_as_well() -> None:

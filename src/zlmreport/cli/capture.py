@@ -1,4 +1,4 @@
-"""``zlmreport capture``: readings of an instrument into a journal; what ``check`` says before that."""
+"""``zlmreport capture``: readings into a journal, on after a loss of line or datum; what ``check`` says."""
 
 from __future__ import annotations
 

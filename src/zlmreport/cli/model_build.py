@@ -9,14 +9,12 @@ from zlmreport.cli.terminal import lay_out_heading, wrap
 from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Words
+from zlmreport.language import Language
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, name_steps
-from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.diagnosis.report import describe_remainder, write_verdict_statement
+from zlmreport.model.diagnosis.report import write_statement_after_build
 
 _ENGLISH = Language.ENGLISH
-_LEFT = Words("Beside that something is left without a name: {shape}, {where}; root mean square {size}.")
 
 
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
@@ -24,7 +22,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
     names, last = name_steps(built.steps), built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap(_write_staircase(built), "")
-    yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
+    yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
     for each in built.needless:
@@ -59,11 +57,3 @@ def _write_staircase(built: Built) -> str:
     floor = built.last.error.noise_rms
     noise = "" if floor is None else f"; noise {write_deviation(floor, axis, _ENGLISH)}{unit}"
     return f"{' → '.join(stairs)}{unit}{noise}"
-
-
-def _say_what_is_left(last: AxisDiagnosis, names: tuple[str, ...]) -> Words:
-    """Return what is left beside the model that was built."""
-    left = last.remainder
-    if left is None or not names or last.verdict is not DiagnosisVerdict.UNEXPLAINED:
-        return write_verdict_statement(last)
-    return describe_remainder(_LEFT, left, last.fit.design.axis)

@@ -1,4 +1,4 @@
-"""What is new on a morning, as a message, and the ways to tell people: how long each is waited for.
+"""What is new on a morning, as a message (title, text), and how people are told: how long is waited.
 
 Each event is a line, known by a subject, so that it is told once. Each way is a notifier of a plugin with
 its own keys, as the fleet file names it.

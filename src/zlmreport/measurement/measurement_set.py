@@ -1,4 +1,4 @@
-"""The measurement set: readings in the order of time with their conditions; limits of each condition."""
+"""The measurement set: readings in the order of time; of each condition what is usual, what is refused."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Mends the structure of a tagged PDF as WeasyPrint 70 leaves it: headings, cells, descriptions.
+"""Mends a tagged PDF as WeasyPrint 70 leaves it: its structure (headings, cells, links), its metadata.
 
-And what a PDF says of itself in its metadata: WeasyPrint claims one kind of conformance a file, `identify`
-claims PDF/UA-1 beside PDF/A-3a. All works on the objects of a pydyf PDF before it is written.
+WeasyPrint claims one kind of conformance a file; `identify` claims PDF/UA-1 beside PDF/A-3a. All works on
+the objects of a pydyf PDF before it is written.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a guess about an unknown table consists of: place, decimal sign, units, words for missing readings."""
+"""Parts of a guess about an unknown table: its lines, decimal sign, units, words for missing readings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Guesses directions and runs of an unknown table: by names, by order, or by its parts."""
+"""Guesses directions and runs of an unknown table: by names, by order, or by tables one below the other."""
 
 from __future__ import annotations
 

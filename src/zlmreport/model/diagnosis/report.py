@@ -1,4 +1,4 @@
-"""``zlmreport model diagnose --json``: the diagnosis as values, and the sentences of its verdict."""
+"""The verdict of a diagnosis or a build in sentences; ``zlmreport model diagnose --json``: it as values."""
 
 from __future__ import annotations
 
@@ -45,9 +45,7 @@ _WITHOUT_FLOOR = Words("{missing}. With {many} the error falls from {before} to 
 _NOT_BY_ITSELF = Words("{missing}. The error is {after} with {many} and {before} without.")
 _STAYS = Words("{missing}. The error stays {after} with {many}.")
 _MANY = {False: Words("it"), True: Words("them")}
-_BESIDE = Words(
-    "{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}."
-)
+_BESIDE = Words("Beside that something is left without a name: {shape}, {where}; root mean square {size}.")
 _ONE_OF = Words("({names})")
 _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
@@ -64,7 +62,7 @@ _AND = Words("{shape}, {where}, and {further}")
 _INSTEAD = Words("{statement} At odds of {odds} it is {effects} instead.")
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
-_QUESTION = Words("{statement} {question}")
+_TWO = Words("{one} {other}")
 
 
 def report(
@@ -338,14 +336,22 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     for each in diagnosis.together:
         question = by_name[each.identifier].question
         if question is not None:
-            statement = _QUESTION.given(statement=statement, question=question)
+            statement = _TWO.given(one=statement, other=question)
     if diagnosis.remainder is not None:
-        words = _BESIDE.given(statement=statement)
-        statement = describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
+        beside = _describe_remainder(_BESIDE, diagnosis.remainder, diagnosis.fit.design.axis)
+        statement = _TWO.given(one=statement, other=beside)
     unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
     if unit is None:
         return statement
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
+
+
+def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Words:
+    """Return the verdict on a model that was built: where steps were taken, what is left beside them."""
+    left = last.remainder
+    if left is None or not has_steps or last.verdict is not DiagnosisVerdict.UNEXPLAINED:
+        return write_verdict_statement(last)
+    return _describe_remainder(_BESIDE, left, last.fit.design.axis)
 
 
 def _name_group(effect: str, equals: Sequence[str], *, is_many: bool) -> Words:
@@ -389,10 +395,10 @@ def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     if diagnosis.remainder is None:
         return _UNEXPLAINED
     words = _SHAPE if diagnosis.remainder.instead is None else _UNSURE
-    return describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
+    return _describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
 
 
-def describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:
+def _describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:
     """Return a sentence with what is left, its place and size, and what may stand in its place."""
     size, shape, where = wording.deviation(axis, remainder.rms), remainder.shape, remainder.where
     for each in remainder.further:
