@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_share, write_significant
+from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
@@ -108,7 +107,8 @@ def _make_candidate(
         after = fit_with_member(base, rival.member)
     except ModelError:
         return
-    share = _share(base, after, before.noise_rms)
+    error = compute_error_numbers(after)
+    share = _share((base, before), (after, error), before.noise_rms)
     own, alone = (
         tuple(each for each in fitted.estimates if each.effect == rival.identifier)
         for fitted in (complete, after)
@@ -123,10 +123,10 @@ def _make_candidate(
         p_value_is_extrapolated=rival.p_value.is_extrapolated,
         probability=rival.probability,
         evidence=rival.evidence,
-        error=compute_error_numbers(after),
+        error=error,
         estimates=estimates,
         share=share,
-        explains=_say_explains(base, after, share),
+        explains=_say_explains(before.rms, error.rms, share, base.design.axis),
         equals=tuple(each.identifier for each in equals),
         discriminate_by=say_what_discriminates(rival.member.effect, [each.member.effect for each in equals]),
         is_plausible=rival.member.effect.forbids(base.design, values) is None,
@@ -186,24 +186,25 @@ def _say_what_tells_apart(one: Effect, other: Effect) -> Words | None:
     return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
 
 
-def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
+def _share(
+    before: tuple[Fit, ErrorNumbers], after: tuple[Fit, ErrorNumbers], floor: float | None
+) -> float | None:
     """Return the share of the misfit beyond the noise floor that an effect explains."""
     if floor is None:
         return None
-    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
-    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
+    open_before, open_after = (
+        fitted.degrees * (error.rms**2 - floor**2) for fitted, error in (before, after)
+    )
+    open_after = max(0.0, open_after)
     return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
 
 
-def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
-    axis = before.design.axis
+def _say_explains(before: float, after: float, share: float | None, axis: Axis) -> Words:
     if share is None:
-        return _NO_FLOOR.given(
-            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
-        )
+        return _NO_FLOOR.given(before=wording.deviation(axis, before), after=wording.deviation(axis, after))
     if share == 0:
         return _NOTHING
     percent = write_share(share)
     if share >= EXPLAINS:
         return _EXPLAINS.given(share=percent)
-    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
+    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after))

@@ -69,6 +69,7 @@ class RemainderPart:
     unit: Unit  #: In which both are printed: mm, °, s or readings.
     shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
     size: float  #: Its largest value, with its sign, m or rad.
+    peak: float  #: Where that is, in SI as `low` and `high`.
     course: Course  #: With what it changes.
 
 
@@ -114,7 +115,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
     squares = float(np.sum(fitted.residual**2))
     main, *further = [_describe_part(each, design) for each in shares]
     # A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
-    limit = found.score + TOLD_APART if main.course is Course.IRREGULAR else np.inf
+    limit = found.score + TOLD_APART if main.course.is_irregular else np.inf
     form = shares[0].member or _find_following(search, bare, whole, limit)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
@@ -125,6 +126,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
         unit=main.unit,
         shape=main.shape,
         size=float(whole[int(np.argmax(np.abs(whole)))]),
+        peak=main.peak,
         formula=_propose_formula(form, design) if form else None,
         course=main.course,
         further=tuple(each for each in further if each.rms > _WORTH_A_WORD * main.rms),
@@ -148,7 +150,8 @@ def _unite_alike(shares: Iterable[_Share], beside: Callable[[FloatArray], FloatA
 
 def _describe_part(share: _Share, design: Design) -> RemainderPart:
     where, low, high, unit = _place(share, design)
-    size = float(share.values[int(np.argmax(np.abs(share.values)))])
+    largest = int(np.argmax(np.abs(share.values)))
+    places = design.position if share.course.along is Along.PLACE else design.time
     return RemainderPart(
         rms=share.rms,
         where=where,
@@ -156,7 +159,8 @@ def _describe_part(share: _Share, design: Design) -> RemainderPart:
         high=high,
         unit=unit,
         shape=share.shape,
-        size=size,
+        size=float(share.values[largest]),
+        peak=float(places[largest]),
         course=share.course,
     )
 
@@ -191,7 +195,7 @@ def _scale_to_one_length(columns: Sequence[FloatArray]) -> FloatArray:
 def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     """Return what one run has that no other has."""
     design, squares = fitted.design, float(np.sum(fitted.residual**2))
-    own = design.time[design.cycle == found.run]
+    own, largest = design.time[design.cycle == found.run], int(np.argmax(np.abs(found.values)))
     return Remainder(
         rms=float(np.linalg.norm(found.values)) / len(found.values) ** 0.5,
         share=min(1.0, float(np.sum(found.values**2)) / squares),
@@ -200,7 +204,8 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
         high=float(own.max()),
         unit=_choose_unit(design, is_time=True),
         shape=found.shape,
-        size=float(found.values[int(np.argmax(np.abs(found.values)))]),
+        size=float(found.values[largest]),
+        peak=float(design.time[largest]),
         formula=None,
         course=Course.RUNS,
     )
@@ -225,6 +230,7 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
         unit=design.axis.position_unit,
         shape=_IRREGULAR,
         size=float(fitted.residual[int(np.argmax(squares))]),
+        peak=widest,
         formula=None,
         course=Course.TARGET,
     )

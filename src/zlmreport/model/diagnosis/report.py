@@ -53,6 +53,10 @@ _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
     "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
 )
+_ADEQUATE_SO_FAR = Words(
+    "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
+    "noise of {noise}."
+)
 _UNEXPLAINED = Words("Something is left that no installed effect explains.")
 _SHAPE = Words(
     "Something is left that no installed effect explains: {shape}, {where}; root mean square {size}."
@@ -61,7 +65,10 @@ _UNSURE = Words(
     "Something is left that no installed effect explains for sure: {shape}, {where}; root mean square {size}."
 )
 _AND = Words("{shape}, {where}, and {further}")
-_INSTEAD = Words("{statement} At odds of {odds} it is {effects} instead.")
+_SAME_PLACE = Words("{shape}, and {further}")
+_AS_LIKELY = Words("{statement} As likely it is {effects} instead.")
+_MORE_LIKELY = Words("{statement} More likely, at odds of {odds}, it is {effects} instead.")
+_LESS_LIKELY = Words("{statement} Less likely, at odds of {odds}, it is {effects} instead.")
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _QUESTION = Words("{statement} {question}")
@@ -322,7 +329,7 @@ def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
 def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
     if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
-        return _ADEQUATE
+        return _say_adequate(diagnosis)
     if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
@@ -346,6 +353,16 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     if unit is None:
         return statement
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
+
+
+def _say_adequate(diagnosis: AxisDiagnosis) -> Words:
+    """Return that nothing is missing; where few readings leave that open, with the error beside noise."""
+    floor, axis = diagnosis.error.noise_rms, diagnosis.fit.design.axis
+    if diagnosis.leaves_noise or floor is None:
+        return _ADEQUATE
+    return _ADEQUATE_SO_FAR.given(
+        error=wording.deviation(axis, diagnosis.error.rms), noise=wording.deviation(axis, floor)
+    )
 
 
 def _name_group(effect: str, equals: Sequence[str], *, is_many: bool) -> Words:
@@ -396,14 +413,20 @@ def describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:
     """Return a sentence with what is left, its place and size, and what may stand in its place."""
     size, shape, where = wording.deviation(axis, remainder.rms), remainder.shape, remainder.where
     for each in remainder.further:
-        shape, where = _AND.given(shape=shape, where=where, further=each.shape), each.where
+        is_there = where.in_language(Language.ENGLISH) == each.where.in_language(Language.ENGLISH)
+        if is_there:
+            shape = _SAME_PLACE.given(shape=shape, further=each.shape)
+        else:
+            shape, where = _AND.given(shape=shape, where=where, further=each.shape), each.where
     statement = words.given(shape=shape, where=where, size=size)
     if (instead := remainder.instead) is None:
         return statement
     those, this = (str(max(1, round(each))) for each in (instead.odds, 1.0 / instead.odds))
-    odds = _ODDS.given(those=those, this=this)
     effects = list_in_words([each.identifier for each in instead.effects])
-    return _INSTEAD.given(statement=statement, odds=odds, effects=effects)
+    if those == this:
+        return _AS_LIKELY.given(statement=statement, effects=effects)
+    odds, words = _ODDS.given(those=those, this=this), _MORE_LIKELY if instead.odds > 1.0 else _LESS_LIKELY
+    return words.given(statement=statement, odds=odds, effects=effects)
 
 
 def select_serious_candidates(diagnosis: AxisDiagnosis) -> tuple[EffectCandidate, ...]:

@@ -11,8 +11,8 @@ from zlmreport.model.effects.effect import Parameter, find_unit_of
 #: So many times beyond what is usual, or below it, a value is asked for.
 _FAR = 2.0
 _VALUE = Words("{value}{unit}")
-_IS_IT = Words("{value}: {times} times what is usual; measured so, and in the right unit?")
-_IS_IT_AT_ALL = Words("{value}: beyond what is usual; measured so, and with the right sign?")
+_IS_IT = Words("{value} ({name}): {times} times what is usual; measured so, and in the right unit?")
+_IS_IT_AT_ALL = Words("{value} ({name}): beyond what is usual; measured so, and with the right sign?")
 
 
 def find_usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple[float, float]:
@@ -50,7 +50,8 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
     usual = _IS_IT_AT_ALL if times == float("inf") else _IS_IT
     unit = find_unit_of(parameter.dimension, axis.kind)
     written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
-    return (question or usual).given(value=written, times=float(f"{times:.2g}"))
+    given = (question or usual).given(value=written, times=float(f"{times:.2g}"))
+    return given if question else given.given(name=parameter.description)
 
 
 def name_of(parameter: Parameter, value: float) -> Words | None:
