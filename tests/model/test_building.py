@@ -53,6 +53,23 @@ def test_of_effects_that_take_each_others_place_those_stay_that_leave_less() -> 
     assert built.steps[-1].after.rms == built.last.error.rms
 
 
+def test_the_last_stair_is_the_error_of_the_model_that_was_built() -> None:
+    example = example_diagnosis()
+    again = replace(example.error, rms=2 * example.error.rms)
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        if "first-run" not in model.identifiers:
+            return replace(
+                example,
+                fit=fit(model, example.fit.design, example.fit.deviation),
+                together=(EFFECTS["first-run"],),
+            )
+        return replace(example, error=again, together=(), verdict=DiagnosisVerdict.ADEQUATE)
+
+    built = build(model_of("offset"), diagnosing)
+    assert built.steps[-1].after == built.last.error == again
+
+
 def test_what_only_takes_the_place_of_another_is_not_advised_again() -> None:
     built, _ = _build_to_and_fro()
     (kept,) = {"scale-kink", "first-run"} & set(built.model.identifiers)

@@ -137,6 +137,8 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         steps = (*rounds[-1].steps, *taken)
         may_go = frozenset(each.identifier for each in steps) - own
         diagnosis = diagnosing(extended, may_go, _tell_part(told, len(rounds)))
+        # Readings that were set aside beside the lesser model may be none that stand off beside this one.
+        steps = (*steps[:-1], replace(steps[-1], after=diagnosis.error))
         rounds.append(_Round(extended, steps, diagnosis))
     model, last = rounds[-1].model, rounds[-1].diagnosis
     told_apart = frozenset(model.identifiers)  # what came in later is told from what was there

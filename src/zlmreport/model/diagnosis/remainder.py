@@ -28,8 +28,8 @@ from zlmreport.model.fitting.fit import Fit
 
 #: Evidence that what has no name must have, prior odds counted.
 _WORTH_SAYING = 2.5
-#: Share of what is left that a form must follow to be proposed.
-_FOLLOWS = 0.5
+#: Share of what is left that a form must follow to be proposed; of what is irregular, to be that form.
+_FOLLOWS, _IS_THAT = 0.5, 0.9
 #: Strength of a combination of columns, of the largest, below which they depend on each other.
 _DEPENDENT = 1e-9
 #: Of the squares of what is left, how much its place holds; and of what was measured, a stretch that is all.
@@ -114,9 +114,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
     squares = float(np.sum(fitted.residual**2))
     main, *further = [_describe_part(each, design) for each in shares]
-    # A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
-    limit = found.score + TOLD_APART if main.course.is_irregular else np.inf
-    form = shares[0].member or _find_following(search, bare, whole, limit)
+    form = shares[0].member or _choose_following(search, bare, whole, main.course, found.score)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
         share=min(1.0, float(np.sum(whole**2)) / squares) if squares else 0.0,
@@ -269,20 +267,48 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             yield _Share(explained, part.course, part.shape, None)
 
 
-def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray, limit: float) -> SetMember | None:
-    """Return the form that follows a curve best; None if none follows most of it.
+def _choose_following(
+    search: SetSearch, bare: EffectSet, whole: FloatArray, course: Course, score: float
+) -> SetMember | None:
+    """Return the form that is a start for what is left; None if none is.
 
-    `limit`: The score beyond which it is none that the readings could ask for.
+    A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
+
+    `score`: Of the set beside which it is left.
     """
+    found = _find_following(search, bare, whole)
+    if found is None or (course.is_irregular and not _may_be_irregular(found, score)):
+        return None
+    return found.member
+
+
+@dataclass(frozen=True, slots=True)
+class _Following:
+    """A form beside a set, and how much of what is left it follows."""
+
+    member: SetMember
+    score: float  #: Of the set with it.
+    share: float  #: Of the squares of what is left.
+
+
+def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> _Following | None:
+    """Return the form that follows a curve best; None if none follows most of it."""
     contest, with_form = search.contest, search.find_best_with_form(bare)
-    if with_form is None or with_form.score > limit:
+    if with_form is None:
         return None
     form = with_form.members[-1]
     columns = form.effect.columns(contest.design, form.theta)
     columns = contest.space.single.undo_whitening(contest.space.of(columns))
     gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
-    left = float(np.sum((whole - columns @ gamma) ** 2))
-    return form if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
+    share = 1.0 - float(np.sum((whole - columns @ gamma) ** 2) / np.sum(whole**2))
+    return _Following(form, with_form.score, share) if share > _FOLLOWS else None
+
+
+def _may_be_irregular(found: _Following, score: float) -> bool:
+    """Return whether what is irregular from position to position may be a form: nothing in time is."""
+    form = found.member.effect
+    is_along_axis = isinstance(form, UnnamedForm) and form.carrier not in IN_TIME
+    return is_along_axis and found.share > _IS_THAT and found.score <= score + TOLD_APART
 
 
 def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:
