@@ -70,6 +70,25 @@ def test_the_last_stair_is_the_error_of_the_model_that_was_built() -> None:
     assert built.steps[-1].after == built.last.error == again
 
 
+def test_what_came_in_and_is_no_more_than_likely_is_told_with_what_is_nearly_as_likely() -> None:
+    example = example_diagnosis()
+    first = replace(example.candidates[0], effect=EFFECTS["first-run"], probability=0.27)
+    other = replace(first, effect=EFFECTS["backlash"], probability=0.46)
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        if "first-run" in model.identifiers:
+            return replace(example, fit=fitted, together=(), candidates=(), verdict=DiagnosisVerdict.ADEQUATE)
+        return replace(example, fit=fitted, together=(first.effect,), candidates=(first, other))
+
+    built = build(model_of("offset"), diagnosing)
+    lines = " ".join(
+        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
+    )
+    assert "not sure: first-run 27 % and backlash 46 %; else another effect, or something without" in lines
+    assert [each["effects"] for each in build_values(built)["doubts"]] == [["first-run"], ["backlash"]]
+
+
 def test_what_only_takes_the_place_of_another_is_not_advised_again() -> None:
     built, _ = _build_to_and_fro()
     (kept,) = {"scale-kink", "first-run"} & set(built.model.identifiers)

@@ -100,6 +100,22 @@ def test_what_others_take_the_place_of_is_told_as_well() -> None:
     assert said(makeshift=("periodic",)).endswith("Then no longer needed: periodic.")
 
 
+def test_a_name_that_is_no_more_than_likely_is_told_with_its_chance_and_its_rivals() -> None:
+    first = replace(example_diagnosis().candidates[0], probability=0.27)
+    likelier = replace(first, effect=EFFECTS["backlash"], probability=0.46)
+    less = replace(first, effect=EFFECTS["abbe"], probability=0.04)
+    assert said(candidates=(first, likelier, less)) == (
+        "Missing effect: screw-pitch, which explains the rest. Not sure: screw-pitch 27 % and backlash 46 %; "
+        "else another effect, or something without a name."
+    )
+
+
+def test_a_name_that_is_sure_with_its_equals_is_told_without_a_chance() -> None:
+    first = replace(example_diagnosis().candidates[0], equals=("periodic",), probability=0.5)
+    other = replace(first, effect=EFFECTS["periodic"], equals=(), probability=0.4)
+    assert said(candidates=(first, other)).endswith("screw-pitch or periodic, which explains the rest.")
+
+
 def test_what_is_large_is_asked_after_its_name() -> None:
     first = replace(example_diagnosis().candidates[0], question=same("9 µm: is that so?"))
     assert said(candidates=(first,)).endswith("which explains the rest. 9 µm: is that so?")

@@ -13,7 +13,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, ModelStep, name_steps
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.diagnosis.report import describe_remainder, write_verdict_statement
+from zlmreport.model.diagnosis.report import describe_remainder, list_chances, write_verdict_statement
 
 _ENGLISH = Language.ENGLISH
 _PLUS = "+\u00a0"  #: At the end of no line.
@@ -32,6 +32,9 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
         yield from wrap(
             f"{coming} in place of {going} would do as well: the readings do not tell which it is", ""
         )
+    if built.doubts:
+        chances = list_chances(built.doubts).in_language(_ENGLISH)
+        yield from wrap(f"not sure: {chances}; else another effect, or something without a name", "")
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
     for each in built.needless:

@@ -30,6 +30,10 @@ def build_values(built: Built) -> dict[str, Any]:
             for each in built.steps
         ],
         "exchange": _collect_exchange(built.exchange),
+        "doubts": [
+            {"effects": list(each.names), "probability": each.probability, "added": each.is_named}
+            for each in built.doubts
+        ],
         "questions": [each.in_language(Language.ENGLISH) for each in built.questions],
         "needless": list(built.needless),
         "verdict": last.verdict.value,

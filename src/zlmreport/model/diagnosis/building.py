@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.diagnosis.candidate import list_questions
+from zlmreport.model.diagnosis.candidate import Doubt, find_doubts, list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
@@ -62,6 +62,8 @@ class Built:
     last: AxisDiagnosis  #: Of the model that came of it.
     model: AxisModel  #: That model.
     exchange: Exchange | None = None  #: What would do as well; None where nothing would.
+    #: Effects that came in and are no more than likely, with what is nearly as likely and did not come in.
+    doubts: tuple[Doubt, ...] = ()
 
     @property
     def removed(self) -> tuple[str, ...]:
@@ -146,7 +148,21 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         replace(each, equals=tuple(other for other in each.equals if other not in told_apart))
         for each in rounds[-1].steps
     )
-    return Built(rounds[0].diagnosis, steps, last, model, exchange)
+    return Built(rounds[0].diagnosis, steps, last, model, exchange, _collect_doubts(rounds))
+
+
+def _collect_doubts(rounds: Sequence[_Round]) -> tuple[Doubt, ...]:
+    """Return of the effects that stayed those that were no more than likely when they came in."""
+    stays = rounds[-1].model.identifiers
+    found: list[Doubt] = []
+    for each in rounds[:-1]:
+        doubts = find_doubts(
+            each.diagnosis.candidates, [effect.identifier for effect in each.diagnosis.together]
+        )
+        named = [doubt for doubt in doubts if doubt.is_named and doubt.names[0] in stays]
+        rivals = [doubt for doubt in doubts if not doubt.is_named and doubt.names[0] not in stays]
+        found += [*named, *rivals] if named else []
+    return tuple(found)
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_share, write_significant
@@ -23,6 +25,9 @@ from zlmreport.model.fitting.fit import Fit
 EXPLAINS = 0.75
 #: Share by which a value must differ from what the job says to contradict it.
 _CONTRADICTS = 0.01
+#: Probability, with that of its equals, below which an effect that is named is no more than likely; and what
+#: share of it a rival must have to be told beside it.
+_SURE, _NEARLY = 2 / 3, 0.5
 
 _EXPLAINS = Words("explains {share} % of what the noise leaves open")
 _CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
@@ -87,6 +92,32 @@ def list_candidates(
                 yield from _make_candidate(finding.fit, other, (), before, complete)
     for other in finding.others:
         yield from _make_candidate(finding.fit, other, (), before, complete)
+
+
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """An effect that is named and no more than likely, or one that is nearly as likely and not named."""
+
+    names: tuple[str, ...]  #: It, and its equals.
+    probability: float  #: Of all of them together.
+    is_named: bool  #: Whether it is the one that is named.
+
+
+def find_doubts(candidates: Sequence[EffectCandidate], named: Iterable[str]) -> tuple[Doubt, ...]:
+    """Return the effects of a set that are no more than likely, then those that are nearly as likely."""
+    known = {each.identifier: each.probability for each in candidates}
+    equals = {each.identifier: (each.identifier, *each.equals) for each in candidates}
+    groups = [equals[each] for each in named if each in equals]
+    weighed = [Doubt(each, sum(known.get(name, 0.0) for name in each), is_named=True) for each in groups]
+    doubted = [each for each in weighed if each.probability < _SURE]
+    least = _NEARLY * min((each.probability for each in doubted), default=np.inf)
+    told = {name for each in groups for name in each}
+    rivals = [
+        Doubt((name,), probability, is_named=False)
+        for name, probability in known.items()
+        if name not in told and probability >= least
+    ]
+    return (*doubted, *rivals)
 
 
 def list_questions(fitted: Fit, effects: Container[str]) -> tuple[Words, ...]:

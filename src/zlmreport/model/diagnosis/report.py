@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from typing import Any
 
@@ -11,9 +11,10 @@ import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words, list_alternatives, list_in_words
+from zlmreport.language.numbers import write_share
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.candidate import Doubt, EffectCandidate, find_doubts
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
@@ -72,6 +73,8 @@ _LESS_LIKELY = Words("{statement} Less likely, at odds of {odds}, it is {effects
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _QUESTION = Words("{statement} {question}")
+_NOT_SURE = Words("{statement} Not sure: {chances}; else another effect, or something without a name.")
+_CHANCE = Words("{effects} {share} %")
 
 
 def report(
@@ -342,6 +345,9 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     statement = _say_so_far(diagnosis, missing, is_many=is_many)
     if diagnosis.makeshift:
         statement = _GOES.given(statement=statement, effects=list_in_words(diagnosis.makeshift))
+    doubts = find_doubts(diagnosis.candidates, [each.identifier for each in diagnosis.together])
+    if doubts:
+        statement = _NOT_SURE.given(statement=statement, chances=list_chances(doubts))
     for each in diagnosis.together:
         question = by_name[each.identifier].question
         if question is not None:
@@ -362,6 +368,16 @@ def _say_adequate(diagnosis: AxisDiagnosis) -> Words:
         return _ADEQUATE
     return _ADEQUATE_SO_FAR.given(
         error=wording.deviation(axis, diagnosis.error.rms), noise=wording.deviation(axis, floor)
+    )
+
+
+def list_chances(doubts: Iterable[Doubt]) -> Words:
+    """Return effects that are no more than likely in a row, each with its probability."""
+    return list_in_words(
+        [
+            _CHANCE.given(effects=list_alternatives(each.names), share=write_share(each.probability))
+            for each in doubts
+        ]
     )
 
 
