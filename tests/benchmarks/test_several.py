@@ -275,6 +275,7 @@ def _left(low: float, high: float, unit: Unit = MILLIMETRE) -> Remainder:
         unit=unit,
         shape=nowhere,
         size=1e-6,
+        peak=(low + high) / 2,
         formula=None,
         course=Course.PLACE,
     )

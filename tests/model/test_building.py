@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
 from model.hidden_effect import example as study_of_example, example_diagnosis
 from zlmreport.cli.model_build import build_lines
 from zlmreport.model.diagnosis.build_report import build_values
-from zlmreport.model.diagnosis.building import build, name_steps
+from zlmreport.model.diagnosis.building import Built, build, name_steps
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.finding import find
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
@@ -36,6 +38,72 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
 
 
 def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None:
+    built, asked = _build_to_and_fro()
+    assert asked == [("offset",), ("offset", "scale-kink"), ("offset", "first-run")]
+    assert built.exchange is not None
+
+
+def test_of_effects_that_take_each_others_place_those_stay_that_leave_less() -> None:
+    built, asked = _build_to_and_fro()
+    errors = {
+        names: compute_error_numbers(fit(model_of(*names), built.first.fit.design, built.first.fit.deviation))
+        for names in asked[1:]
+    }
+    assert built.model.identifiers == min(errors, key=lambda names: errors[names].rms)
+    assert built.steps[-1].after.rms == built.last.error.rms
+
+
+def test_the_last_stair_is_the_error_of_the_model_that_was_built() -> None:
+    example = example_diagnosis()
+    again = replace(example.error, rms=2 * example.error.rms)
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        if "first-run" not in model.identifiers:
+            return replace(
+                example,
+                fit=fit(model, example.fit.design, example.fit.deviation),
+                together=(EFFECTS["first-run"],),
+            )
+        return replace(example, error=again, together=(), verdict=DiagnosisVerdict.ADEQUATE)
+
+    built = build(model_of("offset"), diagnosing)
+    assert built.steps[-1].after == built.last.error == again
+
+
+def test_what_came_in_and_is_no_more_than_likely_is_told_with_what_is_nearly_as_likely() -> None:
+    example = example_diagnosis()
+    first = replace(example.candidates[0], effect=EFFECTS["first-run"], probability=0.27)
+    other = replace(first, effect=EFFECTS["backlash"], probability=0.46)
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        if "first-run" in model.identifiers:
+            return replace(example, fit=fitted, together=(), candidates=(), verdict=DiagnosisVerdict.ADEQUATE)
+        return replace(example, fit=fitted, together=(first.effect,), candidates=(first, other))
+
+    built = build(model_of("offset"), diagnosing)
+    lines = " ".join(
+        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
+    )
+    assert "not sure: first-run 27 % and backlash 46 %; else another effect, or something without" in lines
+    assert [each["effects"] for each in build_values(built)["doubts"]] == [["first-run"], ["backlash"]]
+
+
+def test_what_only_takes_the_place_of_another_is_not_advised_again() -> None:
+    built, _ = _build_to_and_fro()
+    (kept,) = {"scale-kink", "first-run"} & set(built.model.identifiers)
+    (other,) = {"scale-kink", "first-run"} - {kept}
+    assert build_values(built)["exchange"] == {"in": [other], "out": [kept]}
+    lines = " ".join(
+        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=False)).split()
+    )
+    assert f"{other} in place of {kept} would do as well: the readings do not tell which it is" in lines
+    assert "Missing effect" not in lines
+    assert "model add" not in lines
+
+
+def _build_to_and_fro() -> tuple[Built, list[tuple[str, ...]]]:
+    """Return what is built of two effects each of which takes the place of the other, and what was asked."""
     example = example_diagnosis()
     asked: list[tuple[str, ...]] = []
 
@@ -45,11 +113,38 @@ def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None
         has_kink = "scale-kink" in model.identifiers
         comes, goes = ("first-run", "scale-kink") if has_kink else ("scale-kink", "first-run")
         makeshift = (goes,) if goes in model.identifiers else ()
-        return replace(example, fit=fitted, together=(EFFECTS[comes],), makeshift=makeshift)
+        error = compute_error_numbers(fitted)
+        return replace(example, fit=fitted, error=error, together=(EFFECTS[comes],), makeshift=makeshift)
 
-    found = build(model_of("offset"), diagnosing)
-    assert asked == [("offset",), ("offset", "scale-kink"), ("offset", "first-run")]
-    assert found.model.identifiers == ("offset", "first-run")
+    return build(model_of("offset"), diagnosing), asked
+
+
+def test_what_goes_out_for_what_comes_in_is_one_stair_with_it() -> None:
+    example = example_diagnosis()
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        said = {
+            ("offset", "cosine-error"): (("scale-error",), ("cosine-error",)),
+            ("offset", "scale-error"): (("scale-kink",), ("scale-error",)),
+        }
+        coming, going = said.get(model.identifiers, ((), ()))
+        return replace(
+            example,
+            fit=fitted,
+            error=compute_error_numbers(fitted),
+            together=tuple(EFFECTS[each] for each in coming),
+            makeshift=going,
+            candidates=(),
+            verdict=DiagnosisVerdict.MISSING if coming else DiagnosisVerdict.ADEQUATE,
+        )
+
+    built = build(model_of("offset", "cosine-error"), diagnosing)
+    lines = " ".join(
+        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
+    )
+    stairs = re.sub(r" [0-9.]+(?= →| µm; noise)", "", lines.partition("; noise")[0] + "; noise")
+    assert "→ − cosine-error, + scale-error → + scale-kink, − scale-error µm; noise" in stairs
 
 
 def test_what_stands_in_a_model_does_not_give_way_to_what_is_no_better() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
+from model.axis_tests import INSTALLED, formula, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
@@ -200,6 +200,20 @@ def test_what_a_curve_in_time_explains_better_is_no_slip_of_a_run() -> None:
     # Some 290 in units of 2·ln, on 100 of 107 degrees of freedom.
     assert [each.explains for each in run_faults(fitted, changes=200.0)] == [True]
     assert run_faults(fitted, changes=400.0) == ()
+
+
+def test_what_the_model_explains_already_is_no_slip_of_a_run() -> None:
+    design = linear_test(11, 3)
+    wave = formula(
+        "a*sin(2*pi*t/L) + b*cos(2*pi*t/L)",
+        a={"unit": "um"},
+        b={"unit": "um"},
+        L={"unit": "s", "value": 870.0},
+    )
+    swing = 6e-6 * np.sin(2 * np.pi * design.time / 870.0) + noise(design, sigma=4e-7)
+    # Against the wave, run 1 goes the other way about than the others.
+    assert [each.run for each in run_faults(fit(_MODEL, design, swing))] == [1]
+    assert run_faults(fit(model_of("offset", "scale-error", "backlash", wave), design, swing)) == ()
 
 
 def test_targets_that_lie_micrometres_apart_are_not_taken_for_each_other() -> None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.effects.axis_model import AxisModel
@@ -40,6 +43,29 @@ def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targe
 def test_no_formula_is_proposed_for_what_no_form_follows(targets: int, seed: int) -> None:
     design = linear_test(targets, 5, seed=seed)
     found = _diagnose(design, _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50))
+    assert found.remainder is not None
+    assert found.remainder.course is Course.IRREGULAR
+    assert found.remainder.formula is None
+
+
+@pytest.mark.parametrize("kind", AxisKind)
+def test_what_is_irregular_along_the_axis_has_no_formula_in_time(kind: AxisKind) -> None:
+    # Of a slow slope in three runs over five targets a wave in time explains much, by chance.
+    design = linear_test(5, 3, seed=4)
+    if kind is AxisKind.ROTARY:
+        axis, turn = Axis("C", kind, travel=(0.0, 2 * np.pi)), (0.0, 2 * np.pi)
+        design = replace(design, axis=axis, position=2 * np.pi * design.position, span=turn)
+    deviation = _draw_geometry(design, 4, 5e-6) + noise(design, 54, 3.5 * SIGMA)
+    found = _diagnose(design, deviation, model_of("offset", "backlash"))
+    assert found.remainder is not None
+    assert found.remainder.course is Course.IRREGULAR
+    assert found.remainder.formula is None
+
+
+def test_a_wave_that_follows_the_most_of_what_is_irregular_is_not_that() -> None:
+    design = linear_test(6, 3, seed=3)
+    deviation = _draw_geometry(design, 3, 5e-6) + noise(design, 53, 3.5 * SIGMA)
+    found = _diagnose(design, deviation, model_of("offset", "backlash"))
     assert found.remainder is not None
     assert found.remainder.course is Course.IRREGULAR
     assert found.remainder.formula is None

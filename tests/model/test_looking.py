@@ -33,9 +33,21 @@ def test_what_is_irregular_is_measured_in_fine_steps() -> None:
 
 
 def test_irregular_at_the_end_stays_within_what_was_measured() -> None:
-    at_end = replace(LEFT, course=Course.IRREGULAR, low=DESIGN.span[1], high=DESIGN.span[1])
+    at_end = replace(LEFT, course=Course.IRREGULAR, peak=DESIGN.span[1])
     last = float(DESIGN.target_positions[-1]) * 1e3
     assert f"to {last:.4g} mm" in look_for(at_end, DESIGN).measure.in_language(Language.ENGLISH)
+
+
+def test_what_is_irregular_is_measured_about_its_largest_place() -> None:
+    wide = replace(LEFT, course=Course.IRREGULAR, low=0.2, high=0.9, peak=0.25)
+    measure = look_for(wide, DESIGN).measure.in_language(Language.ENGLISH)
+    assert "from 199.3 mm to 300.7 mm" in measure
+
+
+def test_what_is_irregular_in_the_reversal_is_measured_in_both_directions() -> None:
+    at, measure = _said(Course.IRREGULAR_REVERSAL)
+    assert at == "the difference of the two directions over the position, around 250 mm"
+    assert measure.startswith("a fine run in both directions in steps of 5.07 mm")
 
 
 def test_of_two_targets_a_fine_run_stays_between_them() -> None:

@@ -85,7 +85,7 @@ def test_it_is_asked_in_german_too() -> None:
     said = _said(ask_of(_parameter("thermal-growth", "time_constant"), 113.0, AXIS), Language.GERMAN)
     assert (
         said
-        == "Zeitkonstante 110 s, wo 300 s oder mehr üblich ist: so gemessen, und in der richtigen Einheit?"
+        == "Zeitkonstante 113 s, wo 300 s oder mehr üblich ist: so gemessen, und in der richtigen Einheit?"
     )
 
 

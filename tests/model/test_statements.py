@@ -25,6 +25,7 @@ LEFT = Remainder(
     unit=MILLIMETRE,
     shape=same("a bump"),
     size=4e-6,
+    peak=0.25,
     formula=None,
     course=Course.PLACE,
 )
@@ -59,6 +60,17 @@ def test_effects_that_belong_together_are_named_together() -> None:
     assert said(together=(first.effect, *others), candidates=candidates) == (
         "Missing effects: screw-pitch, first-run and abbe, which together explain the rest."
     )
+
+
+def test_a_question_says_of_which_of_several_effects_it_is() -> None:
+    first = example_diagnosis().candidates[0]
+    asked = replace(
+        first, effect=EFFECTS["abbe"], question=same("−1675 mm: 5.6 times what is usual?"), is_large=True
+    )
+    told = said(together=(first.effect, asked.effect), candidates=(first, asked))
+    assert told.endswith("explain the rest. abbe, −1675 mm: 5.6 times what is usual?")
+    alone = said(together=(asked.effect,), candidates=(asked,))
+    assert alone.endswith("explains the rest. −1675 mm: 5.6 times what is usual?")
 
 
 def test_nothing_falls_where_the_error_does_not() -> None:
@@ -110,13 +122,31 @@ def test_what_others_take_the_place_of_is_told_as_well() -> None:
     assert said(makeshift=("periodic",)).endswith("Then no longer needed: periodic.")
 
 
+def test_a_name_that_is_no_more_than_likely_is_told_with_its_chance_and_its_rivals() -> None:
+    first = replace(example_diagnosis().candidates[0], probability=0.27)
+    likelier = replace(first, effect=EFFECTS["backlash"], probability=0.46)
+    less = replace(first, effect=EFFECTS["abbe"], probability=0.04)
+    assert said(candidates=(first, likelier, less)) == (
+        "Missing effect: screw-pitch, which explains the rest. Not sure: screw-pitch 27 % and backlash 46 %; "
+        "else another effect, or something without a name."
+    )
+
+
+def test_a_name_that_is_sure_with_its_equals_is_told_without_a_chance() -> None:
+    first = replace(example_diagnosis().candidates[0], equals=("periodic",), probability=0.5)
+    other = replace(first, effect=EFFECTS["periodic"], equals=(), probability=0.4)
+    assert said(candidates=(first, other)).endswith("screw-pitch or periodic, which explains the rest.")
+
+
 def test_what_is_large_is_asked_after_its_name() -> None:
     first = replace(example_diagnosis().candidates[0], question=same("9 µm: is that so?"))
     assert said(candidates=(first,)).endswith("which explains the rest. 9 µm: is that so?")
 
 
 def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
-    assert said(verdict=DiagnosisVerdict.ADEQUATE).startswith("The model describes the readings")
+    assert said(verdict=DiagnosisVerdict.ADEQUATE).startswith(
+        "The model describes the readings: nothing is left"
+    )
 
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
@@ -125,17 +155,22 @@ def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
     )
 
 
-@pytest.mark.parametrize(("odds", "said_odds"), [(0.06, "1 to 17"), (0.9, "1 to 1"), (2.4, "2 to 1")])
-def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(
-    odds: float, said_odds: str
-) -> None:
+@pytest.mark.parametrize(
+    ("odds", "told"),
+    [
+        (0.06, "Less likely, at odds of 1 to 17, it is first-run and run-displaced instead."),
+        (0.9, "As likely it is first-run and run-displaced instead."),
+        (2.4, "More likely, at odds of 2 to 1, it is first-run and run-displaced instead."),
+    ],
+)
+def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(odds: float, told: str) -> None:
     effects = (EFFECTS["first-run"], EFFECTS["run-displaced"])
     left = replace(LEFT, instead=NamesInstead(effects, odds))
     statement = said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=left)
     assert statement.startswith("Something is left that no installed effect explains for sure: a bump")
-    assert statement.endswith(f"At odds of {said_odds} it is first-run and run-displaced instead.")
+    assert statement.endswith(told)
     assert "explains for sure" not in said(remainder=left)
-    assert said(remainder=left).endswith(f"At odds of {said_odds} it is first-run and run-displaced instead.")
+    assert said(remainder=left).endswith(told)
 
 
 def test_all_parts_of_what_has_no_name_are_told_with_their_places() -> None:
@@ -143,6 +178,23 @@ def test_all_parts_of_what_has_no_name_are_told_with_their_places() -> None:
     assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=replace(LEFT, further=(also,))) == (
         "Something is left that no installed effect explains: a bump, around 250 mm, and every run displaced "
         "as a whole, most in run 2; root mean square 1.2 µm."
+    )
+
+
+def test_parts_at_one_place_are_told_with_it_once() -> None:
+    also = replace(LEFT, shape=same("a step"))
+    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=replace(LEFT, further=(also,))) == (
+        "Something is left that no installed effect explains: a bump, and a step, around 250 mm; root mean "
+        "square 1.2 µm."
+    )
+
+
+def test_a_model_of_which_few_readings_tell_no_more_is_not_said_to_leave_nothing() -> None:
+    example = example_diagnosis()
+    error = replace(example.error, rms=3.83e-6, noise_rms=3.08e-6, chi2_per_dof=1.58)
+    assert said(verdict=DiagnosisVerdict.ADEQUATE, error=error, error_after=error, lasting_noise=None) == (
+        "The model describes the readings as far as their scatter lets it be seen: the error is 3.8 µm, over "
+        "a noise of 3.1 µm."
     )
 
 

@@ -183,7 +183,7 @@ def list_error_facts(error: ErrorNumbers, axis: Axis, language: Language) -> Fac
         if value is not None
     ]
     if error.chi2_per_dof is not None:
-        pairs.append(("χ²/ν", write_significant(error.chi2_per_dof).in_language(language)))
+        pairs.append(("χ²/ν", write_significant(float(f"{error.chi2_per_dof:.3g}")).in_language(language)))
     return Facts(tuple(pairs), ERROR.in_language(language))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.building import Built
+from zlmreport.model.diagnosis.building import Built, Exchange
 from zlmreport.model.diagnosis.report import report_error, report_model, report_remainder
 
 SCHEMA = "zlmreport/build/1"
@@ -29,6 +29,11 @@ def build_values(built: Built) -> dict[str, Any]:
             }
             for each in built.steps
         ],
+        "exchange": _collect_exchange(built.exchange),
+        "doubts": [
+            {"effects": list(each.names), "probability": each.probability, "added": each.is_named}
+            for each in built.doubts
+        ],
         "questions": [each.in_language(Language.ENGLISH) for each in built.questions],
         "needless": list(built.needless),
         "verdict": last.verdict.value,
@@ -36,3 +41,7 @@ def build_values(built: Built) -> dict[str, Any]:
         "model": report_model(last.fit),
         "error": report_error(last.error, axis),
     }
+
+
+def _collect_exchange(exchange: Exchange | None) -> dict[str, Any] | None:
+    return None if exchange is None else {"in": list(exchange.coming), "out": list(exchange.going)}

@@ -13,7 +13,7 @@ from typing import TypeAlias
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.model.diagnosis.candidate import list_questions
+from zlmreport.model.diagnosis.candidate import Doubt, find_doubts, list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
@@ -46,6 +46,14 @@ class ModelStep:
 
 
 @dataclass(frozen=True, slots=True)
+class Exchange:
+    """Effects that would take the place of others, and describe the readings as well as these."""
+
+    coming: tuple[str, ...]  #: Names that would come in.
+    going: tuple[str, ...]  #: Those of the model that would go out.
+
+
+@dataclass(frozen=True, slots=True)
 class Built:
     """A model that was built."""
 
@@ -53,6 +61,9 @@ class Built:
     steps: tuple[ModelStep, ...]  #: What came in and went out, in order.
     last: AxisDiagnosis  #: Of the model that came of it.
     model: AxisModel  #: That model.
+    exchange: Exchange | None = None  #: What would do as well; None where nothing would.
+    #: Effects that came in and are no more than likely, with what is nearly as likely and did not come in.
+    doubts: tuple[Doubt, ...] = ()
 
     @property
     def removed(self) -> tuple[str, ...]:
@@ -90,7 +101,7 @@ class Built:
     @property
     def questions(self) -> tuple[Words, ...]:
         """What is asked of the effects that were added: values far from usual, or against the job."""
-        return list_questions(self.last.fit, {each.identifier for each in self.added})
+        return tuple(list_questions(self.last.fit, {each.identifier for each in self.added}))
 
 
 def is_outstanding(identifier: str, fitted: Fit) -> bool:
@@ -110,29 +121,75 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
     Raises `ModelError` as a diagnosis does.
     """
     own = frozenset(model.identifiers)
-    found = [diagnosing(model, frozenset(), _tell_part(told, 0))]
-    steps: list[ModelStep] = []
-    tried = {frozenset(model.identifiers)}
-    while len(found) <= _MOST_ROUNDS and found[-1].verdict is DiagnosisVerdict.MISSING:
-        extended, taken = _extend_model(model, found[-1])
-        # Two models each of which takes the other for the better one are as good as each other.
-        if not taken or frozenset(extended.identifiers) in tried:
+    rounds = [_Round(model, (), diagnosing(model, frozenset(), _tell_part(told, 0)))]
+    exchange = None
+    while len(rounds) <= _MOST_ROUNDS and rounds[-1].diagnosis.verdict is DiagnosisVerdict.MISSING:
+        extended, taken = _extend_model(rounds[-1].model, rounds[-1].diagnosis)
+        if not taken:
             break
-        tried.add(frozenset(extended.identifiers))
-        model = extended
-        steps += taken
+        tried = [frozenset(each.model.identifiers) for each in rounds]
+        if frozenset(extended.identifiers) in tried:
+            # Models each of which takes the next for the better one are as good as each other.
+            alike = rounds[tried.index(frozenset(extended.identifiers)) :]
+            kept = min(alike, key=lambda each: each.diagnosis.error.rms)
+            exchange = kept.find_exchange()
+            if exchange is not None:
+                rounds = [*rounds[: rounds.index(kept)], kept.as_settled()]
+            break
+        steps = (*rounds[-1].steps, *taken)
         may_go = frozenset(each.identifier for each in steps) - own
-        found.append(diagnosing(model, may_go, _tell_part(told, len(found))))
+        diagnosis = diagnosing(extended, may_go, _tell_part(told, len(rounds)))
+        # Readings that were set aside beside the lesser model may be none that stand off beside this one.
+        steps = (*steps[:-1], replace(steps[-1], after=diagnosis.error))
+        rounds.append(_Round(extended, steps, diagnosis))
+    model, last = rounds[-1].model, rounds[-1].diagnosis
     told_apart = frozenset(model.identifiers)  # what came in later is told from what was there
-    return Built(
-        found[0],
-        tuple(
-            replace(each, equals=tuple(other for other in each.equals if other not in told_apart))
-            for each in steps
-        ),
-        found[-1],
-        model,
+    steps = tuple(
+        replace(each, equals=tuple(other for other in each.equals if other not in told_apart))
+        for each in rounds[-1].steps
     )
+    return Built(rounds[0].diagnosis, steps, last, model, exchange, _collect_doubts(rounds))
+
+
+def _collect_doubts(rounds: Sequence[_Round]) -> tuple[Doubt, ...]:
+    """Return of the effects that stayed those that were no more than likely when they came in."""
+    stays = rounds[-1].model.identifiers
+    found: list[Doubt] = []
+    for each in rounds[:-1]:
+        doubts = find_doubts(
+            each.diagnosis.candidates, [effect.identifier for effect in each.diagnosis.together]
+        )
+        named = [doubt for doubt in doubts if doubt.is_named and doubt.names[0] in stays]
+        rivals = [doubt for doubt in doubts if not doubt.is_named and doubt.names[0] not in stays]
+        found += [*named, *rivals] if named else []
+    return tuple(found)
+
+
+@dataclass(frozen=True, slots=True)
+class _Round:
+    """A model on the way, and what was said of it."""
+
+    model: AxisModel
+    steps: tuple[ModelStep, ...]  #: From the first model to it.
+    diagnosis: AxisDiagnosis
+
+    def find_exchange(self) -> Exchange | None:
+        """Return what would take the place of what; None where nothing would go out."""
+        going, own = self.diagnosis.makeshift, self.model.identifiers
+        coming = tuple(each.identifier for each in self.diagnosis.together if each.identifier not in own)
+        return Exchange(coming, going) if coming and going else None
+
+    def as_settled(self) -> _Round:
+        """Return the same with nothing that is missing: what would come in only takes another's place."""
+        verdict = DiagnosisVerdict.UNEXPLAINED if self.diagnosis.remainder else DiagnosisVerdict.ADEQUATE
+        settled = replace(
+            self.diagnosis,
+            verdict=verdict,
+            together=(),
+            makeshift=(),
+            error_after=self.diagnosis.error,
+        )
+        return replace(self, diagnosis=settled)
 
 
 def _tell_part(told: Told, rounds: int) -> Told:

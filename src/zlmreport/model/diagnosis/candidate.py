@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_share, write_significant
+from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
@@ -24,7 +25,11 @@ from zlmreport.model.fitting.fit import Fit
 EXPLAINS = 0.75
 #: Share by which a value must differ from what the job says to contradict it.
 _CONTRADICTS = 0.01
+#: Probability, with that of its equals, below which an effect that is named is no more than likely; and what
+#: share of it a rival must have to be told beside it.
+_SURE, _NEARLY = 2 / 3, 0.5
 
+_ASKED_ABOUT = Words("{effect}, {question}")
 _EXPLAINS = Words("explains {share} % of what the noise leaves open")
 _CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
 _NOTHING = Words("explains nothing by itself of what the noise leaves open")
@@ -90,14 +95,50 @@ def list_candidates(
         yield from _make_candidate(finding.fit, other, (), before, complete)
 
 
-def list_questions(fitted: Fit, effects: Container[str]) -> tuple[Words, ...]:
-    """Return what is asked of parameters of a model that are far from usual, or contradict the job.
+@dataclass(frozen=True, slots=True)
+class Doubt:
+    """An effect that is named and no more than likely, or one that is nearly as likely and not named."""
+
+    names: tuple[str, ...]  #: It, and its equals.
+    probability: float  #: Of all of them together.
+    is_named: bool  #: Whether it is the one that is named.
+
+
+def find_doubts(candidates: Sequence[EffectCandidate], named: Iterable[str]) -> tuple[Doubt, ...]:
+    """Return the effects of a set that are no more than likely, then those that are nearly as likely."""
+    known = {each.identifier: each.probability for each in candidates}
+    equals = {each.identifier: (each.identifier, *each.equals) for each in candidates}
+    groups = [equals[each] for each in named if each in equals]
+    weighed = [Doubt(each, sum(known.get(name, 0.0) for name in each), is_named=True) for each in groups]
+    doubted = [each for each in weighed if each.probability < _SURE]
+    least = _NEARLY * min((each.probability for each in doubted), default=np.inf)
+    told = {name for each in groups for name in each}
+    rivals = [
+        Doubt((name,), probability, is_named=False)
+        for name, probability in known.items()
+        if name not in told and probability >= least
+    ]
+    return (*doubted, *rivals)
+
+
+def list_questions(fitted: Fit, effects: Container[str]) -> Iterator[Words]:
+    """Yield what is asked of parameters of a model that are far from usual, or contradict the job.
 
     `effects`: Identifiers of those that are asked about.
     """
     own = [each for each in fitted.estimates if each.effect in effects]
-    asked = (_say_question(each, fitted.design) or _say_contradiction(each, fitted.design) for each in own)
-    return tuple(filter(None, asked))
+    is_many = len({each.effect for each in own}) > 1
+    for each in own:
+        question, contradiction = _say_question(each, fitted.design), _say_contradiction(each, fitted.design)
+        if question is not None:
+            yield ask_about(each.effect, question) if is_many else question
+        elif contradiction is not None:
+            yield contradiction
+
+
+def ask_about(effect: str, question: Words) -> Words:
+    """Return a question with the effect that it is on, for where several are named."""
+    return _ASKED_ABOUT.given(effect=effect, question=question)
 
 
 def _make_candidate(
@@ -108,7 +149,8 @@ def _make_candidate(
         after = fit_with_member(base, rival.member)
     except ModelError:
         return
-    share = _share(base, after, before.noise_rms)
+    error = compute_error_numbers(after)
+    share = _share((base, before), (after, error), before.noise_rms)
     own, alone = (
         tuple(each for each in fitted.estimates if each.effect == rival.identifier)
         for fitted in (complete, after)
@@ -123,10 +165,10 @@ def _make_candidate(
         p_value_is_extrapolated=rival.p_value.is_extrapolated,
         probability=rival.probability,
         evidence=rival.evidence,
-        error=compute_error_numbers(after),
+        error=error,
         estimates=estimates,
         share=share,
-        explains=_say_explains(base, after, share),
+        explains=_say_explains(before.rms, error.rms, share, base.design.axis),
         equals=tuple(each.identifier for each in equals),
         discriminate_by=say_what_discriminates(rival.member.effect, [each.member.effect for each in equals]),
         is_plausible=rival.member.effect.forbids(base.design, values) is None,
@@ -186,24 +228,25 @@ def _say_what_tells_apart(one: Effect, other: Effect) -> Words | None:
     return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
 
 
-def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
+def _share(
+    before: tuple[Fit, ErrorNumbers], after: tuple[Fit, ErrorNumbers], floor: float | None
+) -> float | None:
     """Return the share of the misfit beyond the noise floor that an effect explains."""
     if floor is None:
         return None
-    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
-    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
+    open_before, open_after = (
+        fitted.degrees * (error.rms**2 - floor**2) for fitted, error in (before, after)
+    )
+    open_after = max(0.0, open_after)
     return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
 
 
-def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
-    axis = before.design.axis
+def _say_explains(before: float, after: float, share: float | None, axis: Axis) -> Words:
     if share is None:
-        return _NO_FLOOR.given(
-            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
-        )
+        return _NO_FLOOR.given(before=wording.deviation(axis, before), after=wording.deviation(axis, after))
     if share == 0:
         return _NOTHING
     percent = write_share(share)
     if share >= EXPLAINS:
         return _EXPLAINS.given(share=percent)
-    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
+    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.fit import Fit, cross_validate
 from zlmreport.model.fitting.repeats import estimate_noise_floor
@@ -16,7 +18,7 @@ LARGEST_RATIO = 1.4
 class ErrorNumbers:
     """How far readings and model are apart."""
 
-    rms: float  #: √(RSS/(N − q)), m or rad.
+    rms: float  #: √(RSS/(N − q)) at the sizes that leave least, all readings alike, m or rad.
     noise_rms: float | None  #: The noise floor σ_f, m or rad; None without repeats.
     chi2_per_dof: float | None  #: RSS/((N − q)·σ_f²); None without a noise floor.
     cross_validated_rms: float | None  #: Of runs predicted from the others, m or rad; None with a single run.
@@ -25,12 +27,28 @@ class ErrorNumbers:
 def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     """Return how far a fitted model is from the readings."""
     floor = estimate_noise_floor(fitted.design, choose_scattering(fitted))
+    rms = compute_least_rms(fitted)
     return ErrorNumbers(
-        fitted.rms,
+        rms,
         floor,
-        (fitted.rms / floor) ** 2 if floor else None,
+        (rms / floor) ** 2 if floor else None,
         cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
     )
+
+
+def compute_least_rms(fitted: Fit) -> float:
+    """Return what a model leaves of a single reading, its searched parameters as fitted, m or rad.
+
+    Beside a slow drift, readings hardly determine what is constant, and a fit that knows it may put that
+    anywhere: what it leaves then says nothing of the model, and may rise with an effect that is there.
+    """
+    solved = [own for own, _ in fitted.model.compute_columns(fitted.design, fitted.solution.thetas)]
+    columns = np.concatenate([np.empty((len(fitted.deviation), 0)), *solved], axis=1)
+    lengths = np.linalg.norm(columns, axis=0)
+    columns = columns / np.where(lengths > 0, lengths, 1.0)
+    left = fitted.open_deviation
+    left = left - columns @ np.linalg.lstsq(columns, left, rcond=None)[0]
+    return float(np.sqrt(np.sum(left**2) / fitted.degrees))
 
 
 def choose_scattering(fitted: Fit) -> FloatArray:

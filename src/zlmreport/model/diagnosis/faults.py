@@ -152,6 +152,7 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) ->
     if len(runs) < _FEWEST_RUNS:
         return ()
     spread = find_repeats(design, deviation).squares
+    # What the model explains already, no slip needs to.
     by_effects = min((*map(_sum_squares_within, (fitted, *rivals)), spread))
     tried = [
         (kind, run, left, whole, count)

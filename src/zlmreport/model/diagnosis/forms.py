@@ -186,7 +186,7 @@ class UnnamedForm(FormulaEffect):
         scale = 1.0 if self.carrier in IN_TIME else design.axis.position_unit.per_si
         width = named.get("w", named.get("L", float(np.ptp(self.along)) / 4))
         ranges = {
-            name: (value - width / 2, value + width / 2) if name in "ce" else (value / 1.5, value * 1.5)
+            name: self._reach_around(value, width) if name in "ce" else (value / 1.5, value * 1.5)
             for name, value in self._name_searched_values(theta).items()
         }
         marked = named.get("c") if self.form in LOCAL else named.get("L", named.get("w"))
@@ -197,6 +197,13 @@ class UnnamedForm(FormulaEffect):
             ranges,
             None if marked is None else marked * scale,
         )
+
+    def _reach_around(self, place: float, width: float) -> tuple[float, float]:
+        """Return where a place is looked for: beyond the readings only a bump has its middle."""
+        low, high = place - width / 2, place + width / 2
+        if self.form not in LOCAL or self.form is BUMP:
+            return low, high
+        return max(low, float(self.along[0])), min(high, float(self.along[-1]))
 
     def count_periods(self, theta: FloatArray) -> float:
         """Return how many periods what was measured has."""

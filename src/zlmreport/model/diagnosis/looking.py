@@ -38,6 +38,10 @@ _FINE_RUN = Words(
     "a fine run in steps of {step} from {first} to {last}, twice: a period shorter than the "
     "distance of the targets looks irregular, and shows itself there"
 )
+_FINE_REVERSAL = Words(
+    "a fine run in both directions in steps of {step} from {first} to {last}, twice: a period shorter than "
+    "the distance of the targets looks irregular, and shows itself there"
+)
 _OTHER_OVERRUN = Words(
     "both directions with a target every {step} from {first} to {last}, once as before and once "
     "with twice the overrun: lost motion stays, what relaxes or winds up changes"
@@ -68,6 +72,7 @@ _TEN_TIMES = Words(
 _WHERE = {
     Course.PLACE: _OVER_POSITION,
     Course.IRREGULAR: _OVER_POSITION,
+    Course.IRREGULAR_REVERSAL: _REVERSAL_OVER_POSITION,
     Course.TARGET: _OVER_POSITION,
     Course.REVERSAL: _REVERSAL_OVER_POSITION,
     Course.TIME: _OVER_TIME,
@@ -79,6 +84,7 @@ _WHERE = {
 _MEASURE = {
     Course.PLACE: _CLOSER_TARGETS,
     Course.IRREGULAR: _FINE_RUN,
+    Course.IRREGULAR_REVERSAL: _FINE_REVERSAL,
     Course.TARGET: _TEN_TIMES,
     Course.REVERSAL: _OTHER_OVERRUN,
     Course.TIME: _ONE_TARGET,
@@ -107,7 +113,7 @@ def look_for(remainder: Remainder, design: Design) -> WhereToLook:
         given = {
             "first": wording.position(axis, first),
             "last": wording.position(axis, last),
-            "step": wording.length(axis, step / (_FINE if course is Course.IRREGULAR else _CLOSER)),
+            "step": wording.length(axis, step / (_FINE if course.is_irregular else _CLOSER)),
         }
     elif course.along is Along.TIME:
         given = {"duration": wording.span_of_time(design, design.duration)}
@@ -122,7 +128,7 @@ def _choose_stretch(remainder: Remainder, design: Design) -> tuple[float, float,
     targets = design.target_positions
     step = float(np.median(np.diff(targets))) if len(targets) > 1 else 0.0
     first, last = remainder.low - step, remainder.high + step
-    if remainder.course is Course.IRREGULAR:
-        middle = min(max((remainder.low + remainder.high) / 2, targets[0] + step), targets[-1] - step)
+    if remainder.course.is_irregular:
+        middle = min(max(remainder.peak, targets[0] + step), targets[-1] - step)
         first, last = middle - step, middle + step
     return max(float(targets[0]), first), min(float(targets[-1]), last), step

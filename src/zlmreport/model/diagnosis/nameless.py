@@ -132,7 +132,7 @@ def make_irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
 
 _COURSES: Mapping[NoiseSource, Course] = {
     NoiseSource.POSITION: Course.IRREGULAR,
-    NoiseSource.DIRECTION: Course.IRREGULAR,
+    NoiseSource.DIRECTION: Course.IRREGULAR_REVERSAL,
     NoiseSource.RUN: Course.RUNS,
     NoiseSource.TIME: Course.TIME,
 }

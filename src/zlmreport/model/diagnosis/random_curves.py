@@ -47,6 +47,7 @@ class Course(Enum):
 
     PLACE = "smooth along the axis"
     IRREGULAR = "from position to position"
+    IRREGULAR_REVERSAL = "from position to position, in the reversal"
     REVERSAL = "in the reversal, along the axis"
     TIME = "in time, at all positions alike"
     SLOPE = "in time, in proportion to the position"
@@ -61,6 +62,11 @@ class Course(Enum):
         if self is Course.RUNS:
             return Along.RUN
         return Along.TIME if self in _IN_TIME else Along.PLACE
+
+    @property
+    def is_irregular(self) -> bool:
+        """Whether it is another at each position."""
+        return self in {Course.IRREGULAR, Course.IRREGULAR_REVERSAL}
 
 
 _IN_TIME = frozenset({Course.TIME, Course.SLOPE, Course.REVERSAL_IN_TIME})

@@ -28,8 +28,8 @@ from zlmreport.model.fitting.fit import Fit
 
 #: Evidence that what has no name must have, prior odds counted.
 _WORTH_SAYING = 2.5
-#: Share of what is left that a form must follow to be proposed.
-_FOLLOWS = 0.5
+#: Share of what is left that a form must follow to be proposed; of what is irregular, to be that form.
+_FOLLOWS, _IS_THAT = 0.5, 0.9
 #: Strength of a combination of columns, of the largest, below which they depend on each other.
 _DEPENDENT = 1e-9
 #: Of the squares of what is left, how much its place holds; and of what was measured, a stretch that is all.
@@ -69,6 +69,7 @@ class RemainderPart:
     unit: Unit  #: In which both are printed: mm, °, s or readings.
     shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
     size: float  #: Its largest value, with its sign, m or rad.
+    peak: float  #: Where that is, in SI as `low` and `high`.
     course: Course  #: With what it changes.
 
 
@@ -113,9 +114,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
     squares = float(np.sum(fitted.residual**2))
     main, *further = [_describe_part(each, design) for each in shares]
-    # A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
-    limit = found.score + TOLD_APART if main.course is Course.IRREGULAR else np.inf
-    form = shares[0].member or _find_following(search, bare, whole, limit)
+    form = shares[0].member or _choose_following(search, bare, whole, main.course, found.score)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
         share=min(1.0, float(np.sum(whole**2)) / squares) if squares else 0.0,
@@ -125,6 +124,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
         unit=main.unit,
         shape=main.shape,
         size=float(whole[int(np.argmax(np.abs(whole)))]),
+        peak=main.peak,
         formula=_propose_formula(form, design) if form else None,
         course=main.course,
         further=tuple(each for each in further if each.rms > _WORTH_A_WORD * main.rms),
@@ -148,7 +148,8 @@ def _unite_alike(shares: Iterable[_Share], beside: Callable[[FloatArray], FloatA
 
 def _describe_part(share: _Share, design: Design) -> RemainderPart:
     where, low, high, unit = _place(share, design)
-    size = float(share.values[int(np.argmax(np.abs(share.values)))])
+    largest = int(np.argmax(np.abs(share.values)))
+    places = design.position if share.course.along is Along.PLACE else design.time
     return RemainderPart(
         rms=share.rms,
         where=where,
@@ -156,7 +157,8 @@ def _describe_part(share: _Share, design: Design) -> RemainderPart:
         high=high,
         unit=unit,
         shape=share.shape,
-        size=size,
+        size=float(share.values[largest]),
+        peak=float(places[largest]),
         course=share.course,
     )
 
@@ -191,7 +193,7 @@ def _scale_to_one_length(columns: Sequence[FloatArray]) -> FloatArray:
 def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     """Return what one run has that no other has."""
     design, squares = fitted.design, float(np.sum(fitted.residual**2))
-    own = design.time[design.cycle == found.run]
+    own, largest = design.time[design.cycle == found.run], int(np.argmax(np.abs(found.values)))
     return Remainder(
         rms=float(np.linalg.norm(found.values)) / len(found.values) ** 0.5,
         share=min(1.0, float(np.sum(found.values**2)) / squares),
@@ -200,7 +202,8 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
         high=float(own.max()),
         unit=_choose_unit(design, is_time=True),
         shape=found.shape,
-        size=float(found.values[int(np.argmax(np.abs(found.values)))]),
+        size=float(found.values[largest]),
+        peak=float(design.time[largest]),
         formula=None,
         course=Course.RUNS,
     )
@@ -225,6 +228,7 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
         unit=design.axis.position_unit,
         shape=_IRREGULAR,
         size=float(fitted.residual[int(np.argmax(squares))]),
+        peak=widest,
         formula=None,
         course=Course.TARGET,
     )
@@ -263,20 +267,48 @@ def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             yield _Share(explained, part.course, part.shape, None)
 
 
-def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray, limit: float) -> SetMember | None:
-    """Return the form that follows a curve best; None if none follows most of it.
+def _choose_following(
+    search: SetSearch, bare: EffectSet, whole: FloatArray, course: Course, score: float
+) -> SetMember | None:
+    """Return the form that is a start for what is left; None if none is.
 
-    `limit`: The score beyond which it is none that the readings could ask for.
+    A form is a start for what is smooth. What is irregular no form follows, unless it could be that form.
+
+    `score`: Of the set beside which it is left.
     """
+    found = _find_following(search, bare, whole)
+    if found is None or (course.is_irregular and not _may_be_irregular(found, score)):
+        return None
+    return found.member
+
+
+@dataclass(frozen=True, slots=True)
+class _Following:
+    """A form beside a set, and how much of what is left it follows."""
+
+    member: SetMember
+    score: float  #: Of the set with it.
+    share: float  #: Of the squares of what is left.
+
+
+def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> _Following | None:
+    """Return the form that follows a curve best; None if none follows most of it."""
     contest, with_form = search.contest, search.find_best_with_form(bare)
-    if with_form is None or with_form.score > limit:
+    if with_form is None:
         return None
     form = with_form.members[-1]
     columns = form.effect.columns(contest.design, form.theta)
     columns = contest.space.single.undo_whitening(contest.space.of(columns))
     gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
-    left = float(np.sum((whole - columns @ gamma) ** 2))
-    return form if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
+    share = 1.0 - float(np.sum((whole - columns @ gamma) ** 2) / np.sum(whole**2))
+    return _Following(form, with_form.score, share) if share > _FOLLOWS else None
+
+
+def _may_be_irregular(found: _Following, score: float) -> bool:
+    """Return whether what is irregular from position to position may be a form: nothing in time is."""
+    form = found.member.effect
+    is_along_axis = isinstance(form, UnnamedForm) and form.carrier not in IN_TIME
+    return is_along_axis and found.share > _IS_THAT and found.score <= score + TOLD_APART
 
 
 def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:

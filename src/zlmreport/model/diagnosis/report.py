@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
 from typing import Any
 
@@ -11,9 +11,10 @@ import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words, list_alternatives, list_in_words
+from zlmreport.language.numbers import write_share
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.candidate import EffectCandidate
+from zlmreport.model.diagnosis.candidate import Doubt, EffectCandidate, ask_about, find_doubts
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
@@ -51,6 +52,10 @@ _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
     "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
 )
+_ADEQUATE_SO_FAR = Words(
+    "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
+    "noise of {noise}."
+)
 _UNEXPLAINED = Words("Something is left that no installed effect explains.")
 _SHAPE = Words(
     "Something is left that no installed effect explains: {shape}, {where}; root mean square {size}."
@@ -59,10 +64,15 @@ _UNSURE = Words(
     "Something is left that no installed effect explains for sure: {shape}, {where}; root mean square {size}."
 )
 _AND = Words("{shape}, {where}, and {further}")
-_INSTEAD = Words("{statement} At odds of {odds} it is {effects} instead.")
+_SAME_PLACE = Words("{shape}, and {further}")
+_AS_LIKELY = Words("{statement} As likely it is {effects} instead.")
+_MORE_LIKELY = Words("{statement} More likely, at odds of {odds}, it is {effects} instead.")
+_LESS_LIKELY = Words("{statement} Less likely, at odds of {odds}, it is {effects} instead.")
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _TWO = Words("{one} {other}")
+_NOT_SURE = Words("{statement} Not sure: {chances}; else another effect, or something without a name.")
+_CHANCE = Words("{effects} {share} %")
 
 
 def report(
@@ -320,7 +330,7 @@ def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
 def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
     if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
-        return _ADEQUATE
+        return _say_adequate(diagnosis)
     if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
@@ -333,9 +343,15 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     statement = _say_so_far(diagnosis, missing, is_many=is_many)
     if diagnosis.makeshift:
         statement = _GOES.given(statement=statement, effects=list_in_words(diagnosis.makeshift))
+    doubts = find_doubts(diagnosis.candidates, [each.identifier for each in diagnosis.together])
+    if doubts:
+        statement = _NOT_SURE.given(statement=statement, chances=list_chances(doubts))
     for each in diagnosis.together:
-        question = by_name[each.identifier].question
+        candidate = by_name[each.identifier]
+        question = candidate.question
         if question is not None:
+            # What contradicts the job names its effect by itself.
+            question = ask_about(each.identifier, question) if is_many and candidate.is_large else question
             statement = _TWO.given(one=statement, other=question)
     if diagnosis.remainder is not None:
         beside = _describe_remainder(_BESIDE, diagnosis.remainder, diagnosis.fit.design.axis)
@@ -352,6 +368,26 @@ def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Word
     if left is None or not has_steps or last.verdict is not DiagnosisVerdict.UNEXPLAINED:
         return write_verdict_statement(last)
     return _describe_remainder(_BESIDE, left, last.fit.design.axis)
+
+
+def _say_adequate(diagnosis: AxisDiagnosis) -> Words:
+    """Return that nothing is missing; where few readings leave that open, with the error beside noise."""
+    floor, axis = diagnosis.error.noise_rms, diagnosis.fit.design.axis
+    if diagnosis.leaves_noise or floor is None:
+        return _ADEQUATE
+    return _ADEQUATE_SO_FAR.given(
+        error=wording.deviation(axis, diagnosis.error.rms), noise=wording.deviation(axis, floor)
+    )
+
+
+def list_chances(doubts: Iterable[Doubt]) -> Words:
+    """Return effects that are no more than likely in a row, each with its probability."""
+    return list_in_words(
+        [
+            _CHANCE.given(effects=list_alternatives(each.names), share=write_share(each.probability))
+            for each in doubts
+        ]
+    )
 
 
 def _name_group(effect: str, equals: Sequence[str], *, is_many: bool) -> Words:
@@ -402,14 +438,20 @@ def _describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words
     """Return a sentence with what is left, its place and size, and what may stand in its place."""
     size, shape, where = wording.deviation(axis, remainder.rms), remainder.shape, remainder.where
     for each in remainder.further:
-        shape, where = _AND.given(shape=shape, where=where, further=each.shape), each.where
+        is_there = where.in_language(Language.ENGLISH) == each.where.in_language(Language.ENGLISH)
+        if is_there:
+            shape = _SAME_PLACE.given(shape=shape, further=each.shape)
+        else:
+            shape, where = _AND.given(shape=shape, where=where, further=each.shape), each.where
     statement = words.given(shape=shape, where=where, size=size)
     if (instead := remainder.instead) is None:
         return statement
     those, this = (str(max(1, round(each))) for each in (instead.odds, 1.0 / instead.odds))
-    odds = _ODDS.given(those=those, this=this)
     effects = list_in_words([each.identifier for each in instead.effects])
-    return _INSTEAD.given(statement=statement, odds=odds, effects=effects)
+    if those == this:
+        return _AS_LIKELY.given(statement=statement, effects=effects)
+    odds, words = _ODDS.given(those=those, this=this), _MORE_LIKELY if instead.odds > 1.0 else _LESS_LIKELY
+    return words.given(statement=statement, odds=odds, effects=effects)
 
 
 def select_serious_candidates(diagnosis: AxisDiagnosis) -> tuple[EffectCandidate, ...]:

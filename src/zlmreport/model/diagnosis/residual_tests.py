@@ -82,7 +82,7 @@ def examine_signs(residuals: Residuals) -> Failure | None:
         axis=0,
     )
     p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
-    statement = _SIGNS.given(changes=int(found), expected=number_words(float(np.mean(chance)), 1))
+    statement = _SIGNS.given(changes=int(found), expected=number_words(float(np.mean(chance)), 0))
     return Failure(ResidualTest.SIGNS, p_value, _WHOLE_AXIS, statement)
 
 
