@@ -124,7 +124,7 @@ def test_what_goes_out_for_what_comes_in_is_one_stair_with_it() -> None:
 
     def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
         fitted = fit(model, example.fit.design, example.fit.deviation)
-        said = {
+        said: dict[tuple[str, ...], tuple[tuple[str, ...], tuple[str, ...]]] = {
             ("offset", "cosine-error"): (("scale-error",), ("cosine-error",)),
             ("offset", "scale-error"): (("scale-kink",), ("scale-error",)),
         }

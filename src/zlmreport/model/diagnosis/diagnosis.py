@@ -197,7 +197,8 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
         complete, further = _complete(complete, hidden.named, ())
         finding = replace(finding, named=(*named, *further), remainder=hidden.remainder)
         after = compute_error_numbers(complete)
-    if finding.named and finding.remainder and not finding.makeshift and after.rms >= error.rms:
+    # At the sizes that are found: at those that leave least, geometry that it is not hides in any wave.
+    if finding.named and finding.remainder and not finding.makeshift and complete.rms >= fitted.rms:
         step = _choose_next(fitted, finding.named)
         if step is None or step[1].rms >= fitted.rms:
             # Beside what has no name they are so little that nobody could add one and see the error fall.
