@@ -74,11 +74,13 @@ class _Eliminated:
         own = _turn_by_target(sums, self.roots)
         return np.concatenate([own, own @ self.base.T], axis=1)
 
-    def turn_back(self, turned: FloatArray) -> FloatArray:
-        """Return from ã of columns what gives ã·b̃ with the sums of b, b̃ of many never made, shape (k, r)."""
+    def multiply_with_many(self, turned: FloatArray, sums: FloatArray) -> FloatArray:
+        """Return ã·b̃ of few columns a, turned, and of many b, of which the sums do: ã is turned back."""
+        if not self.roots.size:
+            return np.zeros((len(turned), len(sums)))
         count = turned.shape[1] - len(self.base)
         own = turned[:, :count] + turned[:, count:] @ self.base
-        return _turn_by_target(own, self.roots.transpose(0, 2, 1))
+        return np.asarray(_turn_by_target(own, self.roots.transpose(0, 2, 1)) @ sums.T)
 
 
 class Columns:
@@ -189,8 +191,8 @@ class Columns:
     def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: HeldContrasts) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         known = self._of(ratios)
-        less = self._sums[one] @ known.turn_back(known.turn(held.sums)).T
-        return np.asarray(self._values[one] @ held.contrasts - less)
+        less = known.multiply_with_many(known.turn(held.sums), self._sums[one])
+        return np.asarray(self._values[one] @ held.contrasts - less.T)
 
     def multiply_kept_blocks(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
         """Return products of the columns of each of some kept blocks among themselves, shape (g, k, k)."""
@@ -227,7 +229,7 @@ class Columns:
     def _multiply_with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
         kept = slice(0, self._kept)
         rows = self._plain.find_rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
-        less = known.turn_back(self._turn(known, places)) @ self._sums[kept].T
+        less = known.multiply_with_many(self._turn(known, places), self._sums[kept])
         return np.asarray(self._plain.values[rows] - less)
 
     def _multiply_between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
@@ -277,7 +279,10 @@ def _multiply_factors(single: SingleReadings, irregular: Sequence[FloatArray]) -
 
 
 def _turn_by_target(sums: FloatArray, roots: FloatArray) -> FloatArray:
-    """Return R of each target, (m, a, p), times products of columns with its factors, (k, m·p), shape (k, m·a)."""
+    """Return R of each target, (m, a, p), times the products of columns with its factors.
+
+    `sums`: (k, m·p); what is returned is of shape (k, m·a).
+    """
     targets, active, factors = roots.shape
     apart = sums.reshape(len(sums), targets, factors)
     turned = apart.transpose(1, 0, 2) @ roots.transpose(0, 2, 1)
