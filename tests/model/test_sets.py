@@ -8,7 +8,7 @@ import pytest
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.effect_set import EffectSet
+from zlmreport.model.diagnosis.effect_set import EffectSet, make_member
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.random_curves import Course
@@ -375,3 +375,11 @@ def test_two_of_which_neither_explains_anything_alone_are_a_pair() -> None:
 def test_a_single_effect_makes_no_pair() -> None:
     contest = _contest(_hiding(("backlash", [])), effects=(EFFECTS["backlash"],))
     assert list_pairs(contest, SetSearch(contest).make_bare_set()) == []
+
+
+def test_what_a_polynomial_shares_with_the_model_is_no_column_of_a_set() -> None:
+    contest = _contest(noise(DESIGN))
+    family = next(each for each in contest.families if each.identifier == "polynomial")
+    columns = contest.columns.select_columns(make_member(family, 0, 0.0).columns)
+    assert columns.shape[1] == len(family.effect.linear) - 1
+    assert np.linalg.norm(columns, axis=0) == pytest.approx(np.ones(columns.shape[1]))

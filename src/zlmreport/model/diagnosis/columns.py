@@ -61,9 +61,9 @@ class _Eliminated:
     """Irregular shares of given amplitudes, eliminated: products a·b become a·b − ã·b̃."""
 
     log_determinant: float
-    active: IntArray  #: (a,) integer: Those of each target's factors that have a share.
-    roots: FloatArray  #: (m, a, a): R of each target.
+    roots: FloatArray  #: (m, a, p): R of each target, a of its p factors having a share.
     base: FloatArray  #: (q, m·a): The model, what the shares take of it made orthonormal.
+    turned: _Table  #: ã of columns.
     near: _Table  #: Products with the columns of the core.
     kept: _Table  #: Products with all kept columns.
     squares: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of blocks among themselves.
@@ -71,8 +71,16 @@ class _Eliminated:
 
     def turn(self, sums: FloatArray) -> FloatArray:
         """Return ã of columns from their products with the irregular factors, shape (k, m·a + q)."""
-        own = _turn_by_target(sums, self.active, self.roots)
+        own = _turn_by_target(sums, self.roots)
         return np.concatenate([own, own @ self.base.T], axis=1)
+
+    def multiply_with_many(self, turned: FloatArray, sums: FloatArray) -> FloatArray:
+        """Return ã·b̃ of few columns a, turned, and of many b, of which the sums do: ã is turned back."""
+        if not self.roots.size:
+            return np.zeros((len(turned), len(sums)))
+        count = turned.shape[1] - len(self.base)
+        own = turned[:, :count] + turned[:, count:] @ self.base
+        return np.asarray(_turn_by_target(own, self.roots.transpose(0, 2, 1)) @ sums.T)
 
 
 class Columns:
@@ -183,8 +191,8 @@ class Columns:
     def multiply_with(self, ratios: tuple[float, ...], one: IntArray, held: HeldContrasts) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         known = self._of(ratios)
-        less = known.turn(self._sums[one]) @ known.turn(held.sums).T
-        return np.asarray(self._values[one] @ held.contrasts - less)
+        less = known.multiply_with_many(known.turn(held.sums), self._sums[one])
+        return np.asarray(self._values[one] @ held.contrasts - less.T)
 
     def multiply_kept_blocks(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
         """Return products of the columns of each of some kept blocks among themselves, shape (g, k, k)."""
@@ -214,18 +222,24 @@ class Columns:
     def _multiply_with_core(self, known: _Eliminated, places: IntArray) -> FloatArray:
         core = slice(0, self._core)
         rows = self._near.find_rows(places, lambda missing: self._values[missing] @ self._values[core].T)
-        less = known.turn(self._sums[places]) @ known.turn(self._sums[core]).T
+        # The first rows of the table are those of the core.
+        less = self._turn(known, places) @ known.turned.values[core].T
         return np.asarray(self._near.values[rows] - less)
 
     def _multiply_with_all_kept(self, known: _Eliminated, places: IntArray) -> FloatArray:
         kept = slice(0, self._kept)
         rows = self._plain.find_rows(places, lambda missing: self._values[missing] @ self._values[kept].T)
-        less = known.turn(self._sums[places]) @ known.turn(self._sums[kept]).T
+        less = known.multiply_with_many(self._turn(known, places), self._sums[kept])
         return np.asarray(self._plain.values[rows] - less)
 
     def _multiply_between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
-        less = known.turn(self._sums[one]) @ known.turn(self._sums[other]).T
+        less = self._turn(known, one) @ self._turn(known, other).T
         return np.asarray(self._values[one] @ self._values[other].T - less)
+
+    def _turn(self, known: _Eliminated, places: IntArray) -> FloatArray:
+        """Return ã of columns, shape (k, m·a + q)."""
+        rows = known.turned.find_rows(places, lambda missing: known.turn(self._sums[missing]))
+        return known.turned.values[rows]
 
     def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
         if ratios not in self._eliminated:
@@ -235,14 +249,16 @@ class Columns:
     def _eliminate(self, ratios: tuple[float, ...]) -> _Eliminated:
         spread = np.tile(ratios, self._among.shape[1] // (len(ratios) or 1))
         active = np.flatnonzero(spread)
-        roots, logarithm = find_roots_of_blocks(self._among, active, spread[active])
-        base = _turn_by_target(self._base, active, roots)
+        own, logarithm = find_roots_of_blocks(self._among, active, spread[active])
+        roots = np.zeros((len(own), len(active), len(spread)))
+        roots[:, :, active] = own
+        base = _turn_by_target(self._base, roots)
         factor = np.linalg.cholesky(np.eye(len(base)) - base @ base.T)
         known = _Eliminated(
             logarithm + 2.0 * float(np.log(np.diagonal(factor)).sum()),
-            active,
             roots,
             np.linalg.inv(factor) @ base,
+            _Table(np.empty((0, base.shape[1] + len(base)))),
             _Table(np.empty((0, self._core))),
             _Table(np.empty((0, self._kept))),
         )
@@ -262,8 +278,12 @@ def _multiply_factors(single: SingleReadings, irregular: Sequence[FloatArray]) -
     return (whitened.T @ whitened)[np.newaxis]
 
 
-def _turn_by_target(sums: FloatArray, active: IntArray, roots: FloatArray) -> FloatArray:
-    """Return R of each target times the products (k, m·p) of columns with its factors, shape (k, m·a)."""
-    apart = sums.reshape(len(sums), len(roots), sums.shape[1] // len(roots))[:, :, active]
+def _turn_by_target(sums: FloatArray, roots: FloatArray) -> FloatArray:
+    """Return R of each target, (m, a, p), times the products of columns with its factors.
+
+    `sums`: (k, m·p); what is returned is of shape (k, m·a).
+    """
+    targets, active, factors = roots.shape
+    apart = sums.reshape(len(sums), targets, factors)
     turned = apart.transpose(1, 0, 2) @ roots.transpose(0, 2, 1)
-    return turned.transpose(1, 0, 2).reshape(len(sums), len(roots) * len(active))
+    return turned.transpose(1, 0, 2).reshape(len(sums), targets * active)

@@ -22,8 +22,7 @@ class SetMember:
 
     family: Family
     theta: FloatArray  #: (s,): Its searched parameters.
-    columns: IntArray  #: (k,) integer: Places of its columns.
-    rank: int  #: How many of them are not zero.
+    columns: IntArray  #: (k,) integer: Places of its columns, those that are zero left out.
     spread: float = 0.0  #: What it costs that θ had to be found.
     tangents: IntArray | None = None  #: Place of what a shift of θ would change.
 
@@ -32,6 +31,11 @@ class SetMember:
         """By what it is told from other members."""
         tangents = b"" if self.tangents is None else self.tangents.tobytes()
         return id(self.family), self.columns.tobytes(), self.spread, tangents
+
+    @property
+    def rank(self) -> int:
+        """How many columns it has."""
+        return len(self.columns)
 
     @property
     def identifier(self) -> str:
@@ -82,7 +86,7 @@ def make_member(family: Family, block: int, spread: float) -> SetMember:
 
     `spread`: What it costs that these had to be found.
     """
-    return SetMember(family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread)
+    return SetMember(family, family.thetas[block], family.find_columns(block), spread)
 
 
 def find_installed_name(effect: Effect) -> str:

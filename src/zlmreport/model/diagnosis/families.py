@@ -54,6 +54,10 @@ class Family:
         """As jobs name the effect."""
         return self.effect.identifier
 
+    def find_columns(self, block: int) -> IntArray:
+        """Return the places of the columns of a block that are not zero: they come first."""
+        return self.blocks[block, : self.ranks[block]]
+
 
 def list_families_of(
     design: Design,
@@ -104,7 +108,7 @@ def make_orthonormal(
     Returns
     -------
     (N, g, k) array
-        Orthonormal contrasts, zero where columns depend on each other.
+        Orthonormal contrasts, the last of them zero where columns depend on each other.
     (g,) integer array
         Columns that are not zero.
     (g,) integer array

@@ -10,7 +10,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.effect_set import SetMember
+from zlmreport.model.diagnosis.effect_set import SetMember, make_member
 from zlmreport.model.diagnosis.families import make_orthonormal
 from zlmreport.model.diagnosis.forms import JUMPING, PHASES, SAW, UnnamedForm
 from zlmreport.model.diagnosis.likelihood import Amplitudes
@@ -49,20 +49,19 @@ def jump_along_grids(
         if not np.isfinite(scan.criterion[best]):
             continue
         # Where the member stands between the values of its grid it may be better than at the best of them.
-        at_grid = contest.families[own].blocks[int(scan.best[own])]
+        at_grid = contest.families[own].find_columns(int(scan.best[own]))
         on_grid, stands = (
             contest.compute_criterion(amplitudes, [*rest, each]) for each in (at_grid, member.columns)
         )
         refined = float(scan.criterion[own]) + min(0.0, stands - on_grid)
         is_other = scan.criterion[best] < refined - _CLEAR_GAIN
         chosen = best if is_other else own
-        family, block = contest.families[chosen], int(scan.best[chosen])
+        spread = float(scan.spread[chosen])
         if is_other or on_grid < stands - _JUMP:
-            found[number] = SetMember(
-                family, family.thetas[block], family.blocks[block], int(family.ranks[block])
-            )
+            found[number] = make_member(contest.families[chosen], int(scan.best[chosen]), spread)
             has_moved = True
-        found[number] = replace(found[number], spread=float(scan.spread[chosen]))
+        else:
+            found[number] = replace(member, spread=spread)
     return found, has_moved
 
 
@@ -98,7 +97,7 @@ def refine_member(
     most = float(
         contest.explain_blocks(rest, contest.columns.select_columns(member.columns)[:, np.newaxis])[0]
     )
-    best: tuple[FloatArray, int] | None = None
+    best: FloatArray | None = None
     steps = {}
     for column, values in places:
         reach = _find_steps_beside(values, float(theta[column]))
@@ -116,10 +115,9 @@ def refine_member(
             leading = int(np.argmax(explained > (1.0 - _EQUAL) * explained.max()))
             if explained[leading] > (1.0 + _EQUAL) * most:
                 most, theta = float(explained[leading]), tried[seen[leading]]
-                best = blocks[:, leading], int(ranks[leading])
-    columns = member.columns if best is None else contest.columns.add(best[0])
-    rank = member.rank if best is None else best[1]
-    moved = replace(member, theta=theta, columns=columns, rank=rank)
+                best = blocks[:, leading, : ranks[leading]]
+    columns = member.columns if best is None else contest.columns.add(best)
+    moved = replace(member, theta=theta, columns=columns)
     tangents = _find_tangents(
         contest, [*members[:number], moved, *members[number + 1 :]], number, amplitudes, steps
     )

@@ -455,7 +455,7 @@ class SetSearch:
         blocks, ranks, _ = make_orthonormal(
             contest.space, contest.design, effect, theta[np.newaxis], contest.least_visible
         )
-        return SetMember(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
+        return SetMember(family, theta, contest.columns.add(blocks[:, 0, : ranks[0]]))
 
     def renumber(self, found: EffectSet) -> EffectSet:
         """Return a set in which no effect stands for the second time that does not stand there once."""

@@ -19,22 +19,37 @@ class FactorsByTarget:
     def __init__(self, factors: Sequence[FloatArray], readings: int) -> None:
         """Take factors of shape (N, m): a column is zero at all readings of other targets."""
         target = np.argmax(factors[0] != 0, axis=1) if factors else np.zeros(readings, dtype=np.int64)
-        self._target, self._order = target, np.argsort(target, kind="stable")
-        self._starts = np.flatnonzero(np.diff(target[self._order], prepend=-1))
-        self._values = np.array([each.sum(axis=1) for each in factors]).reshape(-1, readings)
+        values = np.array([each.sum(axis=1) for each in factors]).reshape(-1, readings)
+        counts = np.bincount(target)
+        order, ends = np.argsort(target, kind="stable"), np.cumsum(counts)
+        self._shape = len(counts), len(values)
+        # Targets with as many readings, the readings of each, and Zᵀ: (t,), (t, n) and (t, p, n).
+        self._alike = []
+        for count in np.unique(counts):
+            targets = np.flatnonzero(counts == count)
+            own = order[(ends[targets] - count)[:, np.newaxis] + np.arange(count)]
+            self._alike.append((targets, own, np.ascontiguousarray(values[:, own].transpose(1, 0, 2))))
 
     def sum_by_target(self, columns: FloatArray) -> FloatArray:
         """Return Zᵀ times columns over the readings, (N, k), shape (m, p, k)."""
-        products = self._values[:, :, np.newaxis] * columns
-        return np.add.reduceat(products[:, self._order], self._starts, axis=1).transpose(1, 0, 2)
+        found = np.empty((*self._shape, columns.shape[1]))
+        for targets, readings, factors in self._alike:
+            found[targets] = factors @ columns[readings]
+        return found
 
     def compute_gram(self) -> FloatArray:
         """Return ZᵀZ, shape (m, p, p)."""
-        return self.sum_by_target(self._values.T)
+        found = np.empty((*self._shape, self._shape[1]))
+        for targets, _, factors in self._alike:
+            found[targets] = factors @ factors.transpose(0, 2, 1)
+        return found
 
     def spread(self, sizes: FloatArray) -> FloatArray:
         """Return Z times sizes, (m, p, k), shape (N, k)."""
-        return np.asarray(np.sum(self._values.T[:, :, np.newaxis] * sizes[self._target], axis=1))
+        found = np.empty((sum(readings.size for _, readings, _ in self._alike), sizes.shape[2]))
+        for targets, readings, factors in self._alike:
+            found[readings] = factors.transpose(0, 2, 1) @ sizes[targets]
+        return found
 
 
 def find_roots_of_blocks(among: FloatArray, active: IntArray, ratios: FloatArray) -> tuple[FloatArray, float]:
