@@ -139,6 +139,15 @@ def test_what_is_there_in_the_middle_alone_comes_and_goes() -> None:
     assert float(after.split(" µm")[0]) == pytest.approx(3.0, abs=0.3)
 
 
+def test_what_moves_while_each_target_is_visited_has_no_size_over_the_test() -> None:
+    """In each third of the test stand all repeats of its targets: their mean is nought, but for rounding."""
+    design = pendulum_test(targets=21, runs=5)
+    first = 4e-6 * np.exp(-(design.run - 1.0))
+    found = _tests(first, design=design)[ResidualTest.TIME_ORDER]
+    assert found.p_value < 0.005
+    assert _english(found).endswith("alike: something moves while a target is visited again and again")
+
+
 def test_a_wave_is_no_larger_than_what_was_seen_of_it() -> None:
     # Of a straight line on eleven targets a wave of nearly two distances describes most, and is far larger.
     design = pendulum_test(11, 5)

@@ -28,6 +28,8 @@ _CONTRADICTS = 0.01
 #: Probability, with that of its equals, below which an effect that is named is no more than likely; and what
 #: share of it a rival must have to be told beside it.
 _SURE, _NEARLY = 2 / 3, 0.5
+#: Share of the misfit below which nothing but rounding is explained.
+_ROUNDING = 1e-9
 
 _ASKED_ABOUT = Words("{effect}, {question}")
 _EXPLAINS = Words("explains {share} % of what the noise leaves open")
@@ -237,8 +239,8 @@ def _share(
     open_before, open_after = (
         fitted.degrees * (error.rms**2 - floor**2) for fitted, error in (before, after)
     )
-    open_after = max(0.0, open_after)
-    return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
+    share = 1.0 - max(0.0, open_after) / open_before if open_before > 0 else 1.0
+    return share if share > _ROUNDING else 0.0
 
 
 def _say_explains(before: float, after: float, share: float | None, axis: Axis) -> Words:

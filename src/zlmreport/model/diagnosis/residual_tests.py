@@ -190,6 +190,9 @@ _COMES_BACK = Words(
     "repeats that follow one another deviate alike: something comes and goes with time, by {size} from one "
     "third of the test to another"
 )
+_WHILE_VISITED = Words(
+    "repeats that follow one another deviate alike: something moves while a target is visited again and again"
+)
 _REPEATS = Words("the residual repeats every {period}")
 _ALONG_THE_AXIS = Words("along the whole axis, amplitude {size}")
 _DURING_THE_TEST = Words("during the whole test, amplitude {size}")
@@ -197,6 +200,8 @@ _WHOLE_TEST = Words("during the whole test")
 
 #: Times by which the thirds of a test differ more than the last from the first, that something came back.
 _BACK = 2.0
+#: Share of the scatter below which what moves is rounding: where each third has all repeats of its targets.
+_ROUNDING = 1e-6
 _FEWEST_PERIODS = 1.3
 _STEPS_PER_PERIOD = 4
 _MOST_PERIODS = 200
@@ -219,8 +224,11 @@ def examine_time_order(residuals: Residuals) -> Failure | None:
     parts = np.split(within.centred, [third, len(within.centred) - third])
     thirds = [float(each.mean()) for each in parts if each.size]
     moved, widest = thirds[-1] - thirds[0], max(thirds) - min(thirds)
-    words, size = (_COMES_BACK, widest) if widest > _BACK * abs(moved) else (_TIME_ORDER, moved)
-    statement = words.given(size=wording.deviation(residuals.design.axis, size))
+    if widest < _ROUNDING * float(np.std(within.centred)):
+        statement = _WHILE_VISITED
+    else:
+        words, size = (_COMES_BACK, widest) if widest > _BACK * abs(moved) else (_TIME_ORDER, moved)
+        statement = words.given(size=wording.deviation(residuals.design.axis, size))
     return Failure(ResidualTest.TIME_ORDER, p_value, _WHOLE_TEST, statement)
 
 
