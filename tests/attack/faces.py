@@ -20,7 +20,7 @@ from verification.altering import rewritten
 from verification.forgeries import plain
 from verification.issued import LABORATORY, issue, lay_out, registry
 from verification.remembered import remembering
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.readers import READERS, Reader, Seen, read_as_seen_by, remove_leads

@@ -13,7 +13,7 @@ from processes import ZLMREPORT, run, started
 from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.emulate import make_axis_of
-from zlmreport.live.emulation.emulator import Trouble
+from zlmreport.plugin.instrument import Trouble
 from zlmreport.plugin.registry import find_plugins
 
 

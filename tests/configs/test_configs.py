@@ -19,15 +19,13 @@ from document.typesetting import samples
 from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.cli import main
-from zlmreport.document.blocks import Notice, Paragraph, Section
 from zlmreport.document.certificate.build import build
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.files import write
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin.renderer import Certificate, Notice, Paragraph, Section
 
 CONFIGS = ROOT / "configs"
 #: The jobs of the fleet have tests of their own.

@@ -10,9 +10,9 @@ import pytest
 from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.evaluation.evidence import find_evidence
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import Registry, find_plugins
 
 CONFIGS = ROOT / "configs"

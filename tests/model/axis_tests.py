@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.model.effects.axis_model import AxisModel, Term
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.observations import Observations
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design, Effect
 from zlmreport_plugins.effects import zlmreport_effects
 from zlmreport_plugins.effects.polynomial import Polynomial
 

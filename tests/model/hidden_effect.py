@@ -8,10 +8,10 @@ from pathlib import Path
 
 from environments import ROOT
 from zlmreport import pipeline
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.study import Fitted, Study
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import Registry, find_plugins
 
 CONFIG = ROOT / "configs" / "hidden-effect"

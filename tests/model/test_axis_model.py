@@ -10,13 +10,12 @@ import pytest
 
 from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
-from zlmreport.errors import Place
 from zlmreport.job.effect_choices import EffectChoice
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.axis_model import AxisModel, Term, choose_terms, refuse_collisions
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import AxisKind, Place
 from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(targets=7, runs=3)

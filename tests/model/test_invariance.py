@@ -21,11 +21,11 @@ from model.axis_tests import (
     observations,
 )
 from model.hidden_effect import study
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.believing import MENTION
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Effect
 from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(13, 4)

@@ -10,11 +10,11 @@ import pytest
 from model.axis_tests import EFFECTS
 from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, list_in_words, same
-from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.report import write_verdict_statement
+from zlmreport.plugin import MILLIMETRE
 
 LEFT = Remainder(
     rms=1.234e-6,

@@ -8,10 +8,9 @@ from dataclasses import replace
 import pytest
 
 from model.axis_tests import AXIS, linear_test
-from zlmreport.language import Language
 from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.effects import wording
+from zlmreport.plugin import Axis, AxisKind, Language
 
 DESIGN = linear_test()
 ROTARY = Axis("C", kind=AxisKind.ROTARY)

@@ -10,7 +10,7 @@ import pytest
 
 from document.certificate.documents import certificate
 from plugins.renderers.test_dcc import KEYS
-from zlmreport.errors import AccessError
+from zlmreport.plugin import AccessError
 from zlmreport.verification.attached import check_digital_certificates
 from zlmreport.verification.findings import VerificationVerdict
 from zlmreport_plugins.renderers.dcc import DccRenderer

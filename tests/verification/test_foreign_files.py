@@ -26,7 +26,7 @@ from pypdf.generic import (
 
 from verification.altering import descendant, every_font, rewritten, with_program
 from verification.issued import JOB, altered, content_of, registry, specification, with_results, with_source
-from zlmreport.errors import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification.findings import CheckedCertificate
 from zlmreport.verification.verify import verify

@@ -18,7 +18,7 @@ from zlmreport.cli import main
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
 Verify = Callable[[bytes], CheckedCertificate]

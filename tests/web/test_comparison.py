@@ -14,8 +14,8 @@ from starlette.testclient import TestClient
 from web.browsers import enter
 from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.web.app import Workbench
 
 #: What the other test reads more at a target upwards and downwards, in µm.

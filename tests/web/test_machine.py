@@ -14,8 +14,7 @@ from starlette.testclient import TestClient
 from environments import ROOT
 from web.browsers import enter, pass_by
 from web.jobs import registry
-from zlmreport.errors import InputError
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
 from zlmreport.web.machine_app import MachineWorkbench
 from zlmreport.web.machine_bench import MachineBench

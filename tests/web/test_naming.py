@@ -7,7 +7,7 @@ from starlette.testclient import TestClient
 
 from processes import awaited
 from web.jobs import registry
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.web.naming import Naming
 
 

@@ -23,16 +23,14 @@ from web.jobs import EXAMPLE, registry
 from zlmreport import pipeline
 from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
 from zlmreport.document.writer import NOTHING
-from zlmreport.evaluation.evaluation import Arithmetic
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.language import Language, same
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.design import place_at_positions
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.estimate import Plausibility
+from zlmreport.plugin import Approach, Language, same_in_all_languages as same
+from zlmreport.plugin.effect import Effect
+from zlmreport.plugin.standard import Arithmetic, PositionStatistics
 from zlmreport.web.app import Workbench
 from zlmreport.web.panels import collect_parameter
 from zlmreport.web.texts import TEXTS

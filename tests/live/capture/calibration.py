@@ -14,12 +14,11 @@ from live.capture.virtual import PORT, World, inhabited
 from zlmreport.cli import main
 from zlmreport.job.simulation import load_simulation
 from zlmreport.live.capture.events import Event, Recorded
-from zlmreport.live.capture.journal import History, read_history
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.files import read_description_of
 from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
 from zlmreport.plugin import Options
-from zlmreport.plugin.instrument import Scene
+from zlmreport.plugin.instrument import JournalHistory, Scene, read_journal
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.plugin.standard import evaluate
 
@@ -117,7 +116,7 @@ class Calibration:
     """
 
     machine: EmulatedMachine
-    history: History
+    history: JournalHistory
     parameters: dict[str, float]
 
     @property
@@ -169,7 +168,7 @@ def calibration(
     with inhabited(World(emulator, machine.duration + _LEAD, line)):
         assert main(["capture", str(job)]) == 0
     assert main([str(job), "--quiet"]) == 0
-    history = read_history(folder / "x.journal")
+    history = read_journal(folder / "x.journal")
     assert history is not None
     results = json.loads((folder / "out" / "E-1.json").read_text(encoding="utf-8"))
     (evaluation,) = results["evaluations"]

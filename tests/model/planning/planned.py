@@ -6,10 +6,10 @@ from functools import cache
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
 from zlmreport.model.planning.visibility import SeenEffect
+from zlmreport.plugin.extension import Job
 from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins import effects, part_programs
 from zlmreport_plugins.renderers import json_results

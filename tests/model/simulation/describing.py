@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import Description
+from zlmreport.plugin import Axis
 from zlmreport_plugins.effects import zlmreport_effects
 
 EFFECTS = {effect.identifier: effect for effect in zlmreport_effects()}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.files import read_description_of

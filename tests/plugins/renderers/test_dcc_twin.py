@@ -16,10 +16,16 @@ from pypdf import PdfReader
 from document.certificate.documents import certificate, having
 from document.certificate.everything import EVERYTHING, write_tables
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
-from zlmreport.evaluation.evaluation import compare_parameters
 from zlmreport.plugin import Axis, AxisKind, InputError, MeasurementSet, Place
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugin.renderer import Certificate, Facts, Notice, Paragraph, Table
+from zlmreport.plugin.renderer import (
+    Certificate,
+    Facts,
+    Notice,
+    Paragraph,
+    Table,
+    changes,
+)
 from zlmreport_plugins.renderers.dcc import DccRenderer
 from zlmreport_plugins.renderers.dcc.source import DccSource
 from zlmreport_plugins.renderers.pdf import PdfRenderer
@@ -166,7 +172,7 @@ def test_the_changes_from_as_found_to_as_left_stand_with_their_uncertainty(both)
         for each in root.iterfind(".//dcc:results/dcc:result", NAMES)
         if "as left − as found" in "".join(each.find("dcc:name", NAMES).itertext())
     ]
-    expected = compare_parameters(made.evaluations_as_found[0], made.evaluations[0])
+    expected = changes(made.evaluations_as_found[0], made.evaluations[0])
 
     for path, values in (
         ("si:value", [each.value for each in expected]),

@@ -8,9 +8,8 @@ import pytest
 from plugins.standards.iso230_1.lines import evaluated, hp, line, together, values
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.machines.kinematics import Chain, deviation
-from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.measurement_set import join_lines
-from zlmreport.plugin import Axis, Language
+from zlmreport.plugin import Axis, Language, error_named
 from zlmreport.plugin.extension import Acts
 from zlmreport.plugin.standard import evaluate
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
@@ -91,7 +90,7 @@ def test_lines_that_do_not_meet_are_told() -> None:
 
 
 def test_the_square_tilts_the_second_line_by_its_uncertainty() -> None:
-    standard = Iso230Part1(find_error_named("C0Y"))
+    standard = Iso230Part1(error_named("C0Y"))
     lines = together("C0Y", x=line("EYX", *hp(1)), y=line("EXY", *hp(2)))
     options = standard.options.model_validate({"square": {"error": 0, "expanded_uncertainty": 0.5}})
     ((name, (found,)),) = standard.contributions(lines, options).items()
