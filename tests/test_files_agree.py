@@ -7,7 +7,8 @@ from io import BytesIO
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, job
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import fixed_number
 from zlmreport.plugin.renderer import rounded_pair

@@ -16,9 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from attack.structure import drawn
+from installed import registry
 from verification.altering import rewritten
 from verification.forgeries import plain
-from verification.issued import LABORATORY, issue, lay_out, registry
+from verification.issued import LABORATORY, issue, lay_out
 from verification.remembered import remembering
 from zlmreport import ZlmreportError
 from zlmreport.verification import table

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from installed import registry
 from verification.issued import (
     LABORATORY,
     READINGS,
     issue,
     lay_out,
-    registry,
     with_attachment,
     with_results,
 )

@@ -12,8 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from document.certificate.documents import registry, text_of
+from document.certificate.documents import text_of
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.document.certificate.information import check_information
 from zlmreport.evaluation import likely_units, traceability

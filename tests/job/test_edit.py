@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport import ZlmreportError
 from zlmreport.job.edit import Edit, edit_effects, read_named_effect
 from zlmreport.job.loading import load

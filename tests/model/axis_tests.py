@@ -15,7 +15,6 @@ from zlmreport.model.fitting.observations import Observations
 from zlmreport.plugin import FloatArray
 from zlmreport.plugin.effect import Design, Effect
 from zlmreport_plugins.effects import zlmreport_effects
-from zlmreport_plugins.effects.polynomial import Polynomial
 
 EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
 INSTALLED = tuple(EFFECTS.values())
@@ -77,7 +76,7 @@ def formula(text: str, **parameters: Any) -> FormulaEffect:
 
 
 #: What the tests take for granted of an axis: a cubic and backlash.
-USUAL = model_of(Polynomial(3), "backlash")
+USUAL = model_of("polynomial", "backlash")
 
 
 def noise(design: Design, seed: int = 2, sigma: float = SIGMA) -> FloatArray:

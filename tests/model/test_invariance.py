@@ -26,10 +26,9 @@ from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict,
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.plugin import FloatArray
 from zlmreport.plugin.effect import Effect
-from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(13, 4)
-MODEL = model_of(Polynomial(3), "backlash")
+MODEL = model_of("polynomial", "backlash")
 READINGS = known(DESIGN) + noise(DESIGN) + hidden(DESIGN, "screw-pitch", [0.01], size=1.5)
 
 
@@ -96,7 +95,7 @@ def test_readings_of_the_other_sign_give_the_same_names() -> None:
 
 
 def test_the_order_of_the_model_changes_nothing() -> None:
-    _is_like(_diagnosis(model=model_of("backlash", Polynomial(3))), _usual())
+    _is_like(_diagnosis(model=model_of("backlash", "polynomial")), _usual())
 
 
 def test_the_order_in_which_effects_are_installed_changes_nothing() -> None:

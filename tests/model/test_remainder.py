@@ -30,7 +30,6 @@ from zlmreport.model.fitting.fit import Assumptions, fit
 from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
-from zlmreport_plugins.effects.polynomial import Polynomial
 
 BASE = model_of("offset", "scale-error", "backlash")
 DESIGN = linear_test()
@@ -113,7 +112,7 @@ def test_the_formula_takes_it_away_when_it_is_tried(name: str) -> None:
     assert left is not None
     tried = FormulaEffect(_formula(left), AxisKind.LINEAR)
     deviation = known(DESIGN) + noise(DESIGN) + CASES[name]()
-    fitted = fit(model_of(Polynomial(3), "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
+    fitted = fit(model_of("polynomial", "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
     assert fitted.rms < 1.15 * SIGMA
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from verification.issued import lay_out, registry
+from installed import registry
+from verification.issued import lay_out
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError

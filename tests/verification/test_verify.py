@@ -13,6 +13,7 @@ from fontTools.ttLib import TTFont
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import DecodedStreamObject, DictionaryObject, FloatObject, NameObject, TextStringObject
 
+from installed import registry
 from verification.issued import (
     JOB,
     LABORATORY,
@@ -23,7 +24,6 @@ from verification.issued import (
     issue,
     lay_out,
     page_with,
-    registry,
     specification,
     with_attachment,
     with_digit,

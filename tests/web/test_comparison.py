@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from web.browsers import enter
-from web.jobs import EXAMPLE, registry
+from web.jobs import EXAMPLE
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError

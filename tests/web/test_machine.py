@@ -12,8 +12,8 @@ import pytest
 from starlette.testclient import TestClient
 
 from environments import ROOT
+from installed import registry
 from web.browsers import enter, pass_by
-from web.jobs import registry
 from zlmreport.plugin import InputError, Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
 from zlmreport.web.machine_app import MachineWorkbench

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from processes import awaited
-from web.jobs import registry
 from zlmreport.plugin import Language
 from zlmreport.web.naming import Naming
 

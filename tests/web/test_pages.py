@@ -15,11 +15,12 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from model.hidden_effect import example, example_diagnosis
 from processes import PATIENCE, awaited
 from testing.exemplary import ExemplaryStandard
 from web.browsers import enter
-from web.jobs import EXAMPLE, registry
+from web.jobs import EXAMPLE
 from zlmreport import pipeline
 from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
 from zlmreport.document.writer import NOTHING

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, job as job_of, registry
+from document.certificate.documents import COMPLETE, job as job_of
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import same_in_all_languages
 from zlmreport.plugin.extension import Acts, Job

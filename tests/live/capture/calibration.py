@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+from installed import registry
 from live.capture.virtual import PORT, World, inhabited
 from zlmreport.cli import main
 from zlmreport.job.simulation import load_simulation
@@ -19,7 +19,6 @@ from zlmreport.model.simulation.files import read_description_of
 from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
 from zlmreport.plugin import Options
 from zlmreport.plugin.instrument import JournalHistory, Scene, read_journal
-from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.plugin.standard import evaluate
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it
@@ -139,12 +138,6 @@ class Calibration:
         """Return the parameters of the standard for what the axis really did, m."""
         found = evaluate(registry().standard(STANDARD), self.machine.truth, Options(), {})
         return {each.quantity.symbol: each.value for each in found.parameters}
-
-
-@cache
-def registry() -> Registry:
-    """Return the installed plugins."""
-    return find_plugins()
 
 
 def calibration(

@@ -16,6 +16,7 @@ from jsonschema import Draft202012Validator
 
 from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
+from installed import registry
 from model.hidden_effect import example_diagnosis
 from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.measurement.provenance import Exclusion
@@ -24,13 +25,12 @@ from zlmreport.plugin.extension import Acts, Distribution, with_uncertainty
 from zlmreport.plugin.renderer import Budget, Certificate, NoBudget
 from zlmreport.plugin.source import SourceFile
 from zlmreport.plugin.standard import decided, decision_rule
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 
 
 def render(certificate: Certificate) -> Any:
-    return json.loads(JsonResultsRenderer().render(certificate), parse_constant=_refuse)
+    return json.loads(registry().renderer("json").render(certificate), parse_constant=_refuse)
 
 
 def _refuse(constant: str) -> None:
@@ -292,7 +292,7 @@ def test_any_text_comes_out_as_it_went_in(title: str) -> None:
 
 
 def test_it_is_the_same_twice() -> None:
-    assert JsonResultsRenderer().render(samples.certificate()) == JsonResultsRenderer().render(
+    assert registry().renderer("json").render(samples.certificate()) == registry().renderer("json").render(
         samples.certificate()
     )
 

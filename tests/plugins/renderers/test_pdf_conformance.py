@@ -12,6 +12,7 @@ from pypdf import PdfReader
 
 from document.typesetting import samples
 from environments import ROOT
+from installed import registry
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import sample
 from zlmreport import pipeline
@@ -19,7 +20,6 @@ from zlmreport.job.loading import load
 from zlmreport.plugin import Language
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 
 def _with_logo() -> Certificate:
@@ -48,7 +48,7 @@ _CERTIFICATES = {
 
 @pytest.mark.parametrize("made", _CERTIFICATES.values(), ids=_CERTIFICATES)
 def test_it_conforms(made) -> None:
-    assert complaints(PdfRenderer().render(made())) == []
+    assert complaints(registry().renderer("pdf").render(made())) == []
 
 
 @pytest.mark.long
@@ -73,7 +73,7 @@ def test_its_number_and_language_are_metadata() -> None:
 
 
 def test_metadata_can_be_read_without_unpacking_the_file() -> None:
-    content = PdfRenderer().render(samples.certificate(standards=0))
+    content = registry().renderer("pdf").render(samples.certificate(standards=0))
     assert b"<pdfuaid:part>1</pdfuaid:part>" in content
 
 

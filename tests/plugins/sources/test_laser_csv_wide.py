@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from plugins.sources.reading import File, assert_same_readings, said
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, MeasurementSet
-from zlmreport_plugins.sources.laser_csv import LaserCsv
 from zlmreport_plugins.sources.laser_csv.options import run_and_direction
 
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
@@ -19,11 +16,6 @@ LONG = (
     "0,+,1,1\n100,+,1,5\n100,-,1,6\n0,-,1,2\n0,+,2,3\n100,+,2,7\n100,-,2,8\n0,-,2,4\n"
 )
 ROWS = "0,1,2,3,4\n100,5,6,7,8\n"
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> File:
-    return File(LaserCsv(), tmp_path / "x.csv")
 
 
 def wide(file: File, content: str, **keys: object) -> MeasurementSet:

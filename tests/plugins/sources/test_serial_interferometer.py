@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from installed import registry
 from live.capture.moves import MM, UM, Axis, listed, planned
 from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
@@ -18,7 +19,6 @@ from zlmreport.model.planning.methods import Method
 from zlmreport.plugin import AccessError, Approach, InputError, Language, MeasurementSet
 from zlmreport.plugin.instrument import CaptureEnded, CaptureResumed, Fault
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 
 #: The last reading before an axis is quite there may be among the hundred of a mean, m.
 ARRIVAL = 1 * UM / 100
@@ -26,7 +26,7 @@ LINEAR = DATA / "sources" / "linear.journal"
 
 
 def read(journal: Path, name: str = "X") -> MeasurementSet:
-    source = SerialInterferometer()
+    source = registry().source("serial-interferometer")
     options = source.options.model_validate({"journal": journal})
     return source.read(options, SourceContext(axes.Axis(name), JOB))
 

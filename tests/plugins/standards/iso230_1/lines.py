@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from installed import registry
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import Axis, Evaluation, MeasurementSet, error_named
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 
 _HP = Path(__file__).parents[3] / "data" / "straightness" / "hp_5528a.csv"
 
@@ -51,7 +51,7 @@ def hp(axis: int) -> tuple[list[float], list[float]]:
 def evaluated(measurements: MeasurementSet, **keys: Any) -> Evaluation:
     """Evaluate a measured line, or what follows from several."""
     axis = measurements.axis
-    standard = Iso230Part1(error_named(axis.error))
+    standard = registry().standard("iso230-1:2012").of_error(error_named(axis.error))
     return evaluate(standard, measurements, standard.options.model_validate(keys), {})
 
 
