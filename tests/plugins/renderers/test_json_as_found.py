@@ -11,9 +11,9 @@ import jsonschema
 import pytest
 
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import find_plugins
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}
@@ -29,8 +29,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
         "certificate: {number: EXAMPLE-1, amends: {number: EXAMPLE-0, kind: replacement, "
         "reason: Wrong serial number.}}\n"
     )
-    registry = find_plugins()
-    certificate = pipeline.compose(load(path, registry), registry)
+    certificate = pipeline.compose(load(path, registry()), registry())
     return json.loads(registry().renderer("json").render(certificate))
 
 

@@ -18,7 +18,6 @@ from plugins.renderers.pdf_pages import sample
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import Language
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Certificate
 
 
@@ -53,9 +52,8 @@ def test_it_conforms(made) -> None:
 
 @pytest.mark.long
 def test_a_certificate_with_a_diagnosis_conforms() -> None:
-    registry = find_plugins()
-    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry, formats=("pdf",))
-    (document,) = pipeline.run(loaded, registry).documents
+    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry(), formats=("pdf",))
+    (document,) = pipeline.run(loaded, registry()).documents
     assert complaints(document.content) == []
 
 

@@ -255,7 +255,7 @@ def test_a_radius_in_metres_is_read_in_metres(file: File) -> None:
 
 @pytest.mark.parametrize(("way", "sense"), [(1, "ccw"), (-1, "cw")])
 def test_a_turn_that_names_no_sense_is_known_by_its_radial_deviations(
-    tmp_path: Path, way: int, sense: str
+    file: File, tmp_path: Path, way: int, sense: str
 ) -> None:
     path = tmp_path / "run.csv"
     turn = [f"{(way * step * 10) % 360},{math.cos(step):.3f}" for step in range(36)]
@@ -265,7 +265,7 @@ def test_a_turn_that_names_no_sense_is_known_by_its_radial_deviations(
     assert found.circle is not None
 
 
-def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
+def test_angles_of_a_rotary_axis_are_no_circle(file: File, tmp_path: Path) -> None:
     path = tmp_path / "rotary.csv"
     path.write_text("angle,deviation\n" + "".join(f"{10 * n},{n}\n" for n in range(36)), encoding="utf-8")
     assert not list(file.source.proposals(path))
@@ -280,7 +280,7 @@ def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
     ],
 )
 def test_a_table_that_tells_nothing_of_a_circle_is_looked_at_without_a_warning(
-    tmp_path: Path, rows: str
+    file: File, tmp_path: Path, rows: str
 ) -> None:
     path = tmp_path / "empty.csv"
     path.write_text(rows, encoding="utf-8")

@@ -57,7 +57,7 @@ def test_feet_that_are_in_another_unit_are_told(file: File, foot: float) -> None
 
 
 @pytest.mark.parametrize("foot", [0, -100, "four inches"])
-def test_feet_that_are_no_distance_are_refused(foot: object) -> None:
+def test_feet_that_are_no_distance_are_refused(file: File, foot: object) -> None:
     with pytest.raises(ValueError, match="foot"):
         file.source.options.model_validate({"file": "plate.csv", "foot": foot})
 
@@ -72,7 +72,7 @@ def test_a_job_on_something_else_is_told_how_lines_are_named(file: File) -> None
     assert "name the lines as tests" in file.complaint(PLATE, Axis("X"), foot=100)
 
 
-def test_the_lines_of_a_file_are_proposed_and_what_it_cannot_say_is_asked() -> None:
+def test_the_lines_of_a_file_are_proposed_and_what_it_cannot_say_is_asked(file: File) -> None:
     (proposal,) = file.source.proposals(ROOT / "configs" / "flatness" / "plate.csv")
     assert set(proposal.tests) == set(LINES)
     assert proposal.keys == {"foot": 100}
