@@ -57,6 +57,10 @@ def test_the_page_is_xml_as_well_and_its_values_are_there() -> None:
     assert json.loads(values.text)["graphs"] == graphs().graphs
 
 
+def test_the_page_has_words_for_a_single_reading() -> None:
+    assert graphs().texts["chosenOne"] == "1 reading chosen"
+
+
 def test_the_page_names_no_address_elsewhere() -> None:
     addresses = set(re.findall(r"https?://[^\s\"'<>)]+", "".join(scripts(page()))))
     assert addresses <= {"http://www.w3.org/2000/svg"}

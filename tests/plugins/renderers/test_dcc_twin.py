@@ -27,7 +27,6 @@ from zlmreport.plugin.renderer import (
     Table,
     changes,
 )
-from zlmreport_plugins.renderers.dcc.source import DccSource
 
 STATED: Mapping[str, Any] = {
     **EVERYTHING,
@@ -202,7 +201,7 @@ def read_back(
 ) -> MeasurementSet:
     path = folder / "certificate.xml"
     path.write_bytes(registry().renderer("dcc").render(made))
-    source = DccSource()
+    source = registry().source("dcc")
     options = source.options.model_validate({"file": path, "state": state})
     return source.read(options, SourceContext(Axis("Y", AxisKind(kind)), Place("job.yaml", 1, 1)))
 
@@ -273,7 +272,7 @@ def test_an_axis_of_another_kind_is_refused_with_the_cure(tmp_path):
 def test_what_is_no_dcc_is_refused(content, message, tmp_path):
     path = tmp_path / "x.xml"
     path.write_text(content)
-    source = DccSource()
+    source = registry().source("dcc")
     with pytest.raises(InputError, match=message):
         source.read(
             source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))
@@ -295,7 +294,7 @@ def test_columns_that_do_not_fit_are_named(old, new, message, tmp_path):
     content = registry().renderer("dcc").render(made).decode()
     assert old in content
     path.write_text(content.replace(old, new))
-    source = DccSource()
+    source = registry().source("dcc")
     with pytest.raises(InputError, match=message):
         source.read(
             source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))
