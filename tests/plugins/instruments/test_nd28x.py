@@ -8,9 +8,8 @@ from installed import registry
 from plugins.instruments.exchanges import dialogue
 from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
-from zlmreport.plugin.instrument import Fault, Scene, Trouble
+from zlmreport.plugin.instrument import Emulator, Fault, Scene, Trouble
 from zlmreport_plugins.instruments import nd28x as spoken
-from zlmreport_plugins.instruments.nd28x import Nd28xEmulator
 
 _UNITS = {
     "mm": spoken.PrintedUnit.MILLIMETRE,
@@ -19,10 +18,10 @@ _UNITS = {
 }
 
 
-def _at(millimetres: float, *troubles: Trouble) -> Nd28xEmulator:
+def _at(millimetres: float, *troubles: Trouble) -> Emulator:
     """Return a display at a position, of which something goes wrong after a second."""
     planned = Troubles([Planned(trouble, 1.0) for trouble in troubles])
-    return Nd28xEmulator(Scene(MovingAxis((millimetres / 1e3,)), planned))
+    return registry().instrument("nd28x").emulator(Scene(MovingAxis((millimetres / 1e3,)), planned))
 
 
 @pytest.mark.parametrize(("host", "display", "says"), dialogue())

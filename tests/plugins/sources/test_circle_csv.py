@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from installed import registry
 from plugins.sources.reading import MM, UM, File, said
 from zlmreport.looking import look_at
 from zlmreport.plugin import CIRCLE, Axis, InputError, NominalCircle
-from zlmreport.plugin.registry.find import find_plugins
 
 #: Radius 150 mm, feed 1000 mm/min.
 XY = Axis("XY", quantity=CIRCLE, circle=NominalCircle("XY", 0.15, 1 / 60))
@@ -292,4 +292,4 @@ def test_deviations_in_a_column_of_radii_are_told_from_radii(tmp_path: Path) -> 
     turn = [f"ccw,1,{angle},{0.01 + angle / 1e6:.6f}" for angle in range(0, 360, 10)]
     path.write_text("\n".join(["sense,run,angle,radius", *turn]) + "\n", encoding="utf-8")
     with pytest.raises(InputError, match="are they deviations, or is a unit wrong"):
-        look_at(path, find_plugins({}))
+        look_at(path, registry())
