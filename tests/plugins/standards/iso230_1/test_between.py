@@ -7,7 +7,6 @@ import pytest
 
 from installed import registry
 from plugins.standards.iso230_1.lines import evaluated, hp, line, together, values
-from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.machines.kinematics import Chain, deviation
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import Axis, Language, error_named
@@ -98,4 +97,3 @@ def test_the_square_tilts_the_second_line_by_its_uncertainty() -> None:
     assert name == "y"
     assert found.acts is Acts.ALONG_THE_LENGTH
     assert found.standard_uncertainty == pytest.approx(0.25 * ARCSECOND * 0.45)
-    assert join_budgets({}, (), ["square"]).missing == ("square",)
