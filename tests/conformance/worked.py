@@ -10,8 +10,8 @@ import numpy as np
 
 from plugins.standards.oracle import evaluated_plainly
 from plugins.standards.test_iso230_4 import circle_of_the_note
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
-from zlmreport.plugin import CIRCLE, STRAIGHTNESS, Axis, NominalCircle, measurands_of
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import CIRCLE, STRAIGHTNESS, Axis, MeasurementSet, NominalCircle, measurands_of
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing import WorkedExample, bidirectional_test
 

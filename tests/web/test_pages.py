@@ -23,7 +23,6 @@ from web.browsers import enter
 from web.jobs import EXAMPLE
 from zlmreport import pipeline
 from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
-from zlmreport.document.writer import NOTHING
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
@@ -123,7 +122,7 @@ def test_a_standard_by_positions_is_forecast_by_the_positions_of_the_test(
     standard = Sloping()
     monkeypatch.setattr(pipeline, "choose_standards", lambda *_: [(standard, standard.options())])
     for row in browser.get("/api/results").json()["standards"][0]["rows"]:
-        assert NOTHING not in {row["value"], row["by_table"], row["by_model"]}
+        assert "–" not in {row["value"], row["by_table"], row["by_model"]}
 
 
 @pytest.mark.parametrize(

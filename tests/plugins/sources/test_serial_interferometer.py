@@ -13,10 +13,9 @@ from live.capture.moves import MM, UM, Axis, listed, planned
 from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
 from zlmreport.live.capture.journal import Journal
-from zlmreport.measurement import axis as axes
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.model.planning.methods import Method
-from zlmreport.plugin import AccessError, Approach, InputError, Language, MeasurementSet
+from zlmreport.plugin import AccessError, Approach, Axis as MeasuredAxis, InputError, Language, MeasurementSet
 from zlmreport.plugin.instrument import CaptureEnded, CaptureResumed, Fault
 from zlmreport.plugin.protocols import SourceContext
 
@@ -28,7 +27,7 @@ LINEAR = DATA / "sources" / "linear.journal"
 def read(journal: Path, name: str = "X") -> MeasurementSet:
     source = registry().source("serial-interferometer")
     options = source.options.model_validate({"journal": journal})
-    return source.read(options, SourceContext(axes.Axis(name), JOB))
+    return source.read(options, SourceContext(MeasuredAxis(name), JOB))
 
 
 def beam_lost(axis: Axis) -> chain:
