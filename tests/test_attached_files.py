@@ -10,10 +10,9 @@ from job.jobs import SOUND
 from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from zlmreport import pipeline
-from zlmreport.document.certificate.attachments import Attachment, Relationship
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import Plugin, Registry, collect
+from zlmreport.plugin.renderer import Attachment, Certificate, Relationship
 
 
 class Results(ExemplaryRenderer):

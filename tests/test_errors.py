@@ -6,8 +6,9 @@ import pickle
 
 import pytest
 
-from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.model.effects.model_error import ModelError
+from zlmreport.plugin import AccessError, InputError, Place, Problem
 
 
 @pytest.mark.parametrize("kind", [InputError, AccessError])

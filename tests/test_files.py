@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
-from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, push_folder, rewrite, write, write_new
+from zlmreport.plugin import AccessError, InputError, Place
 
 #: Where a file is opened for writing beside `files.py`, and why it may be.
 EXCEPTIONS = {

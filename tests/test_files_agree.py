@@ -7,9 +7,11 @@ from io import BytesIO
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, job
+from installed import registry
 from zlmreport import pipeline
-from zlmreport.language.formatting import round_pair, write_fixed_number
+from zlmreport.plugin import fixed_number
+from zlmreport.plugin.renderer import rounded_pair
 
 STANDARDS = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "vdi-vde-2617", "nmtba"]
 DECIMALS = 2  # those of the readings
@@ -46,7 +48,7 @@ def section(words, standard):
 
 
 def printed(value, more=0):
-    return write_fixed_number(value, DECIMALS + more)
+    return fixed_number(value, DECIMALS + more)
 
 
 @pytest.mark.parametrize("standard", STANDARDS)
@@ -57,7 +59,7 @@ def test_every_parameter_is_printed_as_the_results_file_has_it(files, words, sta
         value = parameter["value"]
         if (standard, parameter["symbol"]) == ("iso230-2:1988", "B_mean"):
             value = -value  # this edition prints the mean reversal value with the opposite sign
-        for text in round_pair(value, parameter["expanded_uncertainty"]):
+        for text in rounded_pair(value, parameter["expanded_uncertainty"]):
             assert text in found, parameter["symbol"]
         assert printed(parameter["coverage_factor"]) in found, parameter["symbol"]
 
@@ -72,18 +74,18 @@ def test_every_value_by_position_is_printed_as_the_results_file_has_it(files, wo
             assert symbol in others or printed(value, more=1) in found, (position["target"], symbol)
         # Both directions have as many readings, and so one uncertainty.
         assert position["U_mean_fwd"] == position["U_mean_bwd"]
-        assert round_pair(0.0, position["U_mean_fwd"])[1] in found, position["target"]
+        assert rounded_pair(0.0, position["U_mean_fwd"])[1] in found, position["target"]
 
 
 def test_every_contribution_is_printed_as_the_results_file_has_it(files, words):
     for contribution in files[2]["uncertainty"]["contributions"]:
         size = contribution["standard_uncertainty"]
-        assert round_pair(size, size)[1] in words, contribution["name"]
+        assert rounded_pair(size, size)[1] in words, contribution["name"]
         share = 100 * contribution["share"]  # what would be 0.0 is said to be less than 0.1
-        assert (write_fixed_number(share, 1) if share >= 0.1 else "0.1") in words, contribution["name"]
+        assert (fixed_number(share, 1) if share >= 0.1 else "0.1") in words, contribution["name"]
 
 
 def test_a_number_that_is_not_in_the_results_file_is_not_found(files):
     first = files[2]["evaluations"][0]["parameters"][0]
-    value, _ = round_pair(first["value"] + 0.01, first["expanded_uncertainty"])
+    value, _ = rounded_pair(first["value"] + 0.01, first["expanded_uncertainty"])
     assert value not in files[0]

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport.plugin.kinds import EFFECT, KINDS, SOURCE
 from zlmreport.plugin.registry import find_plugins
 

@@ -8,13 +8,13 @@ import pikepdf
 import pytest
 
 from document.typesetting import samples
+from installed import registry
 from pdf_conformance import complaints
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 
 @pytest.fixture(scope="module")
 def sound() -> bytes:
-    return PdfRenderer().render(samples.certificate(standards=0))
+    return registry().renderer("pdf").render(samples.certificate(standards=0))
 
 
 def _with_stream(sound: bytes, content: bytes) -> bytes:

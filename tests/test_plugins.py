@@ -16,9 +16,7 @@ from offers import exemplary_registry, offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.types import Options
-from zlmreport.plugin import hookimpl
+from zlmreport.plugin import AccessError, InputError, Options, Place, hookimpl
 from zlmreport.plugin.kinds import EFFECT, SOURCE, STANDARD
 from zlmreport.plugin.registry import DISABLE, FILES, Plugin, Registry, collect, find_plugins
 

@@ -8,11 +8,11 @@ import pytest
 from dcclib.validation.schematron import SchematronValidator
 
 from environments import ROOT
+from installed import registry
 from pdf_conformance import complaints
 from verification.issued import with_page_content
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.verify import verify
 
 JOB = """\
@@ -27,18 +27,13 @@ output: {{directory: {folder}, formats: [pdf, json, dcc]}}
 
 
 @pytest.fixture(scope="module")
-def registry() -> Registry:
-    return find_plugins()
-
-
-@pytest.fixture(scope="module")
-def documents(registry: Registry, tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+def documents(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     """The files of the certificate, by their suffix."""
     folder = tmp_path_factory.mktemp("trust")
     job = folder / "job.yaml"
     example = ROOT / "configs" / "linear-axis" / "certificate.yaml"
     job.write_text(JOB.format(example=example, folder=folder / "out"), encoding="utf-8")
-    made = pipeline.run(load(job, registry), registry)
+    made = pipeline.run(load(job, registry()), registry())
     return {document.path.suffix: document.content for document in made.documents}
 
 
@@ -57,15 +52,15 @@ def test_its_digital_certificate_keeps_the_rules_of_ptb(documents):
 
 
 @pytest.mark.long
-def test_it_holds(documents, registry, tmp_path):
-    assert verify(_written(documents[".pdf"], tmp_path), registry).holds
+def test_it_holds(documents, tmp_path):
+    assert verify(_written(documents[".pdf"], tmp_path), registry()).holds
 
 
 @pytest.mark.long
-def test_it_does_not_hold_with_a_single_stroke_more(documents, registry, tmp_path):
+def test_it_does_not_hold_with_a_single_stroke_more(documents, tmp_path):
     altered = with_page_content(documents[".pdf"], 1, lambda content: content + b"\n0 0 m 9 9 l S")
 
-    assert not verify(_written(altered, tmp_path), registry).holds
+    assert not verify(_written(altered, tmp_path), registry()).holds
 
 
 def _written(content: bytes, folder: Path) -> Path:

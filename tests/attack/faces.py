@@ -16,11 +16,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from attack.structure import drawn
+from installed import registry
 from verification.altering import rewritten
 from verification.forgeries import plain
-from verification.issued import LABORATORY, issue, lay_out, registry
+from verification.issued import LABORATORY, issue, lay_out
 from verification.remembered import remembering
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.readers import READERS, Reader, Seen, read_as_seen_by, remove_leads

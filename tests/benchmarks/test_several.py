@@ -19,13 +19,11 @@ from hidden_effects.several import (
     report,
 )
 from hidden_effects.trial import EFFECTS
-from zlmreport.language import Words
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import MILLIMETRE, Unit
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.plugin import MILLIMETRE, FloatArray, Unit, Words
 
 
 @cache

@@ -10,10 +10,10 @@ import pytest
 from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.sizes import base_columns, beyond, drawn_theta, scaled_effect
 from model.simulation.describing import EFFECTS
-from zlmreport.model.effects.design import Design
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of
+from zlmreport.plugin.effect import Design
 
 BASE = [EFFECTS["polynomial"], EFFECTS["backlash"]]
 OF_ROTARY = {"eccentricity", "ellipticity", "gear-mesh", "lost-motion-turn"}

@@ -12,10 +12,10 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page, expect
 
-from model.hidden_effect import job, registry, written
+from installed import registry
+from model.hidden_effect import job, written
 from zlmreport import pipeline
 from zlmreport.measurement.units import with_unit
-from zlmreport_plugins.renderers.html import HtmlRenderer
 
 pytestmark = pytest.mark.long
 
@@ -28,7 +28,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("certificate")
     certificate = pipeline.compose(job(written(folder)), registry())
     made = folder / "certificate.html"
-    made.write_bytes(HtmlRenderer().render(certificate))
+    made.write_bytes(registry().renderer("html").render(certificate))
     return made
 
 

@@ -15,7 +15,7 @@ from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import describe_state
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.plugin.registry import find_plugins
 
 pytestmark = pytest.mark.long

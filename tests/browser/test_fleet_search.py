@@ -14,7 +14,7 @@ from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import PastNight
 from zlmreport.fleet.state import Rules, describe_state
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.plugin.registry import find_plugins
 
 pytestmark = pytest.mark.long

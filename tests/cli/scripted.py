@@ -13,12 +13,8 @@ from pydantic import Field
 
 from live.capture.moves import Axis
 from processes import PATIENCE
-from zlmreport.errors import AccessError, Place
-from zlmreport.job.types import Options
-from zlmreport.language import same
-from zlmreport.live.emulation.emulator import Emulator, Scene
-from zlmreport.live.ports.reading import Fault, LiveReading
-from zlmreport.plugin import hookimpl
+from zlmreport.plugin import AccessError, Options, Place, hookimpl, same_in_all_languages as same
+from zlmreport.plugin.instrument import Emulator, Fault, LiveReading, Scene
 from zlmreport.plugin.protocols import Instrument
 
 _LOST = {"faults": Fault.BEAM_LOST, "value": float("nan"), "message": "the beam is broken"}

@@ -20,8 +20,7 @@ from environments import ROOT
 from live.capture.virtual import InStep
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.cli import main
-from zlmreport.live.capture.events import Recorded
-from zlmreport.live.capture.journal import read_history
+from zlmreport.plugin.instrument import JournalHistory, ReadingRecorded, read_journal
 
 PLUGIN = Path(__file__).with_name("scripted.py")
 WHOLE = "0 20 t25 20 0 -5"
@@ -62,14 +61,16 @@ class Bench:
         return Run(code, *self._capture.readouterr())
 
     def visits(self) -> list[int]:
-        history = read_history(self.journal)
-        assert history is not None
-        return [entry.event.visit.number for entry in history.entries if isinstance(entry.event, Recorded)]
+        entries = self.history().entries
+        return [entry.event.visit.number for entry in entries if isinstance(entry.event, ReadingRecorded)]
 
     def taken(self) -> int:
-        history = read_history(self.journal)
+        return self.history().progress.taken
+
+    def history(self) -> JournalHistory:
+        history = read_journal(self.journal)
         assert history is not None
-        return history.progress.taken
+        return history
 
 
 @pytest.fixture
@@ -230,10 +231,7 @@ def test_the_answer_files_the_reading_that_was_asked_about(bench: Bench) -> None
     bench.run("capture", "job.yaml")
     bench.job("t15 20 t25 20 0 -5", ("runs: 1", "runs: 2"))
     bench.run("capture", "job.yaml", "--resume", "--answer", "5")
-    history = read_history(bench.journal)
-    assert history is not None
-    taken = [entry.event.visit.number for entry in history.entries if isinstance(entry.event, Recorded)]
-    assert taken[:3] == [1, 2, 5]
+    assert bench.visits()[:3] == [1, 2, 5]
 
 
 @pytest.mark.parametrize(
@@ -472,7 +470,6 @@ def test_a_run_under_another_datum_is_taken_again_as_a_whole_only(bench: Bench) 
     assert (done.code, "the datum is gone under which it was read" in done.messages) == (2, True)
     assert bench.run("capture", "job.yaml", "--retake", "run 1").code == 3  # then the story is over
     assert bench.visits() == [1, 2, 3, 4, 1, 2, 3, 4]
-    history = read_history(bench.journal)
-    assert history is not None
-    assert history.progress.attempts[1] == 2
-    assert history.progress.next.number == 5
+    progress = bench.history().progress
+    assert progress.attempts[1] == 2
+    assert progress.next.number == 5

@@ -14,7 +14,7 @@ from cli.commands import Run
 from cli.test_capture import JOB, PLUGIN, WHOLE
 from zlmreport.cli import main
 from zlmreport.live.capture.events import Commented, Interrupted
-from zlmreport.live.capture.journal import read_history
+from zlmreport.plugin.instrument import read_journal
 
 
 class AtOnce:
@@ -68,6 +68,6 @@ def test_the_end_of_the_orders_interrupts_the_capture(steered: Callable[[str], R
     before = threading.active_count()
     assert steered("c coolant on\n").code == 130
     assert threading.active_count() == before  # nobody asks the instrument any more
-    history = read_history(Path("x.journal"))
+    history = read_journal(Path("x.journal"))
     assert history is not None
     assert [type(each.event) for each in history.entries] == [Commented, Interrupted]

@@ -10,9 +10,9 @@ import pytest
 from cli.commands import Shop
 from testing.exemplary import ExemplaryStandard
 from zlmreport.cli import main
-from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job import days
-from zlmreport.language import Words
+from zlmreport.plugin import Words
+from zlmreport.plugin.standard import Finding
 
 
 def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:

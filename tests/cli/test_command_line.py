@@ -10,8 +10,8 @@ import pytest
 
 from cli.commands import Shop
 from processes import PYTHON, ZLMREPORT, run
+from zlmreport import __version__
 from zlmreport.cli import arguments
-from zlmreport.version import __version__
 
 COMMANDS = ["check", "init", "plugins", "schema"]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from argparse import Namespace
 from itertools import islice
 from pathlib import Path
 
@@ -11,19 +10,8 @@ import pytest
 
 from processes import ZLMREPORT, run, started
 from zlmreport.cli import main
-from zlmreport.cli.arguments import parse
-from zlmreport.cli.emulate import make_axis_of
-from zlmreport.live.emulation.emulator import Trouble
+from zlmreport.plugin.instrument import Trouble
 from zlmreport.plugin.registry import find_plugins
-
-
-def _options(*arguments: str) -> Namespace:
-    return parse(["emulate", "umd1", *arguments])[1]
-
-
-def test_an_axis_is_described_in_millimetres() -> None:
-    axis = make_axis_of(_options("--course=-5,10", "--dwell", "2"))
-    assert (axis.course, axis.dwell) == ((-0.005, 0.01), 2.0)
 
 
 @pytest.mark.parametrize(
@@ -52,6 +40,18 @@ def test_a_mistake_is_told_and_nothing_begins(
 def test_a_link_that_is_taken_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["emulate", "umd1", "--link", str(tmp_path)]) == 3
     assert "choose another" in capsys.readouterr().err
+
+
+def test_an_axis_is_described_in_millimetres(tmp_path: Path) -> None:
+    link = tmp_path / "display"
+    command = (*ZLMREPORT, "emulate", "nd28x", "--link", link, "--course=-5,10", "--dwell", "600")
+    with started(*command) as emulation:
+        *_, axis = emulation.lines(3)
+        display = find_plugins().instrument("nd28x")
+        with display.open(display.options.model_validate({"port": str(link)})) as connection:
+            reading = next(connection.readings())
+    assert axis == "axis: −5, 10 mm, 600 s at each, over and over; Ctrl-C ends\n"
+    assert reading.value == pytest.approx(-5e-3, abs=1e-6)
 
 
 def test_an_instrument_is_read_until_it_is_ended(tmp_path: Path) -> None:

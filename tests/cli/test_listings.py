@@ -10,7 +10,7 @@ from cli.commands import Shop, use
 from offers import exemplary_registry, offering
 from testing.exemplary import ExemplaryStandard
 from zlmreport.job.schema import make_job_schema
-from zlmreport.language import Words
+from zlmreport.plugin import Words
 from zlmreport.plugin.registry import Plugin, collect
 
 

@@ -12,9 +12,10 @@ from openpyxl import Workbook
 
 from cli.commands import Shop
 from environments import ROOT
+from zlmreport import ZlmreportError
 from zlmreport.cli import main
-from zlmreport.errors import InputError, ZlmreportError
 from zlmreport.looking import look_at
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins({})

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from model.hidden_effect import example, example_diagnosis
 from zlmreport.cli.model_lines import find_next_step, tell_diagnosis
-from zlmreport.language import Language, same
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+from zlmreport.plugin import Language, same_in_all_languages as same
 
 
 def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:

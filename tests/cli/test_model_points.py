@@ -12,11 +12,6 @@ import pytest
 
 from model.halaj import PRINTED
 from zlmreport.cli import main
-from zlmreport.plugin.registry import Plugin, collect
-from zlmreport_plugins import effects
-from zlmreport_plugins.renderers import json_results
-from zlmreport_plugins.sources import laser_csv
-from zlmreport_plugins.standards import iso230_2
 
 _JOB = """\
 schema: zlmreport/job/1
@@ -39,10 +34,6 @@ def truth(position: float, sign: str) -> float:
 @pytest.fixture
 def job(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a job with its readings."""
-    registry = collect(
-        (Plugin(module.__name__), module) for module in (effects, laser_csv, iso230_2, json_results)
-    )
-    monkeypatch.setattr("zlmreport.cli.model.find_plugins", lambda **_: registry)
     monkeypatch.chdir(tmp_path)
     random = np.random.default_rng(3)
     rows = [

@@ -14,8 +14,8 @@ import pytest
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, job_text
 from plugins.part_programs.controls import linuxcnc
 from zlmreport.cli import main
-from zlmreport.job.job import Job
 from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
+from zlmreport.plugin.extension import Job
 
 Capture = pytest.CaptureFixture[str]
 #: What was planned for a job file of this content: most tests plan the same test and look at another thing.

@@ -13,7 +13,6 @@ from environments import ROOT
 from pdf_conformance import complaints
 from processes import ZLMREPORT, run
 from zlmreport.cli import main
-from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.document.signing.state import Integrity, read_signature_state
 
 JOB = ROOT / "configs" / "german" / "messbericht.yaml"
@@ -28,7 +27,7 @@ def key(tmp_path: Path) -> Path:
 def test_a_pdf_is_signed_and_every_other_file_is_as_it_is_without(
     key: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
+    monkeypatch.setenv("ZLMREPORT_SIGN_PASSWORD", PASSWORD)
     plain, signed = tmp_path / "plain", tmp_path / "signed"
     assert main([str(JOB), "--quiet", "--output", str(plain)]) == 0
     assert main([str(JOB), "--quiet", "--output", str(signed), "--sign", str(key)]) == 0
@@ -45,7 +44,7 @@ def test_a_pdf_is_signed_and_every_other_file_is_as_it_is_without(
 def test_the_password_is_asked_for_at_a_terminal(
     key: Path, shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delenv(SIGN_PASSWORD, raising=False)
+    monkeypatch.delenv("ZLMREPORT_SIGN_PASSWORD", raising=False)
     monkeypatch.setattr("sys.stdin.isatty", lambda: True, raising=False)
     asked = []
     monkeypatch.setattr("getpass.getpass", lambda prompt, stream: asked.append(prompt) or "x")  # noqa: ARG005
@@ -59,14 +58,14 @@ def test_without_a_terminal_and_a_password_the_user_is_told_where_it_is_taken_fr
     assert done.returncode == 2
     assert done.stderr == (
         f"zlmreport --sign: the password of {key} is asked for at a terminal "
-        f"or stands in {SIGN_PASSWORD}: here is neither\n"
+        f"or stands in ZLMREPORT_SIGN_PASSWORD: here is neither\n"
     )
 
 
 def test_a_job_without_a_pdf_has_nothing_to_sign(
     key: Path, shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
+    monkeypatch.setenv("ZLMREPORT_SIGN_PASSWORD", PASSWORD)
     shop.job()
     run = shop.run("job.yaml", "--sign", str(key))
     assert run.code == 2
@@ -88,7 +87,7 @@ def test_without_the_extra_nothing_is_made_and_the_extra_is_named(
 def test_a_wrong_password_is_one_message_and_nothing_is_made(
     key: Path, shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv(SIGN_PASSWORD, "wrong")
+    monkeypatch.setenv("ZLMREPORT_SIGN_PASSWORD", "wrong")
     shop.job()
     run = shop.run("job.yaml", "--sign", str(key))
     assert (run.code, run.output, run.messages.count("\n")) == (2, "", 1)

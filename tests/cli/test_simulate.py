@@ -8,21 +8,11 @@ import pytest
 
 from model.simulation.files import SOUND, with_line
 from zlmreport.cli import main
-from zlmreport.plugin.registry import Plugin, Registry, collect
-from zlmreport_plugins import effects
-from zlmreport_plugins.renderers import json_results
-from zlmreport_plugins.sources import laser_csv
-from zlmreport_plugins.standards import iso230_2
 
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return a folder with a simulation file, in which commands work."""
-    registry: Registry = collect(
-        (Plugin(module.__name__), module) for module in (effects, laser_csv, iso230_2, json_results)
-    )
-    for command in ("simulate", "report"):
-        monkeypatch.setattr(f"zlmreport.cli.{command}.find_plugins", lambda **_: registry)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "spec.yaml").write_text(SOUND, encoding="utf-8")
     return tmp_path

@@ -9,8 +9,7 @@ import pytest
 
 from processes import ZLMREPORT, started
 from zlmreport.cli import main
-from zlmreport.errors import Place
-from zlmreport.measurement.axis import Axis
+from zlmreport.plugin import Axis, Place
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 

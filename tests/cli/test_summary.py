@@ -9,8 +9,8 @@ import sys
 import pytest
 
 from cli.commands import Shop
+from zlmreport import __version__
 from zlmreport.cli.terminal import print_json
-from zlmreport.version import __version__
 
 
 def test_done_job(shop: Shop) -> None:

@@ -13,10 +13,6 @@ import numpy as np
 import pytest
 
 from zlmreport.cli import main
-from zlmreport.plugin.registry import Plugin, collect
-from zlmreport_plugins.renderers import json_results
-from zlmreport_plugins.sources import laser_csv
-from zlmreport_plugins.standards import iso230_1, iso230_2
 
 TARGETS = tuple(range(0, 501, 50))
 LINES = (100, 200, 300, 400)
@@ -89,9 +85,6 @@ class Bench:
 
 @pytest.fixture
 def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Bench:
-    modules = (laser_csv, iso230_1, iso230_2, json_results)
-    registry = collect((Plugin(module.__name__), module) for module in modules)
-    monkeypatch.setattr("zlmreport.cli.surface.find_plugins", lambda **_: registry)
     monkeypatch.chdir(tmp_path)
     (tmp_path / "shared.yaml").write_text(_SHARED, encoding="utf-8")
     found = Bench(tmp_path, capsys)

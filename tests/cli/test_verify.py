@@ -10,17 +10,17 @@ from pathlib import Path
 
 import pytest
 
+from installed import registry
 from verification.issued import (
     LABORATORY,
     READINGS,
     issue,
     lay_out,
-    registry,
     with_attachment,
     with_results,
 )
+from zlmreport import __version__
 from zlmreport.cli import main
-from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification.findings import CheckedCertificate, QuotedText
 from zlmreport.verification.verify import verify
 
@@ -58,7 +58,7 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     head, identity, _, *others = output.splitlines()
     assert head.startswith("report.pdf  holds: consistent, origin unknown  ")
     assert DIGEST.fullmatch(head.split()[-1])
-    assert identity == f"  Measuring Report VERIFY-1, issued 2026-11-20, made by {GENERATOR}"
+    assert identity == f"  Measuring Report VERIFY-1, issued 2026-11-20, made by zlmreport {__version__}"
     assert others[0] == "  signature  not signed: nothing tells who made the file"
     assert others[1] == "  files      6 of 6 attached files as the certificate states"
     assert others[3] == "  pages      3 of 3 pages as printed again"
@@ -80,7 +80,7 @@ def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> Non
     head, identity, _, *others = output.splitlines()
     assert code == 0
     assert head.startswith("report.pdf  bestätigt: in sich stimmig, Herkunft unbekannt  ")
-    assert identity.endswith(f", ausgestellt 2026-11-20, hergestellt von {GENERATOR}")
+    assert identity.endswith(f", ausgestellt 2026-11-20, hergestellt von zlmreport {__version__}")
     assert others[0] == "  Signatur  nicht signiert: nichts sagt, wer die Datei hergestellt hat"
     assert others[1] == "  Dateien   6 von 6 angehängten Dateien wie im Schein angegeben"
     assert "  nmtba    angegeben  berechnet  µm" in others

@@ -9,9 +9,8 @@ from itertools import pairwise
 import numpy as np
 import pypdfium2
 
-from zlmreport.document.blocks import Facts, Formulas, Notice, Paragraph, Symbol, Table
 from zlmreport.document.certificate.columns import lay_out_table, write_cell_text
-from zlmreport.document.certificate.document import Certificate
+from zlmreport.plugin.renderer import Certificate, Facts, Formulas, Notice, Paragraph, Symbol, Table
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0

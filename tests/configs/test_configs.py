@@ -17,17 +17,15 @@ from configs.pages import embarrassments
 from document.figures.samples import collisions
 from document.typesetting import samples
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.cli import main
-from zlmreport.document.blocks import Notice, Paragraph, Section
 from zlmreport.document.certificate.build import build
-from zlmreport.document.certificate.document import Certificate
-from zlmreport.errors import InputError
 from zlmreport.files import write
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import Certificate, Notice, Paragraph, Section
 
 CONFIGS = ROOT / "configs"
 #: The jobs of the fleet have tests of their own.
@@ -55,13 +53,8 @@ def name(path: Path) -> str:
 
 
 @pytest.fixture(scope="module")
-def registry() -> Registry:
-    return find_plugins()
-
-
-@pytest.fixture(scope="module")
-def jobs(registry: Registry) -> list[Job]:
-    return [load(path, registry) for path in JOBS]
+def jobs() -> list[Job]:
+    return [load(path, registry()) for path in JOBS]
 
 
 @dataclass(frozen=True)
@@ -74,16 +67,14 @@ class Made:
 
 
 @pytest.fixture(scope="module", params=JOBS, ids=name)
-def made(
-    request: pytest.FixtureRequest, registry: Registry, tmp_path_factory: pytest.TempPathFactory
-) -> Made:
+def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Made:
     """An example, evaluated once for all tests of it."""
-    job = load(request.param, registry)
+    job = load(request.param, registry())
     job = replace(job, directory=tmp_path_factory.mktemp("made"), formats=(*job.formats, "dcc"))
     with pytest.MonkeyPatch.context() as patch:
         whole = Mock(wraps=build)
         patch.setattr(pipeline, "build", whole)
-        outcome = pipeline.run(job, registry)
+        outcome = pipeline.run(job, registry())
         written = write(outcome.documents)
     if job.measurements:  # each of which has its own example, in each layout
         return Made(job, tuple(written), {job.keys.certificate.layout: outcome.certificate})
@@ -111,8 +102,8 @@ def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(made: Made) -
 
 
 @pytest.mark.long
-def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> None:
-    press = registry.renderer("pdf-typst")
+def test_no_page_of_any_layout_embarrasses(made: Made) -> None:
+    press = registry().renderer("pdf-typst")
     found = {layout: embarrassments(each, press.render(each)) for layout, each in made.laid_out.items()}
     of_files = [each for each in made.written if each.suffix == ".pdf"]
     asked_for = made.laid_out[made.job.keys.certificate.layout]
@@ -131,16 +122,16 @@ def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> No
     ],
 )
 def test_no_page_with_long_german_names_embarrasses(
-    example: str, layout: str, press: str, registry: Registry, monkeypatch: pytest.MonkeyPatch
+    example: str, layout: str, press: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    job = load(CONFIGS / f"{example}.yaml", registry)
+    job = load(CONFIGS / f"{example}.yaml", registry())
     keys = job.keys.certificate.model_copy(update={"language": Language.GERMAN, "layout": layout})
     job = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
     whole = Mock(wraps=build)
     monkeypatch.setattr(pipeline, "build", whole)
-    pipeline.run(replace(job, formats=("json",)), registry)
+    pipeline.run(replace(job, formats=("json",)), registry())
     certificate = build(*whole.call_args.args)
-    assert not embarrassments(certificate, registry.renderer(press).render(certificate))
+    assert not embarrassments(certificate, registry().renderer(press).render(certificate))
 
 
 @pytest.mark.long
@@ -153,7 +144,7 @@ def test_an_embarrassing_page_is_found() -> None:
     lone = Section("lone", "Lone", (Notice("Only a note", ("of one item",)),), new_page=True)
     last = Section("last", "Last", (Paragraph("The end."),), new_page=True)
     certificate = samples.certificate(standards=1, sections=(lone, last))
-    pdf = find_plugins().renderer("pdf-typst").render(certificate)
+    pdf = registry().renderer("pdf-typst").render(certificate)
     pages = len(pypdfium2.PdfDocument(pdf))
     assert embarrassments(certificate, pdf) == [
         f"page {pages - 1} is filled to 0.10",
@@ -161,11 +152,11 @@ def test_an_embarrassing_page_is_found() -> None:
     ]
 
 
-def test_each_standard_is_shown_by_a_job(jobs: list[Job], registry: Registry) -> None:
+def test_each_standard_is_shown_by_a_job(jobs: list[Job]) -> None:
     shown = {choice.identifier for job in jobs for choice in job.standards}
     built_in = {
         identifier
-        for identifier, plugin in ((each.identifier, each.plugin) for each in registry.list_offers())
+        for identifier, plugin in ((each.identifier, each.plugin) for each in registry().list_offers())
         if plugin.module.startswith("zlmreport_plugins.standards.")
     }
     assert built_in <= shown

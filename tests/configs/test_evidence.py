@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.evaluation.evidence import find_evidence
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin import Language
+from zlmreport.plugin.extension import Job
 
 CONFIGS = ROOT / "configs"
 #: No readings: a cell of the table is damaged, which its fleet shows.
@@ -30,11 +30,6 @@ JOBS = sorted(
 FOLDERS = sorted({path.parent for path in JOBS})
 
 
-@pytest.fixture(scope="module")
-def registry() -> Registry:
-    return find_plugins()
-
-
 def measured(job: Job) -> Iterator[Job]:
     """Yield each measurement of a job as a job of its own."""
     for part in job.parts:
@@ -43,24 +38,22 @@ def measured(job: Job) -> Iterator[Job]:
             yield part.as_found
 
 
-def marks(path: Path, registry: Registry) -> list[str]:
+def marks(path: Path) -> list[str]:
     """Return what the readings of a job show that it does not say."""
     return [
         words.in_language(Language.ENGLISH)
-        for job in measured(load(path, registry))
-        for words in find_evidence(job, pipeline.read(job, registry))
+        for job in measured(load(path, registry()))
+        for words in find_evidence(job, pipeline.read(job, registry()))
     ]
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda path: path.relative_to(CONFIGS).as_posix())
-def test_the_readings_of_an_example_bear_out_its_job(folder: Path, registry: Registry) -> None:
-    assert {
-        path.name: found for path in JOBS if path.parent == folder and (found := marks(path, registry))
-    } == {}
+def test_the_readings_of_an_example_bear_out_its_job(folder: Path) -> None:
+    assert {path.name: found for path in JOBS if path.parent == folder and (found := marks(path))} == {}
 
 
-def test_outliers_are_all_that_is_marked_of_real_readings(registry: Registry) -> None:
-    assert [each.partition(" lies ")[0] for each in marks(WITH_OUTLIERS, registry)] == [
+def test_outliers_are_all_that_is_marked_of_real_readings() -> None:
+    assert [each.partition(" lies ")[0] for each in marks(WITH_OUTLIERS)] == [
         "The reading of run 1 at 15 mm ↓",
         "The reading of run 1 at 25.2 mm ↓",
     ]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.plugin.circle_effect import CircleEffect
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import CIRCLE_EFFECT_CHECKS, circle_designs
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin.effect import Effect
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import EFFECT_CHECKS, full_designs
 

@@ -13,14 +13,15 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
 
+from installed import registry
 from processes import PATIENCE
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.kinds import NOTIFIER
-from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.protocols import Notifier
 from zlmreport.testing import NOTIFIER_CHECKS, NotifierTrial
 from zlmreport.testing.notifiers import SAMPLE
-from zlmreport_plugins.notifiers import Apprise, Mail
 
+APPRISE, MAIL = (registry().find(NOTIFIER, each) for each in ("apprise", "mail"))
 SECRET = "swordfish"
 pytestmark = pytest.mark.filterwarnings("ignore:'imghdr':DeprecationWarning")  # which apprise imports
 
@@ -82,19 +83,19 @@ def _as_read(content: list[bytes]) -> str:
 
 
 @contextmanager
-def mail_trial(_: pytest.MonkeyPatch) -> Iterator[tuple[Mail, NotifierTrial]]:
+def mail_trial(_: pytest.MonkeyPatch) -> Iterator[tuple[Notifier, NotifierTrial]]:
     keys = {"to": "ada@example.com", "server": "127.0.0.1"}
     with post_office() as (port, taken):
         to_nobody = {**keys, "port": closed_port()}
         to_another = {**keys, "to": "bob@example.com", "port": port}
         yield (
-            Mail(),
+            MAIL,
             NotifierTrial({**keys, "port": port}, lambda: "".join(taken), to_nobody, to_another=to_another),
         )
 
 
 @contextmanager
-def apprise_trial(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Apprise, NotifierTrial]]:
+def apprise_trial(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Notifier, NotifierTrial]]:
     taken: list[str] = []
 
     class Chat(BaseHTTPRequestHandler):
@@ -114,7 +115,7 @@ def apprise_trial(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Apprise, No
         monkeypatch.setenv("OTHER", f"json://me:{SECRET}@127.0.0.1:{server.server_port}/other")
         monkeypatch.setenv("NOBODY", f"json://me:{SECRET}@127.0.0.1:{closed_port()}")
         yield (
-            Apprise(),
+            APPRISE,
             NotifierTrial(
                 {"secret": "CHAT"},
                 lambda: "".join(taken),
@@ -136,13 +137,13 @@ def test_conforms(
 
 
 def test_both_are_found() -> None:
-    assert find_plugins().list_identifiers(NOTIFIER) == ("apprise", "mail")
+    assert registry().list_identifiers(NOTIFIER) == ("apprise", "mail")
 
 
 def test_a_secret_that_is_not_there_is_named() -> None:
     for notifier, keys in (
-        (Apprise(), {"secret": "NOT_SET"}),
-        (Mail(), {"to": "ada", "server": "127.0.0.1", "user": "me", "secret": "NOT_SET", "security": "tls"}),
+        (APPRISE, {"secret": "NOT_SET"}),
+        (MAIL, {"to": "ada", "server": "127.0.0.1", "user": "me", "secret": "NOT_SET", "security": "tls"}),
     ):
         with pytest.raises(AccessError):
             notifier.tell(SAMPLE, notifier.options.model_validate(keys))
@@ -151,10 +152,10 @@ def test_a_secret_that_is_not_there_is_named() -> None:
 def test_an_address_that_apprise_does_not_know_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("CHAT", f"semaphore://{SECRET}")
     with pytest.raises(AccessError, match="CHAT holds no address that it knows") as raised:
-        Apprise().tell(SAMPLE, Apprise.options.model_validate({"secret": "CHAT"}))
+        APPRISE.tell(SAMPLE, APPRISE.options.model_validate({"secret": "CHAT"}))
     assert SECRET not in str(raised.value)
 
 
 def test_a_password_in_the_open_is_refused() -> None:
     with pytest.raises(ValueError, match="a password is not sent in the open"):
-        Mail.options.model_validate({"to": "ada", "user": "me"})
+        MAIL.options.model_validate({"to": "ada", "user": "me"})

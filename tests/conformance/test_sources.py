@@ -9,10 +9,7 @@ from typing import Any
 import pytest
 
 from environments import ROOT
-from zlmreport.errors import Place
-from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, STRAIGHTNESS
+from zlmreport.plugin import CIRCLE, DISPLACEMENT, STRAIGHTNESS, Axis, AxisKind, NominalCircle, Place
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents

@@ -10,10 +10,8 @@ import numpy as np
 
 from plugins.standards.oracle import evaluated_plainly
 from plugins.standards.test_iso230_4 import circle_of_the_note
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, STRAIGHTNESS, list_measurands_of
-from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
+from zlmreport.measurement.measurement_set import join_lines
+from zlmreport.plugin import CIRCLE, STRAIGHTNESS, Axis, MeasurementSet, NominalCircle, measurands_of
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing import WorkedExample, bidirectional_test
 
@@ -68,9 +66,7 @@ def _square() -> MeasurementSet:
         )
         for name, error in (("X", "EYX"), ("Y", "EXY"))
     }
-    return join_lines(
-        Axis("Y", quantity=list_measurands_of(_installed("iso230-1:2012"))[2], error="C0Y"), lines
-    )
+    return join_lines(Axis("Y", quantity=measurands_of(_installed("iso230-1:2012"))[2], error="C0Y"), lines)
 
 
 def _circle() -> list[WorkedExample]:
@@ -85,7 +81,7 @@ def _circle() -> list[WorkedExample]:
 
 def _diagonals() -> list[WorkedExample]:
     """Return lines that rise by 4 µm on 200 mm, with 14 µm of lost motion, each 10 % of that more."""
-    (of,) = list_measurands_of(_installed("iso230-6:2002"))
+    (of,) = measurands_of(_installed("iso230-6:2002"))
     up, down = [[-1, 1], [1, 3], [3, 5]], [[-15, -13], [-13, -11], [-11, -9]]
     lines, values = {}, {"E_d": 1.3 * 18, "B_d": 1.3 * 14}
     for number, name in enumerate(of.test_names):
@@ -107,7 +103,7 @@ def _diagonals() -> list[WorkedExample]:
 
 def _drift() -> list[WorkedExample]:
     """Return sensors that drift by 4 µm in 24 hours, each 10 % of that more, two of them 200 mm apart."""
-    (of,) = list_measurands_of(_installed("iso230-3"))
+    (of,) = measurands_of(_installed("iso230-3"))
     lines, values = {}, {}
     hours = np.arange(25.0)
     for number, name in enumerate(of.test_names):
@@ -130,7 +126,7 @@ def _plate() -> list[WorkedExample]:
 
     Its centre lines begin and end at 0, and should be 0 in the middle, too: they rise to 3 and fall to −2 µm.
     """
-    (of,) = list_measurands_of(_installed("union-jack"))
+    (of,) = measurands_of(_installed("union-jack"))
     micrometre = math.degrees(1e-6 / 0.1) * 3600
     rises = {
         "NW-SE": [3, 1, -1, -3],

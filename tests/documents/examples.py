@@ -33,7 +33,7 @@ from typing import TypeAlias
 from documents.pages import DOCS, ROOT, Block, blocks
 from documents.shell import Shell, shell as opened
 from processes import PYTHON, run
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 
 ELLIPSIS = "…"
 _SHOWN = {"sh", "text", "toml"}

@@ -16,9 +16,9 @@ import yaml
 from document.certificate import documents
 from document.certificate.documents import certificate, text_of, without
 from doubtful import doubtful_jobs
+from installed import registry
 from zlmreport.plugin import Approach, InputError
 from zlmreport.plugin.renderer import Certificate, EvaluatedParameter
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 #: Everything that an assessor could ask for is stated.
 SOUND: Mapping[str, Any] = {
@@ -234,7 +234,7 @@ def false_in(document: Certificate) -> list[str]:
         "no calibration certificate named",
     )
     of_instrument = [each for each in marked if each.startswith(("Messgerät", "Measuring instrument"))]
-    of_results = json.loads(JsonResultsRenderer().render(document)).get("doubtful", [])
+    of_results = json.loads(registry().renderer("json").render(document)).get("doubtful", [])
     found = {
         "a place that nothing fills": bool(re.search(r"\{[a-z_]+\}", text)),
         "one of several": bool(

@@ -30,9 +30,9 @@ from doubtful.doubtful_jobs import (
     with_outlier,
     write,
 )
+from installed import registry
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.plugin.table import moment
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
 _SHOWN = "What readings, dates and calibrations show"
@@ -510,10 +510,10 @@ def test_a_report_does_not_call_results_traceable_by_a_chain_that_it_says_is_bro
 
 def test_the_results_file_has_what_the_first_page_marks(tmp_path: Path) -> None:
     document = composed(tmp_path, changed(("instrument.calibrated", "2009-05-04")), _fall(readings()))
-    said = json.loads(JsonResultsRenderer().render(document))["doubtful"]
+    said = json.loads(registry().renderer("json").render(document))["doubtful"]
 
     assert [each.partition(" ")[0] for each in said] == ["Run", "Measuring"]
-    assert "doubtful" not in json.loads(JsonResultsRenderer().render(composed(tmp_path, SOUND)))
+    assert "doubtful" not in json.loads(registry().renderer("json").render(composed(tmp_path, SOUND)))
 
 
 def test_the_measurement_before_an_adjustment_is_looked_at_too(tmp_path: Path) -> None:

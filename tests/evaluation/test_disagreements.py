@@ -7,8 +7,9 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import job, registry
+from document.certificate.documents import job
 from doubtful.doubtful_jobs import SOUND, changed, readings, write
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.evaluation.disagreements import find_disagreements
 

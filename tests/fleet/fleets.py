@@ -12,7 +12,6 @@ import pytest
 from job.jobs import SOUND
 from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
@@ -21,6 +20,7 @@ from zlmreport.fleet.plan import PlannedJob
 from zlmreport.fleet.records import LedgerEntry, NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.plugin.registry import Plugin, collect
+from zlmreport.plugin.renderer import Certificate
 
 READINGS = "1 2 3 -1 -2 -3"
 FLEET = """\

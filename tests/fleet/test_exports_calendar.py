@@ -11,7 +11,7 @@ from fleet.histories import entry
 from zlmreport.fleet.exports import write_calendar
 from zlmreport.fleet.records import PastNight
 from zlmreport.fleet.state import Rules, describe_state
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 
 ENTRIES = [
     entry(dt.date(2026, 1, 10), job="x.yaml", machine="MC 800; EX-1, Süd"),

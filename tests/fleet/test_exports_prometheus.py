@@ -14,7 +14,7 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.exports import write_heartbeat, write_metrics
 from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, describe_state
-from zlmreport.language import same
+from zlmreport.plugin import same_in_all_languages as same
 
 NIGHT = PastNight(
     datetime(2026, 11, 21, 2, tzinfo=UTC), datetime(2026, 11, 21, 2, tzinfo=UTC) + timedelta(seconds=94.5)

@@ -8,8 +8,8 @@ import pytest
 
 from job.jobs import REGISTRY, SOUND
 from zlmreport.fleet.records import find_folder_of, write_designation
-from zlmreport.job.keys import JobKeys
 from zlmreport.job.loading import load
+from zlmreport.plugin.extension import JobKeys
 
 
 def keys(folder: Path, machine: str, axis: str = "X") -> JobKeys:

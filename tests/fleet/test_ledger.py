@@ -13,7 +13,6 @@ from sqlalchemy import create_engine, text
 
 from fleet.fleets import FLEET, Fleet, without_processes
 from fleet.servers import server
-from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet.basis import CertificateBasis, FileStamp, KnownFile
 from zlmreport.fleet.database import FORMAT
 from zlmreport.fleet.issuing import What
@@ -29,7 +28,7 @@ from zlmreport.fleet.records import (
     State,
     Subject,
 )
-from zlmreport.language import Words
+from zlmreport.plugin import AccessError, InputError, Words
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
 BASIS = CertificateBasis(

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from fleet.fleets import FLEET, Fleet, Here, Witness, without_processes
-from zlmreport.errors import Place, Problem
 from zlmreport.fleet import night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.making import Failed, MadeCertificate, Task
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import describe_state
+from zlmreport.plugin import Place, Problem
 
 HANGING = """\
 import time

@@ -18,7 +18,6 @@ from pydantic import Field
 from fleet.exposition import parse
 from fleet.fleets import FLEET, Fleet, Witness, without_processes
 from fleet.histories import entry, history, parameter
-from zlmreport.errors import InputError
 from zlmreport.fleet import news, night
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import find_news_of, write_digest
@@ -27,9 +26,17 @@ from zlmreport.fleet.plan import PlannedJob
 from zlmreport.fleet.printing import Names, write_change
 from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, describe_state
-from zlmreport.language import Language, same
-from zlmreport.language.formatting import DecimalSign
-from zlmreport.plugin import AccessError, Options, Place, Words, hookimpl
+from zlmreport.plugin import (
+    AccessError,
+    DecimalSign,
+    InputError,
+    Language,
+    Options,
+    Place,
+    Words,
+    hookimpl,
+    same_in_all_languages as same,
+)
 from zlmreport.plugin.notifier import Message, Occasion
 from zlmreport.plugin.registry import Plugin, collect, find_plugins
 

@@ -14,14 +14,14 @@ import pytest
 
 from fleet.fleets import FLEET, REGISTRY, VERSIONS, Fleet, without_processes
 from zlmreport import pipeline
-from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet import making, night as nights
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
 from zlmreport.job import days
-from zlmreport.job.job import Job
+from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin.extension import Job
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 OTHER_READINGS = "2 2 3 -1 -2 -3"

@@ -20,7 +20,7 @@ from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import describe_state
-from zlmreport.language import Language, same
+from zlmreport.plugin import Language, same_in_all_languages as same
 from zlmreport.plugin.registry import find_plugins
 
 NIGHT = datetime(2026, 11, 21, 2, 0, tzinfo=UTC)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree as ET
 from fleet.histories import entry, history, judged, parameter, quarters
 from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend_graph import LARGE, SMALL, GraphSize, Period, draw_trend
-from zlmreport.language.formatting import DecimalSign
+from zlmreport.plugin import DecimalSign
 
 PERIOD = Period(quarters(8)[0], quarters(8)[-1])
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from job.jobs import SOUND
+from zlmreport import __version__
 from zlmreport.fleet.basis import find_program_versions, name_programs_of
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import find_plugins
-from zlmreport.version import __version__
 
 JOB = SOUND.replace("exemplary-text", "laser-csv").replace("exemplary:1", "nmtba").replace("E: 20", "P: 20")
 

@@ -15,7 +15,6 @@ import pytest
 
 from fleet.fleets import FLEET, Fleet, Here, without_processes
 from processes import PATIENCE, PYTHON, started
-from zlmreport.errors import InputError
 from zlmreport.fleet import night
 from zlmreport.fleet.database import TakenError
 from zlmreport.fleet.issuing import What
@@ -24,7 +23,7 @@ from zlmreport.fleet.making import Task
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.records import About, PastNight, State
 from zlmreport.fleet.state import Rules, describe_state
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 
 
 @pytest.fixture

@@ -16,10 +16,10 @@ from fleet.deadly import PLUGIN
 from fleet.fleets import FLEET, Fleet, Witness
 from fleet.servers import server
 from processes import PYTHON, awaited, group
-from zlmreport.errors import AccessError
 from zlmreport.fleet import night, workers
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.records import State
+from zlmreport.plugin import AccessError
 
 pytest.importorskip("distributed")
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from pydantic import BaseModel
 
 from offers import exemplary_registry
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.job.loading import load
 from zlmreport.job.types import find_model_in
 from zlmreport.plugin.extension import Job

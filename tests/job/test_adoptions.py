@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, job, registry, text_of
+from document.certificate.documents import COMPLETE, certificate, having, job, text_of
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import InputError
 

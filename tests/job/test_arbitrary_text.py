@@ -11,7 +11,7 @@ import yaml
 from hypothesis import example, given, settings, strategies as st
 
 from job.jobs import REGISTRY, SOUND
-from zlmreport.errors import ZlmreportError
+from zlmreport import ZlmreportError
 from zlmreport.job import parse
 from zlmreport.job.loading import load
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import registry
-from zlmreport.errors import ZlmreportError
+from installed import registry
+from zlmreport import ZlmreportError
 from zlmreport.job.edit import Edit, edit_effects, read_named_effect
 from zlmreport.job.loading import load
 from zlmreport.plugin import AccessError, InputError, Place

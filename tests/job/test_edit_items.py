@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport.job.edit import Edit
 from zlmreport.job.edit_items import edit_keys
 from zlmreport.job.loading import load

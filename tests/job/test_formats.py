@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport.job.loading import load
 from zlmreport.job.simulation import load_simulation
 from zlmreport.plugin import InputError

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 import yaml
 
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError
 from zlmreport.plugin.extension import Job

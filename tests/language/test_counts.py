@@ -12,7 +12,6 @@ import pytest
 
 from environments import ROOT
 from language.test_catalogues import OTHERS, tool
-from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.evaluation.checks import readings_in_words
 from zlmreport.fleet import notices, overview_words
 from zlmreport.plugin import Language, Words
@@ -121,10 +120,6 @@ def test_an_overview_of_a_single_axis_says_axis() -> None:
 def test_a_night_says_of_a_single_job_that_it_is_left(left: int, due: int, said: str) -> None:
     (notice,) = notices.say_left(left, due)
     assert notice.text.in_language(Language.ENGLISH).endswith(said)
-
-
-def test_a_page_has_words_for_a_single_reading() -> None:
-    assert GRAPH_TEXTS["chosenOne"].in_language(Language.ENGLISH) == "1 reading chosen"
 
 
 def test_every_phrase_that_counts_has_words_for_one() -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 
 from zlmreport.language.formatting import write_p_value, write_percentage, write_plain
-from zlmreport.language.numbers import write_part
+from zlmreport.language.numbers import write_part, write_significant
 from zlmreport.plugin import DecimalSign, Language, fixed_number
 from zlmreport.plugin.renderer import notation_spans
 
@@ -71,3 +73,21 @@ def test_a_part_of_an_uncertainty_far_below_a_thousandth_is_small_and_not_nothin
     value: float, whole: float, written: str
 ) -> None:
     assert write_part(value, whole).in_language(Language.ENGLISH) == written
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (1234.4, "1234"),
+        (123.4, "123"),
+        (12.34, "12.3"),
+        (0.01234, "0.0123"),
+        (-2.5, "−2.50"),
+        (9.9999, "10.0"),
+        (0.09996, "0.100"),
+        (math.inf, "inf"),
+    ],
+)
+def test_a_number_has_three_significant_digits(value: float, text: str) -> None:
+    assert write_significant(value).in_language(Language.ENGLISH) == text

@@ -34,6 +34,10 @@ def test_two_names_have_no_comma_and_one_is_said_alone() -> None:
     assert list_in_words(["A"]).in_language(Language.GERMAN) == "A"
 
 
+def test_names_that_are_the_same_in_all_languages_stand_in_a_row() -> None:
+    assert list_in_words(["A", "B", "C"]).in_language(Language.GERMAN) == "A, B und C"
+
+
 @pytest.mark.parametrize(
     ("names", "said"), [([], ""), (["X"], "X"), (["X", "Y"], "X and Y"), (["X", "Y", "Z"], "X, Y and Z")]
 )

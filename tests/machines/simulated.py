@@ -10,7 +10,7 @@ from zlmreport.machines.course import CircularTest
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import Chain, ErrorLine
 from zlmreport.machines.machine import MachineModel, list_missing_errors
-from zlmreport.measurement.circle import NominalCircle
+from zlmreport.plugin import NominalCircle
 
 MICRO = 1e-6
 

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from zlmreport.errors import InputError
 from zlmreport.machines.reading import read_machine
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 
 MEANS = [{"target": 0.0, "mean_fwd": 0.0}, {"target": 100.0, "mean_fwd": 2.0}]

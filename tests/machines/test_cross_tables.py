@@ -10,13 +10,13 @@ import zlmreport as z
 from machines.simulated import added, bare_machine, circle, lagging, out_of_square as turned
 from machines.test_command import values
 from zlmreport.cli import main
-from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm_circles
 from zlmreport.machines.cross_tables import compensate_machine, plan_tables
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
+from zlmreport.plugin import InputError, Place
 from zlmreport.plugin.registry import find_plugins
 
 PLACE = Place("test")

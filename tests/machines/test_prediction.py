@@ -8,9 +8,8 @@ from zlmreport.machines.curve import make_measured_curve, remove_alignment, with
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
 from zlmreport.machines.volume import find_measured_space, map_volume, predict_diagonals
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.fitting.estimate import InstrumentError
+from zlmreport.plugin import Axis, MeasurementSet
 
 TARGETS = np.linspace(0.0, 0.5, 21)
 INSTRUMENT = InstrumentError(at_each_position=0.15 * MICRO, proportional=0.8e-6)

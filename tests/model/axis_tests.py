@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.model.effects.axis_model import AxisModel, Term
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.observations import Observations
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design, Effect
 from zlmreport_plugins.effects import zlmreport_effects
-from zlmreport_plugins.effects.polynomial import Polynomial
 
 EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
 INSTALLED = tuple(EFFECTS.values())
@@ -78,7 +76,7 @@ def formula(text: str, **parameters: Any) -> FormulaEffect:
 
 
 #: What the tests take for granted of an axis: a cubic and backlash.
-USUAL = model_of(Polynomial(3), "backlash")
+USUAL = model_of("polynomial", "backlash")
 
 
 def noise(design: Design, seed: int = 2, sigma: float = SIGMA) -> FloatArray:

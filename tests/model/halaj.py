@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray
 
 #: Equations (11) and (12), "zprava" (from the right) and "zlava" (from the left): Δ and P in mm. The paper
 #: prints no readings; it names ten positions, ten runs, and an axis of 2143 mm.

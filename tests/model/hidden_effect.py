@@ -7,21 +7,16 @@ from functools import cache
 from pathlib import Path
 
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.study import Fitted, Study
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin.extension import Job
 
 CONFIG = ROOT / "configs" / "hidden-effect"
 #: The line of the job's last effect.
 LAST = "    - backlash\n"
-
-
-@cache
-def registry() -> Registry:
-    return find_plugins()
 
 
 def written(folder: Path, *changes: tuple[str, str]) -> Path:

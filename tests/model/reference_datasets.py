@@ -9,11 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.language import same
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
+from zlmreport.plugin import Axis, FloatArray, same_in_all_languages as same
+from zlmreport.plugin.effect import Design, Dimension, Effect, Parameter, Shape
 
 _FILE = Path(__file__).parents[1] / "data" / "nist" / "reference_datasets.json"
 

@@ -10,14 +10,13 @@ import pytest
 
 from model.axis_tests import EFFECTS, USUAL, known, linear_test, model_of
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
-from zlmreport.errors import Place
 from zlmreport.job.effect_choices import EffectChoice
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.axis_model import AxisModel, Term, choose_terms, refuse_collisions
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
-from zlmreport_plugins.effects.polynomial import Polynomial
+from zlmreport.plugin import AxisKind, Place
+from zlmreport.plugin.effect import Effect
 
 DESIGN = linear_test(targets=7, runs=3)
 READINGS = known(DESIGN)
@@ -36,7 +35,7 @@ def test_an_effect_stands_in_a_model_once() -> None:
 
 
 def test_what_an_effect_contains_does_not_stand_beside_it() -> None:
-    (sentence,) = _refusal(model_of("offset", Polynomial(3)))
+    (sentence,) = _refusal(model_of("offset", "polynomial"))
     assert sentence == "polynomial contains offset, and no readings part the two; remove offset"
 
 
@@ -62,7 +61,8 @@ def test_effects_of_the_same_columns_are_named() -> None:
 
 
 def test_all_mistakes_are_said_at_once() -> None:
-    model = AxisModel((Term(EFFECTS["offset"], {"level": 0.0}), Term(Polynomial(3)), Term(Polynomial(3))))
+    twice = Term(EFFECTS["polynomial"])
+    model = AxisModel((Term(EFFECTS["offset"], {"level": 0.0}), twice, twice))
     assert len(_refusal(model)) == 4
 
 
@@ -81,14 +81,19 @@ def test_an_effect_without_influence_is_named() -> None:
         fit(model_of("offset", "scale-error"), still, READINGS[: len(still.position)])
 
 
+def _polynomial(order: int) -> Effect:
+    usual = EFFECTS["polynomial"]
+    return usual.with_settings(usual.options(order=order))
+
+
 def test_adding_a_polynomial_takes_out_what_it_contains() -> None:
-    model = model_of("offset", "scale-error", "backlash").with_effect(Polynomial(4))
+    model = model_of("offset", "scale-error", "backlash").with_effect(_polynomial(4))
     assert model.identifiers == ("backlash", "polynomial")
 
 
 def test_adding_a_higher_order_takes_the_place_of_the_lower() -> None:
     (term,) = (
-        term for term in USUAL.with_effect(Polynomial(5)).terms if term.effect.identifier == "polynomial"
+        term for term in USUAL.with_effect(_polynomial(5)).terms if term.effect.identifier == "polynomial"
     )
     assert len(term.effect.linear) == 6
 

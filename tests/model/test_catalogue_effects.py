@@ -11,14 +11,12 @@ import pytest
 
 from model.axis_tests import AXIS, EFFECTS, linear_test
 from zlmreport.cli import main
-from zlmreport.errors import AccessError, InputError
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.catalogue import read_effects_in, read_effects_of_catalogue
-from zlmreport.model.effects.effect import Dimension
 from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.plugin import AccessError, AxisKind, InputError, Language
+from zlmreport.plugin.effect import Dimension
 from zlmreport.testing import full_designs
 
 _UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}

@@ -7,9 +7,9 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.fitting.contrasts import Contrasts, SingleReadings, make_contrasts_of
+from zlmreport.plugin import FloatArray
 
 _RATIOS = [(0.0, 0.0), (0.25, 0.0), (0.0, 5.0), (0.03, 1e3)]
 

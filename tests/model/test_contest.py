@@ -19,8 +19,6 @@ from model.axis_tests import (
     noise,
     realistic_noise,
 )
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.families import PRICE
@@ -31,6 +29,7 @@ from zlmreport.model.diagnosis.trials import Trials, average_evidence
 from zlmreport.model.fitting.contrasts import describe_single_readings
 from zlmreport.model.fitting.noise import NoiseSource
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import FloatArray, Language
 
 DESIGN = linear_test(targets=9, runs=3)
 BASE = np.concatenate([term.effect.columns(DESIGN, np.empty(0)) for term in USUAL.terms], axis=1)

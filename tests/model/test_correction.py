@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from model.hidden_effect import example, example_history, study, written
-from zlmreport.language import Language
 from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.study import correct_by_model, list_what_moves_with_time
+from zlmreport.plugin import Language
 
 
 def test_what_is_left_is_the_residual() -> None:

@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 
 from model.axis_tests import AXIS, EFFECTS, formula, linear_test, model_of, noise
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import place_at_positions
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.curve import find_waves_along, lay_curve_positions, lay_effect_positions
 from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.plugin import Approach, FloatArray
+from zlmreport.plugin.effect import Effect
 
 _PITCHES = [0.5, 0.01, 0.005]
 

@@ -25,16 +25,15 @@ from model.axis_tests import (
     pendulum_test,
     realistic_noise,
 )
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import FloatArray, Language
+from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test()
 #: Air that changes so much that its effects have a plausible size.

@@ -19,15 +19,14 @@ from model.axis_tests import (
     noise,
     pendulum_test,
 )
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest, find_residuals_of
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.fit import Assumptions, fit
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import FloatArray, Language
+from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test()
 

@@ -8,9 +8,6 @@ import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, formula, hidden, linear_test, model_of, noise, observations
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
@@ -20,9 +17,10 @@ from zlmreport.model.diagnosis.faults import (
     run_faults,
 )
 from zlmreport.model.diagnosis.report import report
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
+from zlmreport.plugin.effect import Design
 
 _DESIGN = linear_test(11, 5)
 _MODEL = model_of("offset", "scale-error", "backlash")

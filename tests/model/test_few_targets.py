@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
+from zlmreport.plugin import Axis, AxisKind, FloatArray
+from zlmreport.plugin.effect import Design
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 

@@ -18,14 +18,14 @@ from model.axis_tests import (
     noise,
     realistic_noise,
 )
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, Plausibility
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.noise import list_noise_parts
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test(targets=11)
 READINGS = known(DESIGN) + realistic_noise(DESIGN)

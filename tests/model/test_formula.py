@@ -9,11 +9,10 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, observations
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language
-from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import AxisKind, Language
 
 _DESIGN = linear_test(11, 3)
 

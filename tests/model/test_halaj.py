@@ -9,10 +9,10 @@ import pytest
 
 from model import halaj
 from model.axis_tests import EFFECTS, known, linear_test, model_of, noise
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.observations import select_readings
+from zlmreport.plugin import FloatArray
 
 DESIGN = linear_test(targets=10, runs=10)
 READINGS = known(DESIGN) + noise(DESIGN)

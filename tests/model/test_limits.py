@@ -10,14 +10,12 @@ import pytest
 from model.axis_tests import EFFECTS, PITCH, linear_test, noise
 from model.hidden_effect import LAST, study, written
 from zlmreport.document.subjects.fit import lay_out_parameters
-from zlmreport.errors import InputError
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.diagnosis.report import report_model
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import AxisKind, InputError, Language
+from zlmreport.plugin.effect import report_model
 
 SLOPE = "    - scale-error\n"
 

@@ -9,9 +9,9 @@ import pytest
 
 from model.axis_tests import linear_test
 from model.test_statements import LEFT
-from zlmreport.language import Language
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.random_curves import Course
+from zlmreport.plugin import Language
 
 DESIGN = linear_test()
 

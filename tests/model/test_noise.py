@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 from model.axis_tests import SIGMA, USUAL, linear_test, noise, realistic_noise
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.contrasts import estimate_restricted, make_contrasts_of, make_root, make_whitener
 from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoiseSource, list_noise_parts, make_ratio_grid
+from zlmreport.plugin import Axis, FloatArray
+from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test(targets=9, runs=4)
 PARTS = list_noise_parts(DESIGN)

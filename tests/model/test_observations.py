@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from model.axis_tests import linear_test, observations
-from zlmreport.language import Language
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import MOST_TARGETS, make_observations_of, thin
+from zlmreport.plugin import Language, MeasurementSet
 from zlmreport.testing.measurements import poor_tests, simulated_test
 
 TEST = simulated_test()

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, hidden, linear_test, model_of, noise, observations
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.report import report
+from zlmreport.plugin import FloatArray, Language
 
 _DESIGN = linear_test(11, 3)
 _MODEL = model_of("offset", "scale-error")

@@ -10,13 +10,13 @@ import yaml
 
 from model.axis_tests import AXIS, EFFECTS, SIGMA, linear_test, model_of, noise
 from zlmreport.job.evaluation_keys import PriorsKeys
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts, make_ratio_grid
 from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors, write_priors
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 _DESIGN = linear_test(targets=11, runs=3, seed=4)

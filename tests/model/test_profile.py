@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from model.axis_tests import USUAL, formula, linear_test, model_of, noise
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting import profile
@@ -14,6 +13,7 @@ from zlmreport.model.fitting.distributions import t_quantile
 from zlmreport.model.fitting.estimate import COVERAGE, InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.profile import find_intervals
+from zlmreport.plugin import FloatArray
 
 _DESIGN = linear_test(15, 3)
 #: Readings that scatter alike and independently: what a plain sum of squares describes.

@@ -10,9 +10,9 @@ import pytest
 
 from documents.pages import DOCS
 from model.reference_datasets import LINEAR, NONLINEAR, Dataset, dataset, jacobian
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
+from zlmreport.plugin import FloatArray
 
 _PAGE = (DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8")
 _ROW = re.compile(r"^\| ([A-Z]\w+) \| [^|]+ \| (\d+) \| (\d+) \| (\d+|–) \| (\d+|–) \|$", re.MULTILINE)

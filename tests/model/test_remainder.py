@@ -19,20 +19,17 @@ from model.axis_tests import (
     pendulum_test,
 )
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of, make_remainder_of_run
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.fit import Assumptions, fit
 from zlmreport.model.fitting.observations import select_readings
-from zlmreport_plugins.effects.polynomial import Polynomial
+from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
+from zlmreport.plugin.effect import Design
 
 BASE = model_of("offset", "scale-error", "backlash")
 DESIGN = linear_test()
@@ -115,7 +112,7 @@ def test_the_formula_takes_it_away_when_it_is_tried(name: str) -> None:
     assert left is not None
     tried = FormulaEffect(_formula(left), AxisKind.LINEAR)
     deviation = known(DESIGN) + noise(DESIGN) + CASES[name]()
-    fitted = fit(model_of(Polynomial(3), "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
+    fitted = fit(model_of("polynomial", "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
     assert fitted.rms < 1.15 * SIGMA
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
 from model.worlds import lasting_noise
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.repeats import (
     SpreadFactor,
     compute_weights,
@@ -16,6 +15,7 @@ from zlmreport.model.fitting.repeats import (
     is_apart_in_time,
     spread_tests,
 )
+from zlmreport.plugin import FloatArray
 
 DESIGN = linear_test()
 PENDULUM = pendulum_test()

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet, make_member
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
@@ -16,8 +15,8 @@ from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design, Effect
 
 DESIGN = linear_test()
 EMPTY = model_of("offset")

@@ -12,9 +12,9 @@ import pytest
 import zlmreport as z
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
 from zlmreport.cli import main
-from zlmreport.errors import InputError
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 
 _DESIGN = linear_test(21, 5)

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from model.axis_tests import AXIS, EFFECTS, linear_test
-from zlmreport.language import Language, Words
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter
 from zlmreport.model.effects.sizes import ask_of, compute_times_usual, find_usual_range, name_of
+from zlmreport.plugin import AxisKind, Language, Words
+from zlmreport.plugin.effect import Dimension, Effect, Parameter
 
 _DESIGN = linear_test(11, 3)
 

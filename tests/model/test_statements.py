@@ -9,12 +9,11 @@ import pytest
 
 from model.axis_tests import EFFECTS
 from model.hidden_effect import example_diagnosis
-from zlmreport.language import Language, Words, list_in_words, same
-from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.report import write_statement_after_build, write_verdict_statement
+from zlmreport.plugin import MILLIMETRE, Language, same_in_all_languages as same
 
 LEFT = Remainder(
     rms=1.234e-6,
@@ -206,10 +205,3 @@ def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:
 def test_every_verdict_has_a_german_sentence(verdict: DiagnosisVerdict) -> None:
     statement = write_verdict_statement(replace(example_diagnosis(), verdict=verdict))
     assert statement.in_language(Language.GERMAN) != statement.in_language(Language.ENGLISH)
-
-
-@pytest.mark.parametrize(
-    ("names", "row"), [(["a"], "a"), (["a", "b"], "a and b"), (["a", "b", "c"], "a, b and c")]
-)
-def test_names_stand_in_a_row(names: list[str | Words], row: str) -> None:
-    assert list_in_words(names).in_language(Language.ENGLISH) == row

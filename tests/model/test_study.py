@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from model.hidden_effect import LAST, example, example_diagnosis, example_history, study, written
-from zlmreport.errors import InputError
 from zlmreport.model.fitting.estimate import InstrumentError
+from zlmreport.plugin import InputError
 
 
 def problem(path: Path) -> tuple[int, int, str]:

@@ -23,7 +23,7 @@ from zlmreport.model.diagnosis.null_distribution import Scores, simulate_null
 from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, plan_visibility
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
+from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test(11, 4)
 SETS = 300

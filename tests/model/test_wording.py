@@ -8,31 +8,11 @@ from dataclasses import replace
 import pytest
 
 from model.axis_tests import AXIS, linear_test
-from zlmreport.language import Language
-from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.effects import wording
+from zlmreport.plugin import Axis, AxisKind, Language
 
 DESIGN = linear_test()
 ROTARY = Axis("C", kind=AxisKind.ROTARY)
-
-
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        (0.0, "0"),
-        (1234.4, "1234"),
-        (123.4, "123"),
-        (12.34, "12.3"),
-        (0.01234, "0.0123"),
-        (-2.5, "−2.50"),
-        (9.9999, "10.0"),
-        (0.09996, "0.100"),
-        (math.inf, "inf"),
-    ],
-)
-def test_a_number_has_three_significant_digits(value: float, text: str) -> None:
-    assert write_significant(value).in_language(Language.ENGLISH) == text
 
 
 def test_a_period_that_rounding_errors_make_slightly_smaller_has_no_digit_more() -> None:

@@ -19,11 +19,11 @@ from model.worlds import (
     straight,
     with_night,
 )
-from zlmreport.language import Language
 from zlmreport.model.diagnosis.candidate import list_questions
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import Language
 
 _DESIGN = linear_test(15, 4)
 

@@ -7,12 +7,12 @@ from dataclasses import replace
 import numpy as np
 
 from model.axis_tests import EFFECTS, INSTALLED, noise, observations
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
-from zlmreport.model.effects.design import Design
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.effect import Design
 
 _HOUR = 3600.0
 

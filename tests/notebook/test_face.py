@@ -13,7 +13,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, Literal
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -24,8 +25,6 @@ import pytest
 
 import zlmreport as z
 from environments import ROOT
-from zlmreport.notebook import frames
-from zlmreport.notebook.frames import Library
 from zlmreport.verification.findings import VerificationVerdict
 
 JOB = ROOT / "configs" / "linear-axis" / "certificate.yaml"
@@ -153,7 +152,7 @@ def test_a_frame_goes_out_and_comes_in(framed: Callable[[z.Readings], Any]) -> N
 
 
 @pytest.mark.parametrize("library", ["pandas", "polars"])
-def test_a_frame_is_of_the_library_that_is_asked_for(library: Library) -> None:
+def test_a_frame_is_of_the_library_that_is_asked_for(library: Literal["pandas", "polars"]) -> None:
     frame = data().to_frame(library)
     assert type(frame).__module__.partition(".")[0] == library
     assert (len(frame), list(frame.columns)) == (12, ["target", "direction", "run", "deviation"])
@@ -173,10 +172,12 @@ def test_of_libraries_that_are_there_the_one_in_use_is_taken(monkeypatch: pytest
 
 
 def test_without_a_library_of_frames_a_table_is_a_structured_array(monkeypatch: pytest.MonkeyPatch) -> None:
-    for library in frames.LIBRARIES:
+    fitted = z.fit(simulated(), ["offset", "backlash"])
+    for library in ("pandas", "polars", "pyarrow"):
         monkeypatch.delitem(sys.modules, library, raising=False)
-    monkeypatch.setattr(frames, "find_spec", lambda _: None)
-    table = z.fit(simulated(), ["offset", "backlash"]).at([10, 500])
+    nothing_else = SimpleNamespace(find_spec=lambda *_: None)
+    monkeypatch.setattr(sys, "meta_path", [nothing_else])
+    table = fitted.at([10, 500])
     assert isinstance(table, np.ndarray)
     assert len(table) == 2
     assert table.dtype.names == ("position", "up", "U_up", "down", "U_down")

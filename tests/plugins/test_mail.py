@@ -12,10 +12,11 @@ import pytest
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 
 from document.signing.keys import certificate_of, elliptic
+from installed import registry
 from processes import PATIENCE
 from zlmreport.plugin import AccessError
+from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.notifier import Message, Occasion
-from zlmreport_plugins.notifiers import Mail, MailOptions
 
 
 @pytest.fixture
@@ -51,8 +52,9 @@ def test_a_server_with_a_certificate_of_its_own_gets_nothing(
     port_of_a_stranger: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ZLMREPORT_NOTIFY", "password")
-    options = MailOptions.model_validate(
+    mail = registry().find(NOTIFIER, "mail")
+    options = mail.options.model_validate(
         {"to": "a@b.c", "server": "127.0.0.1", "port": port_of_a_stranger, "security": "tls", "user": "fleet"}
     )
     with pytest.raises(AccessError, match="certificate verify failed"):
-        Mail().tell(Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), options)
+        mail.tell(Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), options)

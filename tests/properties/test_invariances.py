@@ -8,8 +8,8 @@ from hypothesis import given, strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.standard import position_statistics
 
 ISO = [identifier for identifier in STANDARDS if identifier.startswith("iso230-2")]
 SINCE_1997 = ISO[1:]

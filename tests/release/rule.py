@@ -26,7 +26,7 @@ from pypdf import PdfReader
 
 from environments import ROOT
 from verification.issued import NUMBER, content_of
-from zlmreport.version import __version__
+from zlmreport import __version__
 
 RELEASES = ROOT / "releases.yaml"
 _RELEASED = re.compile(r"RELEASED = dt\.date\(.*\)")

@@ -11,7 +11,7 @@ from release import rule
 from release.rule import broken, fingerprint, released
 from verification.conftest import by_typst, issued
 from verification.issued import with_page_content, with_results
-from zlmreport.version import __version__
+from zlmreport import __version__
 
 __all__ = ["by_typst", "issued"]  # fixtures
 RELEASES = {"0.9.0": {"results": "a"}, "0.10.0": {"results": "b", "texts de": "c"}}

@@ -7,8 +7,8 @@ from typing import Any
 
 import yaml
 
-from zlmreport.job.keys import JobKeys
 from zlmreport.job.types import LINE_FORM, LINES_FORM
+from zlmreport.plugin.extension import JobKeys
 
 Path = tuple[str, ...]
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from security.hostile import CIRCLE, READINGS, circle_text_keys, circular_job_with, job_with, text_keys
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()

@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from document.certificate.documents import lines_of, registry
+from document.certificate.documents import lines_of
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError

@@ -11,8 +11,6 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from zlmreport.evaluation.statistics import largest, smallest
-from zlmreport.language import same
 from zlmreport.plugin import (
     AccessError,
     Evaluation,
@@ -23,6 +21,7 @@ from zlmreport.plugin import (
     Options,
     Place,
     Words,
+    same_in_all_languages as same,
 )
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.renderer import Certificate, Graph
@@ -39,6 +38,8 @@ from zlmreport.plugin.standard import (
     Quantity,
     QuantityGroup,
     Role,
+    largest_over_positions as largest,
+    smallest_over_positions as smallest,
 )
 from zlmreport.testing import bidirectional_test
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.model.planning.programs import write_heading
 from zlmreport.plugin import Words
-from zlmreport.plugin.program import Motion, ProgramOptions
+from zlmreport.plugin.program import Motion, ProgramOptions, program_heading
 
 
 class ExemplaryProgram:
@@ -17,7 +16,7 @@ class ExemplaryProgram:
     options: Any = ProgramOptions
 
     def write(self, motion: Motion, options: Any) -> str:
-        lines = [*(f"SAY {text}" for text in write_heading(motion)), f"FEED {motion.feed:g}"]
+        lines = [*(f"SAY {text}" for text in program_heading(motion)), f"FEED {motion.feed:g}"]
         for stop in motion.in_decimals(options.decimals).stops:
             lines.append(f"GO {stop.position:.{options.decimals}f}")
             if stop.reading:

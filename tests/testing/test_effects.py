@@ -15,8 +15,7 @@ from pydantic import Field
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.formula_parts import Formula
-from zlmreport.language import same
-from zlmreport.plugin import AxisKind, Options, Words
+from zlmreport.plugin import AxisKind, Options, Words, same_in_all_languages as same
 from zlmreport.plugin.effect import Confusion, Design, Shape
 from zlmreport.testing import EFFECT_CHECKS, check_effect, effects, full_designs
 

@@ -13,7 +13,6 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from zlmreport.live.ports.dialogue import stream
 from zlmreport.plugin import InputError, Options, Place, Words
 from zlmreport.plugin.instrument import (
     Emulator,
@@ -25,6 +24,7 @@ from zlmreport.plugin.instrument import (
     PortOptions,
     Scene,
     Trouble,
+    streamed_readings,
 )
 from zlmreport.testing import InstrumentTraits, instruments
 
@@ -70,7 +70,7 @@ class _Gauge:
         patience: Any = SimpleNamespace(hear=lambda *_: None, check=lambda *_: None)
 
         def readings() -> Iterator[LiveReading]:
-            return stream(port, decoder, patience, 0.05)
+            return streamed_readings(port, decoder, patience, 0.05)
 
         return LiveConnection(port, readings)
 

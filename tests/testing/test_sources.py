@@ -12,7 +12,6 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplarySource, ExemplarySourceOptions
-from zlmreport.language import same
 from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.plugin import (
     Axis,
@@ -23,6 +22,7 @@ from zlmreport.plugin import (
     Place,
     Words,
     read_only_floats,
+    same_in_all_languages as same,
 )
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.testing import SOURCE_CHECKS, FileContents, check_source, simulated_test, sources

@@ -12,9 +12,7 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
-from zlmreport.evaluation.statistics import largest
-from zlmreport.language import same
-from zlmreport.plugin import Evaluation, Figure, Options, Words
+from zlmreport.plugin import Evaluation, Figure, Options, Words, same_in_all_languages as same
 from zlmreport.plugin.standard import (
     Arithmetic,
     Arrow,
@@ -23,6 +21,7 @@ from zlmreport.plugin.standard import (
     PositionQuantity,
     PositionStatistics,
     Role,
+    largest_over_positions as largest,
 )
 from zlmreport.testing import (
     STANDARD_CHECKS,

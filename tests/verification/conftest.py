@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from verification.issued import issue, lay_out, registry
+from installed import registry
+from verification.issued import issue, lay_out
 from verification.remembered import remembering
 from zlmreport.verification import verify as verifying
 from zlmreport.verification.findings import CheckedCertificate

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable
-from functools import cache
 from hashlib import md5, sha256
 from io import BytesIO
 from pathlib import Path
@@ -15,9 +14,9 @@ from PIL import Image
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import ByteStringObject, EncodedStreamObject, NameObject, NumberObject
 
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import Registry, find_plugins
 
 NUMBER = "VERIFY-1"
 LABORATORY = f"""\
@@ -58,12 +57,6 @@ FILES = {
     "jobs/x-axis.csv": READINGS,
     "jobs/tables/compensation.csv": COMPENSATION,
 }
-
-
-@cache
-def registry() -> Registry:
-    """The installed plugins."""
-    return find_plugins({})
 
 
 def lay_out(folder: Path, **changed: str) -> Path:

@@ -6,10 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from verification.issued import lay_out, registry
+from installed import registry
+from verification.issued import lay_out
 from zlmreport import pipeline
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.verify import verify
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from installed import registry
 from verification.issued import (
     READINGS,
     page_with,
-    registry,
     with_page_content,
     with_source,
 )

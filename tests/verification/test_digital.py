@@ -9,11 +9,11 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import certificate
+from installed import registry
 from plugins.renderers.test_dcc import KEYS
-from zlmreport.errors import AccessError
+from zlmreport.plugin import AccessError
 from zlmreport.verification.attached import check_digital_certificates
 from zlmreport.verification.findings import VerificationVerdict
-from zlmreport_plugins.renderers.dcc import DccRenderer
 
 #: Stands for PTB's schema, which is not part of this project: it lets everything in the root element pass.
 LENIENT = """<schema xmlns="http://www.w3.org/2001/XMLSchema" targetNamespace="https://ptb.de/dcc">
@@ -35,7 +35,7 @@ def written(folder: Path, version: str) -> Path:
 
 def carried(folder: Path, **altered: str) -> dict[str, Any]:
     """One attached digital certificate, with passages of it replaced."""
-    content = DccRenderer().render(certificate(folder, KEYS)).decode()
+    content = registry().renderer("dcc").render(certificate(folder, KEYS)).decode()
     for old, new in altered.items():
         content = content.replace(old, new)
     return {"CAL-1.xml": SimpleNamespace(content=content.encode(errors="surrogateescape"))}

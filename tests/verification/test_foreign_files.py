@@ -24,9 +24,10 @@ from pypdf.generic import (
     TextStringObject,
 )
 
+from installed import registry
 from verification.altering import descendant, every_font, rewritten, with_program
-from verification.issued import JOB, altered, content_of, registry, specification, with_results, with_source
-from zlmreport.errors import AccessError, InputError
+from verification.issued import JOB, altered, content_of, specification, with_results, with_source
+from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification.findings import CheckedCertificate
 from zlmreport.verification.verify import verify

@@ -12,7 +12,7 @@ from verification import carried_forgeries, raw_forgeries  # noqa: F401 - what t
 from verification.altering import Forgery, rewritten
 from verification.forgeries import FORGERIES, plain
 from verification.test_trust import signed
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport.verification.findings import CheckedCertificate, VerificationOutcome, VerificationVerdict
 
 Verify = Callable[[bytes], CheckedCertificate]

@@ -10,7 +10,7 @@ from typing import Any, cast
 import pytest
 
 from verification.issued import JOB, LABORATORY, issue, lay_out
-from zlmreport.job.keys import JobKeys
+from zlmreport.plugin.extension import JobKeys
 from zlmreport.verification.findings import (
     CheckedCertificate,
     QuotedText,

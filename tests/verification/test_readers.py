@@ -12,7 +12,7 @@ from verification.forgeries import plain
 from verification.issued import altered
 from verification.raw_forgeries import boxed, other_readings, together
 from verification.test_trust import signed
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport.verification import readers
 from zlmreport.verification.carrier import open_pdf
 from zlmreport.verification.findings import VerificationVerdict

@@ -15,10 +15,9 @@ from document.signing.authority import authority
 from document.signing.keys import NAME, PASSWORD, pkcs12_file
 from verification.issued import LABORATORY, altered, lay_out, with_digit
 from zlmreport.cli import main
-from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.errors import Place
+from zlmreport.plugin import Place
 from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
 Verify = Callable[[bytes], CheckedCertificate]
@@ -65,7 +64,7 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
         authorities.write_bytes(own.certificate.public_bytes(Encoding.PEM))
         key = pkcs12_file(tmp_path / "key.p12", certificate=own.issued())
         monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
-        monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
+        monkeypatch.setenv("ZLMREPORT_SIGN_PASSWORD", PASSWORD)
         made = tmp_path / "made"
         assert main([str(job), "--sign", str(key), "--format", "pdf", "-o", str(made)]) == 0
     (document,) = made.glob("*.pdf")

@@ -24,7 +24,7 @@ from zlmreport.document.signing.state import (
     read_signature_state,
     read_trusted_certificates,
 )
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.plugin import AccessError, InputError, Place
 
 PLACE = Place("zlmreport --trusted")
 Run = Callable[..., tuple[int, dict[str, Any]]]

@@ -13,6 +13,7 @@ from fontTools.ttLib import TTFont
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import DecodedStreamObject, DictionaryObject, FloatObject, NameObject, TextStringObject
 
+from installed import registry
 from verification.issued import (
     JOB,
     LABORATORY,
@@ -23,7 +24,6 @@ from verification.issued import (
     issue,
     lay_out,
     page_with,
-    registry,
     specification,
     with_attachment,
     with_digit,
@@ -31,9 +31,8 @@ from verification.issued import (
     with_results,
     with_source,
 )
-from zlmreport import pipeline
+from zlmreport import __version__, pipeline
 from zlmreport.cli.terminal import say
-from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification import verify
 from zlmreport.verification.findings import (
     CheckedCertificate,
@@ -384,7 +383,7 @@ def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, 
     assert found.outcome is VerificationOutcome.HOLDS
     assert found.identity.generator == "zlmreport 0.0.9"
     assert tuple(map(say, found.remarks)) == (
-        f"made by zlmreport 0.0.9; this is {GENERATOR}, and it repeats all of it in that name",
+        f"made by zlmreport 0.0.9; this is zlmreport {__version__}, and it repeats all of it in that name",
     )
 
 
@@ -407,7 +406,7 @@ def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
 ) -> None:
     found = verified(change(older))
     assert (found.outcome, found.undecided) == (VerificationOutcome.UNDECIDED, (part,))
-    assert say(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
+    assert say(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is zlmreport {__version__}: ")
 
 
 @pytest.mark.long

@@ -8,8 +8,9 @@ import pytest
 
 pytest.importorskip("starlette", reason="the workbench's extra is not installed")
 
+from installed import registry
 from web.browsers import DOOR, enter, pass_by
-from web.jobs import lay_out, registry
+from web.jobs import lay_out
 from zlmreport.web.app import Workbench
 from zlmreport.web.guard import Door
 

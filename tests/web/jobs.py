@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from functools import cache
 from pathlib import Path
-
-from zlmreport.plugin.registry import Registry, find_plugins
 
 #: An axis whose model lacks the error of its screw.
 EXAMPLE = Path(__file__).parents[2] / "configs" / "hidden-effect"
@@ -19,9 +16,3 @@ def lay_out(folder: Path) -> Path:
     text = (EXAMPLE / "job.yaml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../out", "out"), encoding="utf-8")
     return path
-
-
-@cache
-def registry() -> Registry:
-    """Return all plugins."""
-    return find_plugins()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.document.blocks import Column, RowGroup, Table
-from zlmreport.language import Language
+from zlmreport.plugin import Language
+from zlmreport.plugin.renderer import Column, RowGroup, Table
 from zlmreport.web.blocks import collect_blocks
 from zlmreport.web.naming import Naming
 

@@ -15,7 +15,7 @@ from cli.test_capture import JOB, PLUGIN, WHOLE
 from environments import ROOT
 from processes import PATIENCE
 from web.browsers import enter
-from zlmreport.live.capture.journal import read_history
+from zlmreport.plugin.instrument import read_journal
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.web.app import Workbench
 
@@ -92,7 +92,7 @@ def test_all_visits_are_taken_into_the_journal_and_the_job_can_be_read(desk: Des
     told = desk.get(lang="de")["lines"]
     assert told[0] == {"name": "Bezug", "text": "der Messwert gilt als −5,000 mm"}
     assert "Durchlauf 1 ↑" in told[1]["text"]
-    history = read_history(tmp_path / "x.journal")
+    history = read_journal(tmp_path / "x.journal")
     assert history is not None
     assert history.progress.is_over
     assert desk.job() == 200

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from processes import awaited
-from web.jobs import registry
 from zlmreport.job.loading import load
 from zlmreport.web.app import Workbench
 from zlmreport.web.making import make_documents

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from web.browsers import enter
-from web.jobs import EXAMPLE, registry
+from web.jobs import EXAMPLE
 from zlmreport import pipeline
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
+from zlmreport.plugin import InputError
 from zlmreport.web.app import Workbench
 
 #: What the other test reads more at a target upwards and downwards, in µm.

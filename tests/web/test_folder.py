@@ -12,10 +12,10 @@ import pytest
 from starlette.testclient import TestClient
 
 from environments import ROOT
+from installed import registry
 from processes import awaited
 from web.browsers import enter, pass_by
-from web.jobs import registry
-from zlmreport.errors import InputError
+from zlmreport.plugin import InputError
 from zlmreport.web.folder import JobFolder
 from zlmreport.web.folder_app import FolderWorkbench
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from web.jobs import registry
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +11,12 @@ import pytest
 from starlette.testclient import TestClient
 
 from environments import ROOT
+from installed import registry
+from processes import awaited
 from web.browsers import enter, pass_by
-from web.jobs import registry
-from zlmreport.errors import InputError
-from zlmreport.language import Language
+from zlmreport.plugin import InputError, Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
 from zlmreport.web.machine_app import MachineWorkbench
-from zlmreport.web.machine_bench import MachineBench
-from zlmreport.web.machine_diagnoses import answer
 
 PLACE = "machine.yaml"
 
@@ -46,10 +43,12 @@ def reader() -> Iterator[TestClient]:
     made.end()
 
 
-@cache
-def diagnosed() -> dict[str, Any]:
-    """Return the diagnosis of the example: the longest that these tests do, and once."""
-    return answer(MachineBench(ROOT / "configs" / "machine" / PLACE, registry()))["diagnosis"]
+def diagnosis(page: TestClient, language: str = "en") -> dict[str, Any]:
+    """Return the diagnosis that a page shows, once it is made."""
+    found: dict[str, Any] = awaited(
+        lambda: page.get("/api/diagnosis", params={"lang": language}).json().get("diagnosis")
+    )
+    return found
 
 
 def clicked(page: TestClient, action: str, effect: str = "", digest: str = "") -> Any:
@@ -119,8 +118,8 @@ def test_a_step_is_seen_before_it_is_taken(reader: TestClient) -> None:
 
 
 @pytest.mark.long
-def test_the_diagnosis_says_first_what_to_do_next() -> None:
-    english, german = (diagnosed()[each] for each in ("en", "de"))
+def test_the_diagnosis_says_first_what_to_do_next(reader: TestClient) -> None:
+    english, german = (diagnosis(reader, each) for each in ("en", "de"))
     assert english["next"].startswith("Next: add Servo mismatch. The error falls from 4.7 µm to 0.32 µm;")
     assert german["next"].startswith("Als Nächstes: Unterschied der Schleppabstände hinzufügen.")
     assert [each["effect"] for each in english["stairs"]] == ["servo-mismatch"]
@@ -128,11 +127,13 @@ def test_the_diagnosis_says_first_what_to_do_next() -> None:
     assert german["candidates"][0]["name"] == "Unterschied der Schleppabstände"
 
 
-def test_with_one_sense_nothing_is_named_and_the_next_run_comes_first(machine: Path) -> None:
+def test_with_one_sense_nothing_is_named_and_the_next_run_comes_first(
+    machine: Path, page: TestClient
+) -> None:
     readings = machine.with_name("circle-xy.csv")
     lines = readings.read_text("utf-8").splitlines(keepends=True)
     readings.write_text("".join(each for each in lines if not each.startswith("cw")), "utf-8")
-    found = answer(MachineBench(machine, registry()))["diagnosis"]["en"]
+    found = diagnosis(page)
     assert found["next"].startswith("Next: run the same circle ")
     assert found["stairs"] == []
     assert found["noise"] is None

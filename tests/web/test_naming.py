@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from processes import awaited
-from web.jobs import registry
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.web.naming import Naming
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from web.browsers import enter
-from web.jobs import registry
 from zlmreport.web.app import Workbench
 
 _JOB = """schema: zlmreport/job/1

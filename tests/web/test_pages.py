@@ -15,27 +15,24 @@ import numpy as np
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from model.hidden_effect import example, example_diagnosis
 from processes import PATIENCE, awaited
 from testing.exemplary import ExemplaryStandard
 from web.browsers import enter
-from web.jobs import EXAMPLE, registry
+from web.jobs import EXAMPLE
 from zlmreport import pipeline
 from zlmreport.document.subjects.fit import ParameterRow, write_in_a_sentence
-from zlmreport.document.writer import NOTHING
-from zlmreport.evaluation.evaluation import Arithmetic
-from zlmreport.evaluation.statistics import PositionStatistics
-from zlmreport.language import Language, same
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.design import place_at_positions
-from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.estimate import Plausibility
+from zlmreport.plugin import Approach, Language, same_in_all_languages as same
+from zlmreport.plugin.effect import Effect
+from zlmreport.plugin.standard import Arithmetic, PositionStatistics
 from zlmreport.web.app import Workbench
 from zlmreport.web.panels import collect_parameter
-from zlmreport.web.texts import TEXTS
 from zlmreport.web.view import collect_diagnosed
 
 
@@ -125,7 +122,7 @@ def test_a_standard_by_positions_is_forecast_by_the_positions_of_the_test(
     standard = Sloping()
     monkeypatch.setattr(pipeline, "choose_standards", lambda *_: [(standard, standard.options())])
     for row in browser.get("/api/results").json()["standards"][0]["rows"]:
-        assert NOTHING not in {row["value"], row["by_table"], row["by_model"]}
+        assert "–" not in {row["value"], row["by_table"], row["by_model"]}
 
 
 @pytest.mark.parametrize(
@@ -155,10 +152,12 @@ def test_the_page_is_told_of_in_german(reader: TestClient) -> None:
     assert floor["meaning"].startswith("Die Streuung wiederholter Messwerte")
 
 
-def test_no_word_is_there_for_nothing() -> None:
+def test_no_word_is_there_for_nothing(reader: TestClient) -> None:
     folder = Path(__file__).parents[2] / "report_templates" / "zlmreport_templates" / "workbench"
     scripts = "\n".join(file.read_text(encoding="utf-8") for file in folder.glob("*.js"))
-    assert [name for name in TEXTS if f"texts.{name}" not in scripts and f'"{name}"' not in scripts] == []
+    words = reader.get("/api/texts").json()
+    assert words
+    assert [name for name in words if f"texts.{name}" not in scripts and f'"{name}"' not in scripts] == []
 
 
 @pytest.mark.parametrize("effect", registry().effects, ids=lambda effect: effect.identifier)

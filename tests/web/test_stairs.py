@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
+from installed import registry
 from processes import awaited
-from web.jobs import registry
 from zlmreport.job.loading import load
-from zlmreport.language import Language
+from zlmreport.plugin import Language
 from zlmreport.web.naming import Naming
 from zlmreport.web.stairs import add_stairs, make_stairs
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.language.formatting import write_plain
 from zlmreport.plugin.extension import Job
-from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.plugin.renderer import (
     Block,
     Cell,
@@ -63,12 +62,6 @@ COMPLETE: Mapping[str, Any] = {
     "uncertainty": {"negligible": dict.fromkeys(NEGLIGIBLE, "40 mm at 20 °C")},
     "evaluate": [{"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}}],
 }
-
-
-@cache
-def registry() -> Registry:
-    """Return what is installed; found once for all tests of this folder."""
-    return find_plugins()
 
 
 def job(folder: Path, keys: Mapping[str, Any] = COMPLETE) -> Job:

@@ -13,7 +13,8 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import certificate, having, registry
+from document.certificate.documents import certificate, having
+from installed import registry
 from verification.issued import READINGS, content_of, issue, lay_out
 from zlmreport.document.certificate.digest import digest_of
 from zlmreport.plugin.renderer import DIGEST, Certificate

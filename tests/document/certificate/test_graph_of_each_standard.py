@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import COMPLETE, ROOT, certificate, registry
+from document.certificate.documents import COMPLETE, ROOT, certificate
+from installed import registry
 from zlmreport.plugin import POSITIONING, measurands_of
 from zlmreport.plugin.renderer import Graph
 

@@ -8,6 +8,7 @@ from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.plugin import Language, Words
 from zlmreport.plugin.renderer import Certificate, Facts, Paragraph, Table
 
+ANOTHER = {"name": "Another", "certificate": "C-9", "expanded_uncertainty": 2.0}
 READINGS = "target,direction,run,deviation\n" + "".join(
     f"{at},{way},1,{at * 0.01}\n" for way in "+-" for at in range(0, 500, 100)
 )
@@ -42,9 +43,13 @@ def test_a_budget_that_lines_share_is_printed_once_and_says_for_which(tmp_path: 
 
 
 def test_budgets_that_differ_are_printed_each(tmp_path: Path) -> None:
-    other = {"name": "Another", "certificate": "C-9", "expanded_uncertainty": 2.0}
-    captions = budgets(tmp_path, instrument=other)
+    captions = budgets(tmp_path, instrument=ANOTHER)
     assert [each[:2] for each in captions] == ["x:", "y:"]
+
+
+def test_a_square_of_which_nothing_is_stated_is_missing_in_u(tmp_path: Path) -> None:
+    assert "square" in of_two_lines(tmp_path).budget.missing
+    assert "square" not in of_two_lines(tmp_path, instrument=ANOTHER).budget.missing
 
 
 def of_a_drift(folder: Path, *sensors: str) -> Certificate:

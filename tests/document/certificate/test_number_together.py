@@ -11,7 +11,8 @@ from typing import Any
 import pypdf
 import pytest
 
-from document.certificate.documents import certificate, having, registry
+from document.certificate.documents import certificate, having
+from installed import registry
 from zlmreport.document.typesetting.templates import FactsContext, render
 from zlmreport.plugin.renderer import Certificate, Facts
 

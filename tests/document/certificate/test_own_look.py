@@ -12,7 +12,8 @@ import pypdf
 import pytest
 from fontTools.ttLib import TTFont
 
-from document.certificate.documents import certificate, having, registry
+from document.certificate.documents import certificate, having
+from installed import registry
 from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.renderer import Certificate
 

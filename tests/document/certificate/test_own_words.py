@@ -9,7 +9,8 @@ from typing import Any
 import pypdfium2
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, job, registry
+from document.certificate.documents import COMPLETE, certificate, job
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import InputError
 from zlmreport.plugin.renderer import Notice

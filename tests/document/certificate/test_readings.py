@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from zlmreport.document.certificate import readings
-from zlmreport.document.writer import NOTHING
 from zlmreport.plugin import Axis, Language, MeasurementSet
 from zlmreport.plugin.renderer import Notice, Table, Writer
 
@@ -67,7 +66,7 @@ def test_a_missing_reading_is_a_dash_in_the_table_and_is_named_above_it():
     assert isinstance(notice, Notice)
     assert notice.heading == "1 of 12 readings is missing; nothing was filled in"
     assert notice.items == ("target 100 mm ↓, run 2",)
-    assert table.groups[0].rows[1][-1] == NOTHING
+    assert table.groups[0].rows[1][-1] == "–"
 
 
 def test_many_missing_readings_are_named_up_to_a_dozen_and_counted_beyond():

@@ -9,13 +9,12 @@ from hypothesis import given, settings, strategies as st
 from document.certificate.documents import lines_of
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.sheet_filling import Filled, SheetContent, fill, lay_out_details
-from zlmreport.measurement import units
-from zlmreport.plugin import Language
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, Language
 from zlmreport.plugin.renderer import Facts, Notice, Paragraph, Writer
 
 #: Of a page, points.
 PAGE = 650.0
-WRITER = Writer(Language.ENGLISH, units.MILLIMETRE, units.MICROMETRE, 1, 1)
+WRITER = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 1, 1)
 
 WHO = (("Customer", "Works Ltd, Lane 2, Town"), ("Item calibrated", "Maker M1"), ("Serial number", "S-1"))
 CONDITIONS = (

@@ -14,7 +14,8 @@ import pytest
 import yaml
 from hypothesis import example, given, settings, strategies as st
 
-from document.certificate.documents import COMPLETE, ROOT, certificate, having, lines_of, registry, without
+from document.certificate.documents import COMPLETE, ROOT, certificate, having, lines_of, without
+from installed import registry
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Head, Party
 from zlmreport.plugin import Language

@@ -12,9 +12,10 @@ import numpy as np
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
+from document.certificate.documents import COMPLETE, certificate, having, lines_of
 from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
+from installed import registry
 from zlmreport.document.certificate.standard_layout import draw_in_less_room, find_main_graph
 from zlmreport.plugin import same_in_all_languages
 from zlmreport.plugin.renderer import Block, Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table

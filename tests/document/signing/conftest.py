@@ -6,16 +6,16 @@ import pytest
 
 from document.signing.keys import PASSWORD, pkcs12_file
 from document.typesetting import samples
+from installed import registry
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.plugin import Place
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 PLACE = Place("zlmreport --sign")
 
 
 @pytest.fixture(scope="session")
 def unsigned() -> bytes:
-    return PdfRenderer().render(samples.certificate(standards=0))
+    return registry().renderer("pdf").render(samples.certificate(standards=0))
 
 
 @pytest.fixture(scope="session")

@@ -11,10 +11,10 @@ import pytest
 from document.signing.conftest import PLACE
 from document.signing.keys import PASSWORD, pkcs12_file, rsa_key
 from document.typesetting import samples
+from installed import registry
 from pdf_conformance import complaints
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.document.signing.state import Integrity, read_signature_state
-from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 
 def test_what_is_signed_stays_as_it_was_byte_by_byte(unsigned: bytes, signed: bytes) -> None:
@@ -70,7 +70,7 @@ def test_a_key_of_rsa_signs_with_and_without_a_password(unsigned: bytes, tmp_pat
 
 
 def test_what_typst_printed_stays_what_it_claims(tmp_path: Path) -> None:
-    printed = TypstRenderer().render(samples.certificate(standards=0))
+    printed = registry().renderer("pdf-typst").render(samples.certificate(standards=0))
     file = pkcs12_file(tmp_path / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
         signed = signer(printed, "Electronic signature")

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from document.certificate.documents import lines_of
-from model.hidden_effect import CONFIG, LAST, job, registry, written
+from installed import registry
+from model.hidden_effect import CONFIG, LAST, job, written
 from model.test_statements import LEFT
 from zlmreport import pipeline
 from zlmreport.document.subjects.annex import Modelled

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from model.hidden_effect import example, example_history, registry, study, written
+from installed import registry
+from model.hidden_effect import example, example_history, study, written
 from zlmreport import pipeline
 from zlmreport.document.subjects.forecast import StandardForecast, make_forecasts
 from zlmreport.model.diagnosis.study import correct_by_model

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from model.hidden_effect import job, registry, written
+from installed import registry
+from model.hidden_effect import job, written
 from zlmreport import pipeline
 
 

@@ -12,13 +12,13 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from model.hidden_effect import CONFIG, job, registry
+from installed import registry
+from model.hidden_effect import CONFIG, job
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Linked
 from zlmreport.document.typesetting import resources
 from zlmreport.plugin.html import compose_html
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.html import HtmlRenderer
 
 
 @cache
@@ -28,7 +28,7 @@ def certificate() -> Certificate:
 
 @cache
 def page() -> str:
-    return HtmlRenderer().render(certificate()).decode()
+    return registry().renderer("html").render(certificate()).decode()
 
 
 def graphs() -> Linked:
@@ -55,6 +55,10 @@ def test_the_page_is_xml_as_well_and_its_values_are_there() -> None:
     (values,) = [each for each in tree.iter("script") if each.get("type") == "application/json"]
     assert values.text
     assert json.loads(values.text)["graphs"] == graphs().graphs
+
+
+def test_the_page_has_words_for_a_single_reading() -> None:
+    assert graphs().texts["chosenOne"] == "1 reading chosen"
 
 
 def test_the_page_names_no_address_elsewhere() -> None:
@@ -88,7 +92,7 @@ def test_hostile_text_is_text(text: str) -> None:
 def test_it_is_the_same_twice() -> None:
     resources.read_linked_script.cache_clear()
     again = pipeline.compose(job(CONFIG / "job.yaml"), registry())
-    assert HtmlRenderer().render(again).decode() == page()
+    assert registry().renderer("html").render(again).decode() == page()
 
 
 def test_a_document_that_runs_nothing_has_none_of_it() -> None:

@@ -9,7 +9,6 @@ import pytest
 from fontTools.ttLib import TTFont, woff2
 
 from zlmreport.document.typesetting.resources import FAMILY, FontFace
-from zlmreport.job.document_keys import ACCENT
 from zlmreport.plugin.page import FONT_FACES, font_face_rules, font_file, style_sheet
 
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
@@ -67,6 +66,6 @@ def test_style_sheets_follow_each_other_as_named() -> None:
 
 
 def test_a_colour_stands_for_the_usual_one_wherever_a_style_sheet_has_that() -> None:
-    usual = style_sheet("certificate")
-    assert usual.count(ACCENT) > 1
-    assert style_sheet("certificate", accent="#5c1a33") == usual.replace(ACCENT, "#5c1a33")
+    usual, accent = style_sheet("certificate"), "#0d4a63"
+    assert usual.count(accent) > 1
+    assert style_sheet("certificate", accent="#5c1a33") == usual.replace(accent, "#5c1a33")

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import Approach, InputError
 from zlmreport.plugin.extension import Job
-from zlmreport.plugin.registry import Registry, find_plugins
 
 READINGS = """\
 target,direction,run,deviation
@@ -28,13 +28,8 @@ target,direction,run,deviation
 REASON = "Air hose touched the reflector."
 
 
-@pytest.fixture(scope="module")
-def registry() -> Registry:
-    return find_plugins()
-
-
 @pytest.fixture
-def made(tmp_path: Path, registry: Registry) -> Any:
+def made(tmp_path: Path) -> Any:
     """Return what loads a job that sets readings aside."""
 
     def make(*excluded: str, more: str = "") -> Job:
@@ -46,35 +41,35 @@ def made(tmp_path: Path, registry: Registry) -> Any:
             f"evaluate: [nmtba]\n{more}",
             encoding="utf-8",
         )
-        return load(tmp_path / "job.yaml", registry)
+        return load(tmp_path / "job.yaml", registry())
 
     return make
 
 
-def test_the_reading_is_missing_and_the_others_are_as_they_were(made: Any, registry: Registry) -> None:
-    whole = pipeline.read(made(), registry)
-    left = pipeline.read(made(f'target: 100, direction: "-", run: 1, reason: {REASON}'), registry)
+def test_the_reading_is_missing_and_the_others_are_as_they_were(made: Any) -> None:
+    whole = pipeline.read(made(), registry())
+    left = pipeline.read(made(f'target: 100, direction: "-", run: 1, reason: {REASON}'), registry())
     assert np.isnan(left.deviation[2])
     others = np.arange(8) != 2
     np.testing.assert_array_equal(left.deviation[others], whole.deviation[others])
     assert not left.deviation.flags.writeable
 
 
-def test_provenance_keeps_the_reading_with_its_value_and_the_reason(made: Any, registry: Registry) -> None:
-    left = pipeline.read(made(f'target: 100, direction: "-", run: 1, reason: {REASON}'), registry)
+def test_provenance_keeps_the_reading_with_its_value_and_the_reason(made: Any) -> None:
+    left = pipeline.read(made(f'target: 100, direction: "-", run: 1, reason: {REASON}'), registry())
     (found,) = left.provenance.exclusions
     assert (found.reading, found.target_position, found.approach, found.run) == (2, 0.1, Approach.NEGATIVE, 1)
     assert found.deviation == pytest.approx(3e-6)
     assert found.reason == REASON
 
 
-def test_a_job_that_sets_nothing_aside_leaves_everything(made: Any, registry: Registry) -> None:
-    assert pipeline.read(made(), registry).provenance.exclusions == ()
+def test_a_job_that_sets_nothing_aside_leaves_everything(made: Any) -> None:
+    assert pipeline.read(made(), registry()).provenance.exclusions == ()
 
 
 @pytest.mark.parametrize("direction", ['"+"', "up", "↑", "1"])
-def test_a_direction_may_be_spelt_as_in_the_readings(made: Any, registry: Registry, direction: str) -> None:
-    left = pipeline.read(made(f"target: 0, direction: {direction}, run: 1, reason: r"), registry)
+def test_a_direction_may_be_spelt_as_in_the_readings(made: Any, direction: str) -> None:
+    left = pipeline.read(made(f"target: 0, direction: {direction}, run: 1, reason: r"), registry())
     assert np.isnan(left.deviation[0])
 
 
@@ -89,19 +84,17 @@ def test_a_direction_may_be_spelt_as_in_the_readings(made: Any, registry: Regist
         ('target: 100, direction: "-", run: 2, reason: r', r"run 2 at 100 mm ↓ is missing already"),
     ],
 )
-def test_a_reading_that_there_is_not_is_refused_at_its_place(
-    made: Any, registry: Registry, excluded: str, message: str
-) -> None:
+def test_a_reading_that_there_is_not_is_refused_at_its_place(made: Any, excluded: str, message: str) -> None:
     job = made('target: 0, direction: "+", run: 1, reason: r', excluded)
     with pytest.raises(InputError, match=message) as caught:
-        pipeline.read(job, registry)
+        pipeline.read(job, registry())
     assert [problem.place.line for problem in caught.value.problems] == [8]
 
 
-def test_a_reading_is_set_aside_once(made: Any, registry: Registry) -> None:
+def test_a_reading_is_set_aside_once(made: Any) -> None:
     one = 'target: 0, direction: "+", run: 1, reason: r'
     with pytest.raises(InputError, match="stands in the list twice"):
-        pipeline.read(made(one, one), registry)
+        pipeline.read(made(one, one), registry())
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, job, registry, text_of
+from document.certificate.documents import COMPLETE, certificate, job, text_of
+from installed import registry
 from zlmreport.evaluation.correction.corrections import find_corrections_of
 from zlmreport.pipeline import read
 from zlmreport.plugin import InputError

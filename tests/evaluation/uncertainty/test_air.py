@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from document.certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, job
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import Language
 from zlmreport.plugin.extension import Acts, Contribution

@@ -13,8 +13,7 @@ import pytest
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.uncertainty.instrument_curves import CurveForm, list_forms, sample_waves
 from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
-from zlmreport.measurement.error_symbol import evaluate_for_error
-from zlmreport.plugin import STRAIGHTNESS, Axis, Evaluation, FloatArray, Measurand
+from zlmreport.plugin import STRAIGHTNESS, Axis, Evaluation, FloatArray, Measurand, error_named
 from zlmreport.plugin.extension import Acts
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Budget
@@ -28,7 +27,7 @@ def evaluate_straightness(
     """Return the straightness of a line and its U; `error`: u of the body it is held against, µm."""
     readings = deviation[:, np.newaxis]
     line = bidirectional_test(at, readings, readings, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
-    standard = evaluate_for_error(find_plugins().standard("iso230-1:2012"), "EYX")
+    standard = find_plugins().standard("iso230-1:2012").of_error(error_named("EYX"))
     options = standard.options()
     evaluation = evaluate(standard, line, options, {})
     mirror = replace(contribution(error, Acts.AT_EACH_POSITION), contributor="instrument")

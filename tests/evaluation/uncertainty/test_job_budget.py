@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, ROOT, job, registry
+from document.certificate.documents import COMPLETE, ROOT, job
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import InputError, Language, MeasurementSet
 from zlmreport.plugin.extension import Acts, Contribution, Distribution

@@ -9,12 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, job as job_of, registry
+from document.certificate.documents import COMPLETE, job as job_of
+from installed import registry
 from zlmreport import pipeline
-from zlmreport.measurement.provenance import Correction
 from zlmreport.plugin import same_in_all_languages
 from zlmreport.plugin.extension import Acts, Job
 from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.source import Correction
 
 HOURS = np.arange(0.0, 8.25, 0.25)
 MICROMETRE = 1e-6

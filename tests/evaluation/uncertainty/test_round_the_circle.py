@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 import yaml
 
-from document.certificate.documents import COMPLETE, job as job_of_axis, registry
+from document.certificate.documents import COMPLETE, job as job_of_axis
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
 from zlmreport.job.loading import load

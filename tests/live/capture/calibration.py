@@ -5,22 +5,20 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+from installed import registry
 from live.capture.virtual import PORT, World, inhabited
 from zlmreport.cli import main
 from zlmreport.job.simulation import load_simulation
 from zlmreport.live.capture.events import Event, Recorded
-from zlmreport.live.capture.journal import History, read_history
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.files import read_description_of
 from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
 from zlmreport.plugin import Options
-from zlmreport.plugin.instrument import Scene
-from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.plugin.instrument import JournalHistory, Scene, read_journal
 from zlmreport.plugin.standard import evaluate
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it
@@ -117,7 +115,7 @@ class Calibration:
     """
 
     machine: EmulatedMachine
-    history: History
+    history: JournalHistory
     parameters: dict[str, float]
 
     @property
@@ -142,12 +140,6 @@ class Calibration:
         return {each.quantity.symbol: each.value for each in found.parameters}
 
 
-@cache
-def registry() -> Registry:
-    """Return the installed plugins."""
-    return find_plugins()
-
-
 def calibration(
     folder: Path,
     bench: Bench,
@@ -169,7 +161,7 @@ def calibration(
     with inhabited(World(emulator, machine.duration + _LEAD, line)):
         assert main(["capture", str(job)]) == 0
     assert main([str(job), "--quiet"]) == 0
-    history = read_history(folder / "x.journal")
+    history = read_journal(folder / "x.journal")
     assert history is not None
     results = json.loads((folder / "out" / "E-1.json").read_text(encoding="utf-8"))
     (evaluation,) = results["evaluations"]

@@ -16,11 +16,15 @@ from typing import Any
 from live.capture.operated import OperatedAxis
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.job.simulation import load_simulation
-from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
 from zlmreport.live.emulation.emulator import Troubles
 from zlmreport.model.simulation.files import read_description_of
-from zlmreport.plugin.instrument import Emulator, Scene
+from zlmreport.plugin.instrument import (
+    Emulator,
+    JournalHistory,
+    Scene,
+    read_journal,
+)
 from zlmreport.plugin.registry import find_plugins
 
 #: The share of kills before a capture follows the axis, and how long it takes until then, s.
@@ -89,12 +93,12 @@ class Killed:
     @property
     def has_begun(self) -> bool:
         """Whether the journal holds a capture: its first line is whole."""
-        return self.journal.exists() and read_history(self.journal) is not None
+        return self.journal.exists() and read_journal(self.journal) is not None
 
     @property
-    def history(self) -> History:
+    def history(self) -> JournalHistory:
         """What the journal says."""
-        history = read_history(self.journal)
+        history = read_journal(self.journal)
         assert history is not None
         return history
 

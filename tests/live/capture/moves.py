@@ -7,10 +7,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from zlmreport.live.capture.events import Event, Recorded
+from zlmreport.live.capture.events import Event, Moving, Recorded, Settling
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.records import MOMENTARY
 from zlmreport.live.capture.visits import ListedVisit, Settings, visit_list
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
@@ -85,7 +84,7 @@ class Axis:
 def happened(readings: Iterable[LiveReading], follower: Follower) -> list[Event]:
     """Return what is more than of the moment."""
     events = [event for reading in readings for event in follower.feed(reading)]
-    return [event for event in events if not isinstance(event, MOMENTARY)]
+    return [event for event in events if not isinstance(event, Moving | Settling)]
 
 
 def kinds(events: Iterable[Event]) -> list[str]:

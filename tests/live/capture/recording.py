@@ -10,17 +10,16 @@ from live.capture.moves import SETTINGS, planned
 from zlmreport.live.capture.events import Event
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.journal import Journal, capture
-from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import visit_list
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import AxisKind
-from zlmreport.plugin.instrument import LiveReading
+from zlmreport.plugin.instrument import JournalHeader, LiveReading
 
 #: Of the clock of `moves.Axis`, when a capture begins.
 BEGIN = 100.0
 
 
-def header(plan: AxisPlan | None = None, datum: float | None = None, **changes) -> Header:
+def header(plan: AxisPlan | None = None, datum: float | None = None, **changes) -> JournalHeader:
     plan = plan or planned()
     values = {
         "number": "CAL-7",
@@ -35,7 +34,7 @@ def header(plan: AxisPlan | None = None, datum: float | None = None, **changes) 
         "datum": datum,
         "visits": visit_list(plan),
     }
-    return Header(**{**values, **changes})
+    return JournalHeader(**{**values, **changes})
 
 
 def recorded(readings: Iterable[LiveReading], journal: Journal) -> list[Event]:

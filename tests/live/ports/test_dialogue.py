@@ -9,18 +9,26 @@ import pytest
 from hypothesis import given, strategies as st
 
 from zlmreport.live.ports import dialogue
-from zlmreport.live.ports.dialogue import Lines, ask, ask_at_rate, make_unreadable
-from zlmreport.plugin.instrument import Fault, Framing, LiveReading, Port
+from zlmreport.plugin.instrument import (
+    Fault,
+    Framing,
+    LiveReading,
+    Port,
+    WholeLines,
+    ask_instrument,
+    readings_at_rate,
+    unreadable_reading,
+)
 
 
 def test_an_answer_is_returned_as_soon_as_it_is_understood() -> None:
     with Port("loop://", Framing(), 1.0) as port:
-        assert ask(port, b"hello", lambda arrived: 17 if arrived == b"hello" else None, 60.0) == 17
+        assert ask_instrument(port, b"hello", lambda arrived: 17 if arrived == b"hello" else None, 60.0) == 17
 
 
 def test_what_is_never_understood_is_returned_as_it_came() -> None:
     with Port("loop://", Framing(), 1.0) as port:
-        assert ask(port, b"hello", lambda _: None, 0.05) == b"hello"
+        assert ask_instrument(port, b"hello", lambda _: None, 0.05) == b"hello"
 
 
 class _Clock:
@@ -55,14 +63,14 @@ def test_questions_keep_their_rate(
     def question() -> LiveReading:
         times.append(clock.now - 100.0)
         clock.now += next(durations)
-        return make_unreadable(clock.now, "")
+        return unreadable_reading(clock.now, "")
 
-    list(islice(ask_at_rate(10.0, question), len(lasts)))
+    list(islice(readings_at_rate(10.0, question), len(lasts)))
     assert times == pytest.approx(asked_at)
 
 
 def test_what_was_not_understood_is_void_and_keeps_the_zero() -> None:
-    reading = make_unreadable(1.0, "the display did not answer")
+    reading = unreadable_reading(1.0, "the display did not answer")
     assert not reading.is_usable
     assert not reading.loses_zero
 
@@ -90,7 +98,7 @@ def test_skipped_readings_do_no_harm_to_the_one_after() -> None:
 @given(st.lists(st.integers(1, 40)))
 def test_lines_are_the_same_however_they_arrive(sizes: list[int]) -> None:
     data = b"one\r\ntwo\rthree\n\n\r\nfour\r\nrest"
-    lines, found, start = Lines(), [], 0
+    lines, found, start = WholeLines(), [], 0
     for size in [*sizes, len(data)]:
         found += lines.feed(data[start : start + size])
         start += size
@@ -99,6 +107,6 @@ def test_lines_are_the_same_however_they_arrive(sizes: list[int]) -> None:
 
 @pytest.mark.parametrize("size", [5, 100_000])
 def test_bytes_without_an_end_are_not_kept_for_ever(size: int) -> None:
-    lines = Lines(longest=4)
+    lines = WholeLines(longest=4)
     assert lines.feed(b"x" * size) == [b"x" * size]
     assert lines.feed(b"y\n") == [b"y"]

@@ -12,7 +12,6 @@ import pytest
 
 from processes import PATIENCE
 from zlmreport.live.emulation.channels import PseudoTerminal
-from zlmreport.live.ports.port import show_beginning
 from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.instrument import Framing, Patience, Port
 
@@ -149,4 +148,10 @@ def test_parity_is_checked_where_there_is_one(parity: Literal["N", "E", "O"], ch
 
 
 def test_a_message_shows_the_beginning_of_long_nonsense() -> None:
-    assert show_beginning(b"x" * 1000) == f"'{'x' * 24}'…"
+    with Port("loop://", Framing(), 1.0) as port:
+        patience = _patience(port)
+        patience.understand(10.0)
+        for now in range(11, 21):
+            patience.hear(b"x" * 1000, float(now))
+        with pytest.raises(AccessError, match=f"what arrives are no lines of a µMD1: '{'x' * 24}'…;"):
+            patience.check(20.0)

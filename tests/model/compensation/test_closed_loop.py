@@ -11,13 +11,10 @@ import pytest
 
 from environments import ROOT
 from zlmreport.cli import main
-from zlmreport.errors import Place
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
 from zlmreport.model.compensation.curve import ErrorCurve, make_table_of
+from zlmreport.plugin import Approach, Axis, FloatArray, Place
 
 sys.path.append(str(ROOT / "benchmarks"))
 import closed_loop

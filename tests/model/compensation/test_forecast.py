@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.errors import Place
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
-from zlmreport.language import same
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import DeviationPart, ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
 from zlmreport.model.compensation.forecast import ExpectedFigure, forecast
+from zlmreport.plugin import Approach, Axis, Place, same_in_all_languages as same
+from zlmreport.plugin.extension import Acts, Contribution, Distribution
+from zlmreport.plugin.renderer import Budget
 
 RUNS, SINGLE = 4, 2e-6
 #: u of a mean.

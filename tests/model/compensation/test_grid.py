@@ -5,12 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.errors import Place
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.basis import ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import ErrorCurve
 from zlmreport.model.compensation.making import Grid, GridReason, make_grid_of
+from zlmreport.plugin import Approach, FloatArray, Place
 
 PLACE = Place("test")
 UNEVEN = np.array([0.0, 0.04, 0.07, 0.13, 0.16, 0.22, 0.25, 0.3])

@@ -7,11 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.axis_tests import SIGMA, linear_test, observations
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.plane.surface import Surface, SurfaceLine, fit_surface, join_side_by_side
+from zlmreport.plugin import Approach, Axis, FloatArray
 
 DESIGN = linear_test(targets=9, runs=4, axis=Axis("X", travel=(0.0, 1.0)))
 LINES = (0.1, 0.25, 0.3, 0.45, 0.5)

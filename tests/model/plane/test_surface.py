@@ -9,13 +9,11 @@ import pytest
 
 from model import halaj
 from model.plane.planes import COEFFICIENTS, DESIGN, LINES, LOST_MOTION, fitted, measured, truth
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.plane.surface import Surface, SurfaceLine, join_side_by_side, list_coefficient_names
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, Approach, FloatArray
 
 INSTRUMENT = InstrumentError(0.5e-6)
 #: Where nobody measured: P and R, m.

@@ -5,16 +5,12 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from installed import registry
 from zlmreport import pipeline
-from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
 from zlmreport.model.planning.visibility import SeenEffect
-from zlmreport.plugin.registry import Plugin, collect
-from zlmreport_plugins import effects, part_programs
-from zlmreport_plugins.renderers import json_results
-from zlmreport_plugins.sources import laser_csv
-from zlmreport_plugins.standards import iso230_2, vdi
+from zlmreport.plugin.extension import Job
 
 JOB = """\
 schema: zlmreport/job/1
@@ -31,10 +27,7 @@ output: {formats: [json]}
 """
 #: On whole pitches, as customers like to prescribe them.
 WHOLE_PITCHES = "plan: {targets: {positions: [0, 60, 120, 180, 240, 300, 360, 420, 480, 540, 600]}}"
-REGISTRY = collect(
-    (Plugin(module.__name__), module)
-    for module in (effects, laser_csv, iso230_2, vdi, json_results, part_programs)
-)
+REGISTRY = registry()
 
 
 def job_text(*changes: tuple[str, str]) -> str:

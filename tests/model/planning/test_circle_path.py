@@ -8,8 +8,7 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.errors import InputError
-from zlmreport.measurement.approach import Approach
+from zlmreport.plugin import Approach, InputError
 from zlmreport.testing import sample_circle_path
 
 angles = st.floats(-360, 360, allow_nan=False)

@@ -11,9 +11,7 @@ import pytest
 from model.axis_tests import EFFECTS, INSTALLED, noise
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
 from zlmreport import pipeline
-from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.planning.deciding import (
@@ -27,6 +25,7 @@ from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause, propose
 from zlmreport.model.planning.planned_test import choose_model_of
 from zlmreport.model.planning.programs import plan_motion_of
 from zlmreport.model.planning.visibility import expect_design, list_planned_visits
+from zlmreport.plugin import InputError, Language
 
 ON_WHOLE_PITCHES = ("plan: {}", WHOLE_PITCHES)
 ROOM_AT_THE_ENDS = ("[0, 600]", "[-10, 610]")

@@ -7,8 +7,8 @@ import itertools
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method, Stop, list_visits, plan_path
+from zlmreport.plugin import Approach
 
 TARGETS = (10.0, 20.0, 40.0)
 OVERRUN = 5.0

@@ -7,9 +7,9 @@ import pytest
 
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
 from zlmreport import pipeline
-from zlmreport.errors import InputError
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Proposal, make_as_measured, make_seed_of, propose
+from zlmreport.plugin import InputError
 
 
 def _proposed(*changes: tuple[str, str]) -> Proposal:

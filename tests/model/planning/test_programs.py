@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.errors import InputError, Place
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import read_only_floats
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.programs import plan_motion_of, write_program_number
+from zlmreport.plugin import Approach, Axis, InputError, Place, read_only_floats
 from zlmreport.testing import sample_motion
 
 PLACE = Place("job.yaml", 3, 4)

@@ -10,8 +10,6 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, noise
 from model.planning.planned import planned_job
-from zlmreport.language import Language
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
@@ -21,6 +19,7 @@ from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause
 from zlmreport.model.planning.rivals import Question, Rival
 from zlmreport.model.planning.visibility import expect_design
+from zlmreport.plugin import FloatArray, Language
 
 SLOPE, SIGMA = 10e-6, 0.5e-6
 PLAN = AxisPlan(np.linspace(0.03, 0.57, 10), Method.PENDULUM, runs=3)

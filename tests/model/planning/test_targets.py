@@ -9,8 +9,6 @@ import pytest
 from hypothesis import given, strategies as st
 
 from model.planning.planned import WHOLE_PITCHES, plan_of_test
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.targets import (
     compute_target_positions,
     count_phases,
@@ -19,6 +17,7 @@ from zlmreport.model.planning.targets import (
     makes_whole_turns,
     sample_targets,
 )
+from zlmreport.plugin import Axis, AxisKind, Language
 
 LINEAR = Axis("X", travel=(-0.1, 0.5), screw_pitch=0.01)
 FULL_TURN = Axis("C", AxisKind.ROTARY, (0.0, 2 * math.pi), screw_pitch=math.radians(4))

@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, plan_of_test, sight_of
-from zlmreport.errors import InputError
-from zlmreport.language import Language, Words
 from zlmreport.model.planning.plan import expect_conditions
 from zlmreport.model.planning.visibility import Sight, list_logs_of
+from zlmreport.plugin import InputError, Language, Words
 
 PENDULUM = ("method: linear", "method: pendulum")
 ONE_WAY = ("method: linear", "method: unidirectional")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.measurement.axis import Axis
 from zlmreport.model.planning.methods import (
     Method,
     compute_times,
@@ -12,6 +11,7 @@ from zlmreport.model.planning.methods import (
     make_planned_design,
     plan_path,
 )
+from zlmreport.plugin import Axis
 
 TARGETS = np.array([0.1, 0.3])
 LISTED = list_visits(plan_path(Method.LINEAR, TARGETS.tolist(), 1, 0.05))

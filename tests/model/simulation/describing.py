@@ -7,14 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.measurement.axis import Axis
+from installed import registry
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import Description
-from zlmreport_plugins.effects import zlmreport_effects
-
-EFFECTS = {effect.identifier: effect for effect in zlmreport_effects()}
+from zlmreport.plugin import Axis
 
 
 def described(
@@ -26,4 +24,4 @@ def described(
 
 
 def hidden(identifier: str, **values: float) -> Term:
-    return Term(EFFECTS[identifier], values)
+    return Term(registry().effect(identifier), values)

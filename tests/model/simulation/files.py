@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from zlmreport.errors import ZlmreportError
+from installed import registry
+from zlmreport import ZlmreportError
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.files import read_description_of
-from zlmreport.plugin.registry import Plugin, collect
-from zlmreport_plugins import effects
-from zlmreport_plugins.sources import laser_csv
 
 SOUND = """\
 schema: zlmreport/simulation/1
@@ -26,7 +24,7 @@ effects: [offset: {offset: 1.5}, {backlash: {lost_motion: -4}}, {screw-pitch: {s
 noise: {reading: 0.5, resolution: 0.1}
 conditions: {axis_temperature: {start: 20.5, end: 22, time_constant: 600, sensor_noise: 0.01}}
 """
-REGISTRY = collect([(Plugin("effects"), effects), (Plugin("laser_csv"), laser_csv)])
+REGISTRY = registry()
 
 
 def with_line(number: int, line: str) -> str:

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from model.simulation.files import REGISTRY, SOUND, described, loaded, with_line
-from zlmreport.errors import Place
-from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.simulation.files import write_job_text, write_readings_table
 from zlmreport.model.simulation.simulate import simulate
+from zlmreport.plugin import MeasurementSet, Place
 from zlmreport.plugin.protocols import SourceContext
 
 GAPS = with_line(11, "noise: {reading: 0.5, missing_share: 0.1}")

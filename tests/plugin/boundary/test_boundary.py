@@ -21,18 +21,14 @@ from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStand
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.errors import InputError, Place, PluginError
-from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Arithmetic
-from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import What
-from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin import Axis, Language, MeasurementSet
 from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import Plugin, Registry, collect
+from zlmreport.plugin.standard import Arithmetic, evaluate, position_statistics
 from zlmreport.testing import full_designs, sample_cross_tables, sample_motion, simulated_test
 
 OTHER = Plugin("house", "house_module", "house-plugins", "2.0")

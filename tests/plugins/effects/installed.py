@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from installed import registry
 from zlmreport.plugin.effect import Design, Effect
 from zlmreport.testing import full_designs
-from zlmreport_plugins.effects import zlmreport_effects
-from zlmreport_step_gauge.effects import zlmreport_effects as effects_of_gauge
 
-EFFECTS: Mapping[str, Effect] = {
-    effect.identifier: effect for effect in (*zlmreport_effects(), *effects_of_gauge())
-}
+EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in registry().effects}
 ROTARY_ONLY = {"eccentricity", "ellipticity", "gear-mesh", "lost-motion-turn"}
 OF_A_PAUSE = {"growth-after-pause"}
 

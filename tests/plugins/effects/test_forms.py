@@ -10,13 +10,12 @@ from pydantic import ValidationError
 
 from plugins.effects.installed import EFFECTS, design_for
 from zlmreport.plugin import Language
-from zlmreport_plugins.effects.polynomial import PolynomialOptions
 
 NO_THETA = np.empty(0)
 
 
 def test_order_of_the_polynomial_is_a_key() -> None:
-    fifth = EFFECTS["polynomial"].with_settings(PolynomialOptions(order=5))
+    fifth = EFFECTS["polynomial"].with_settings(EFFECTS["polynomial"].options(order=5))
     assert [parameter.name for parameter in fifth.linear] == ["c0", "c1", "c2", "c3", "c4", "c5"]
     assert fifth.columns(design_for("polynomial"), NO_THETA).shape[1] == 6
 

@@ -6,8 +6,7 @@ import pytest
 
 import zlmreport_plugins.effects
 from plugins.effects.installed import EFFECTS, design_for
-from zlmreport.measurement.measurand import list_measurands_of
-from zlmreport.plugin import Language
+from zlmreport.plugin import Language, measurands_of
 from zlmreport.plugin.effect import measurements_of_catalogue
 from zlmreport.testing import full_designs
 
@@ -82,7 +81,7 @@ def test_rotary_table_is_tried_for_all_that_physics_allows_there() -> None:
 
 @pytest.mark.parametrize("identifier", EFFECTS)
 def test_effect_says_on_what_it_acts(identifier: str) -> None:
-    acts_on = {each.identifier for each in list_measurands_of(EFFECTS[identifier])}
+    acts_on = {each.identifier for each in measurands_of(EFFECTS[identifier])}
     assert "positioning" in acts_on
     assert acts_on <= {"positioning", "straightness"}
 

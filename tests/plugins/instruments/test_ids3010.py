@@ -6,12 +6,13 @@ import json
 
 import pytest
 
+from installed import registry
 from plugins.instruments.exchanges import questions_and_answers
 from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.instrument import Fault, Scene, Trouble
-from zlmreport_plugins.instruments.ids3010 import Ids3010, Ids3010Emulator, IdsAnswer, answer_to, question
+from zlmreport_plugins.instruments.ids3010 import Ids3010Emulator, IdsAnswer, answer_to, question
 
 EXCHANGE = questions_and_answers()
 
@@ -65,7 +66,7 @@ def test_the_emulated_device_takes_questions_in_pieces() -> None:
 
 def test_a_device_that_is_idle_is_started_and_read_with_its_air() -> None:
     with plugged_in(Ids3010Emulator(Scene(MovingAxis((0.1,))))) as port:
-        (reading,) = readings_of(Ids3010(), port, 1)
+        (reading,) = readings_of(registry().instrument("ids3010"), port, 1)
     assert reading.value == 0.0  # from where it was when it began
     assert dict(reading.conditions) == {
         "air_temperature": pytest.approx(293.15),
@@ -77,7 +78,7 @@ def test_a_device_that_is_idle_is_started_and_read_with_its_air() -> None:
 def test_a_warning_voids_the_reading() -> None:
     scene = Scene(troubles=Troubles([Planned(Trouble.ERROR, start / 2) for start in range(20)]))
     with plugged_in(Ids3010Emulator(scene)) as port:
-        (reading,) = readings_of(Ids3010(), port, 1)
+        (reading,) = readings_of(registry().instrument("ids3010"), port, 1)
     assert reading.faults == Fault.DEVICE_ERROR
     assert "warning 1" in reading.message
 
@@ -85,13 +86,13 @@ def test_a_warning_voids_the_reading() -> None:
 def test_a_broken_beam_ends_the_measurement_and_loses_the_zero() -> None:
     scene = Scene(troubles=Troubles([Planned(Trouble.LOST_BEAM, 1.0)]))
     with plugged_in(Ids3010Emulator(scene)) as port:
-        last = readings_of(Ids3010(), port, 60)[-1]
+        last = readings_of(registry().instrument("ids3010"), port, 60)[-1]
     assert last.faults == Fault.BEAM_LOST
     assert "system idle" in last.message
 
 
 def test_it_counts_from_where_it_is_told_to() -> None:
-    instrument = Ids3010()
+    instrument = registry().instrument("ids3010")
     with (
         plugged_in(Ids3010Emulator(Scene(MovingAxis((0.0, 0.1), feed=10.0, dwell=1.5)))) as port,
         instrument.open(instrument.options.model_validate({"port": port})) as connection,
@@ -115,7 +116,7 @@ class _Newer(Ids3010Emulator):
 
 def test_newer_firmware_is_read_too() -> None:
     with plugged_in(_Newer(Scene())) as port:
-        (reading,) = readings_of(Ids3010(), port, 1)
+        (reading,) = readings_of(registry().instrument("ids3010"), port, 1)
     assert reading.is_usable
 
 
@@ -126,4 +127,4 @@ class _Neither(Ids3010Emulator):
 
 def test_a_device_that_knows_no_mode_is_refused() -> None:
     with plugged_in(_Neither(Scene())) as port, pytest.raises(AccessError, match="is it an IDS3010"):
-        readings_of(Ids3010(), port, 1)
+        readings_of(registry().instrument("ids3010"), port, 1)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from installed import registry
 from plugins.instruments.exchanges import dialogue
 from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
-from zlmreport.plugin.instrument import Fault, Scene, Trouble
+from zlmreport.plugin.instrument import Emulator, Fault, Scene, Trouble
 from zlmreport_plugins.instruments import nd28x as spoken
-from zlmreport_plugins.instruments.nd28x import Nd28x, Nd28xEmulator
 
 _UNITS = {
     "mm": spoken.PrintedUnit.MILLIMETRE,
@@ -18,10 +18,10 @@ _UNITS = {
 }
 
 
-def _at(millimetres: float, *troubles: Trouble) -> Nd28xEmulator:
+def _at(millimetres: float, *troubles: Trouble) -> Emulator:
     """Return a display at a position, of which something goes wrong after a second."""
     planned = Troubles([Planned(trouble, 1.0) for trouble in troubles])
-    return Nd28xEmulator(Scene(MovingAxis((millimetres / 1e3,)), planned))
+    return registry().instrument("nd28x").emulator(Scene(MovingAxis((millimetres / 1e3,)), planned))
 
 
 @pytest.mark.parametrize(("host", "display", "says"), dialogue())
@@ -73,14 +73,14 @@ def test_the_emulated_display_acknowledges_keys_and_refuses_what_it_does_not_kno
 
 def test_a_position_is_read_over_a_line() -> None:
     with plugged_in(_at(-12.3456)) as port:
-        (reading,) = readings_of(Nd28x(), port, 1)
+        (reading,) = readings_of(registry().instrument("nd28x"), port, 1)
     assert reading.value == pytest.approx(-12.3456e-3, abs=1e-12)
     assert reading.is_usable
 
 
 def test_a_fault_voids_the_reading_with_the_text_of_the_display() -> None:
     with plugged_in(_at(5.0, Trouble.ERROR), begins_at=1.1) as port:
-        (reading,) = readings_of(Nd28x(), port, 1)
+        (reading,) = readings_of(registry().instrument("nd28x"), port, 1)
     assert reading.faults == Fault.DEVICE_ERROR | Fault.BEAM_LOST
     assert "(Signal fault X1)" in reading.message
 

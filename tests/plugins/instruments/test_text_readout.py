@@ -7,13 +7,13 @@ import math
 import pytest
 from pydantic import ValidationError
 
+from installed import registry
 from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.live.emulation.emulator import MovingAxis
 from zlmreport.plugin.instrument import Fault, Framing, Scene
 from zlmreport_plugins.instruments.text_readout import (
     TextDecoder,
     TextEmulator,
-    TextReadout,
     TextReadoutOptions,
 )
 
@@ -96,7 +96,7 @@ def test_keys_that_make_no_sense_are_refused(keys: dict[str, object], message: s
 
 def test_a_readout_that_sends_unasked_is_read() -> None:
     with plugged_in(TextEmulator(Scene(MovingAxis((0.0123456,))))) as port:
-        readings = readings_of(TextReadout(), port, 3)
+        readings = readings_of(registry().instrument("text-readout"), port, 3)
     assert [each.value for each in readings] == pytest.approx([0.0123456] * 3)
 
 
@@ -112,5 +112,5 @@ class _OnRequest(TextEmulator):
 
 def test_a_readout_that_is_asked_is_read() -> None:
     with plugged_in(_OnRequest(Scene(MovingAxis((0.0123456,))))) as port:
-        readings = readings_of(TextReadout(), port, 3, request="M?\r", rate=100)
+        readings = readings_of(registry().instrument("text-readout"), port, 3, request="M?\r", rate=100)
     assert [each.value for each in readings] == pytest.approx([0.0123456] * 3)

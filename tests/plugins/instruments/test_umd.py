@@ -8,10 +8,11 @@ from random import Random
 import numpy as np
 import pytest
 
+from installed import registry
 from plugins.instruments.exchanges import DATA, lines
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
 from zlmreport.plugin.instrument import Fault, LiveReading, Scene, Trouble, WrongDeviceError, index_change
-from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, compute_cycle_length
+from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, compute_cycle_length
 from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, find_frame_in
 
 UMD = {model.identifier: model for model in MODELS}
@@ -102,7 +103,7 @@ def _preface() -> list[tuple[int, int, int]]:
 )
 def test_optics_divide_the_half_wave_in_standard_air(optics: str, fold: int) -> None:
     # Refractive index of air at 20 °C, 1013.25 hPa, 50 %: 1.000 271 37 (Edlén, Birch and Downs)
-    length = compute_cycle_length(UmdOptions(port="COM3", optics=optics))
+    length = compute_cycle_length(registry().instrument("umd1").options(port="COM3", optics=optics))
     assert length == pytest.approx(632.991372e-9 / 1.00027137 / 2 / fold, rel=2e-8)
 
 
@@ -251,7 +252,7 @@ def test_further_axes_are_read_from_their_own_fields(axis: int) -> None:
 
 
 def test_the_sign_turns_the_readings_round() -> None:
-    assert UmdOptions(port="COM3", sign="-", scale=0.5).factor == -0.5
+    assert registry().instrument("umd1").options(port="COM3", sign="-", scale=0.5).factor == -0.5
 
 
 @pytest.mark.parametrize(("model", "counts", "seconds"), [("umd1", 1, 85.0), ("umd2", 3, 52.0)])

@@ -13,12 +13,12 @@ import pytest
 from plugins.part_programs.circle_controls import CONTROLS, Tool, linuxcnc
 from plugins.part_programs.planned import REGISTRY
 from processes import run
-from zlmreport.measurement.circle import PLANES
 from zlmreport.plugin import InputError
 from zlmreport.plugin.program import CirclePath
 from zlmreport.plugin.protocols import find_circle_writer
 from zlmreport.testing import CIRCLE_PROGRAM_CHECKS, sample_circle_path
 
+PLANES = ("XY", "YZ", "ZX")
 controls = pytest.mark.parametrize("control", CONTROLS)
 
 

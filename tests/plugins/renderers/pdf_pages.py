@@ -12,10 +12,10 @@ from pypdf import PageObject, PdfReader
 from pypdf.generic import DictionaryObject
 
 from document.typesetting import samples
+from installed import registry
 from zlmreport.document.blocks import write_cell_text
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Certificate, Table
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 #: A number as it is printed; a standard's year and the like are among them.
 NUMBER = re.compile(r"(?<![\w.,−])−?\d+(?:[.,]\d+)?(?![\w.,])")
@@ -23,7 +23,7 @@ NUMBER = re.compile(r"(?<![\w.,−])−?\d+(?:[.,]\d+)?(?![\w.,])")
 
 def read(certificate: Certificate) -> PdfReader:
     """Print a certificate and open it."""
-    return PdfReader(BytesIO(PdfRenderer().render(certificate)))
+    return PdfReader(BytesIO(registry().renderer("pdf").render(certificate)))
 
 
 @cache

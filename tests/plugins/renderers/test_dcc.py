@@ -14,11 +14,10 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate
+from installed import registry
 from zlmreport.plugin import InputError
 from zlmreport.plugin.renderer import Certificate, Decision
 from zlmreport.plugin.standard import Conformity
-from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 NAMES = {"dcc": "https://ptb.de/dcc", "si": "https://ptb.de/si"}
 #: PTB's schema is not part of this project: who has its folder names it here (dcc.xsd, DCC 3.3.0).
@@ -51,7 +50,7 @@ ROTARY: Mapping[str, Any] = {**KEYS, "axis": {"name": "C", "kind": "rotary"}}
 
 
 def document(folder: Path, keys: Mapping[str, Any] = KEYS) -> ET.Element:
-    return ET.fromstring(DccRenderer().render(certificate(folder, keys)))
+    return ET.fromstring(registry().renderer("dcc").render(certificate(folder, keys)))
 
 
 def text(root: ET.Element, path: str) -> str:
@@ -109,16 +108,16 @@ def test_a_document_that_lacks_its_identifier_is_not_valid(tmp_path):
 
 def test_its_parameters_are_those_of_the_results_file(tmp_path):
     made = certificate(tmp_path, KEYS)
-    results = json.loads(JsonResultsRenderer().render(made))["evaluations"][0]["parameters"]
-    written = list(values(ET.fromstring(DccRenderer().render(made))))
+    results = json.loads(registry().renderer("json").render(made))["evaluations"][0]["parameters"]
+    written = list(values(ET.fromstring(registry().renderer("dcc").render(made))))
 
     assert written == [(each["symbol"], each["value"], r"\micro\metre") for each in results]
 
 
 def test_its_deviations_by_target_are_those_of_the_results_file(tmp_path):
     made = certificate(tmp_path, KEYS)
-    rows = json.loads(JsonResultsRenderer().render(made))["evaluations"][0]["positions"]
-    root = ET.fromstring(DccRenderer().render(made))
+    rows = json.loads(registry().renderer("json").render(made))["evaluations"][0]["positions"]
+    root = ET.fromstring(registry().renderer("dcc").render(made))
     lists = [
         [float(value) for value in each.text.split()]
         for each in root.iterfind(".//dcc:measurementResult[1]//si:realListXMLList/si:valueXMLList", NAMES)
@@ -134,7 +133,7 @@ def test_the_mean_deviations_have_the_uncertainties_of_the_results_file(tmp_path
     unit = made.measurements.axis.deviation_unit
     uncertain = made.evaluations[0].mean_uncertainty
     assert uncertain is not None
-    root = ET.fromstring(DccRenderer().render(made))
+    root = ET.fromstring(registry().renderer("dcc").render(made))
     first = root.find(".//dcc:measurementResult[1]//si:valueExpandedMUXMLList", NAMES)
 
     assert first is not None
@@ -146,7 +145,7 @@ def test_the_uncertainty_stands_with_its_factor_and_its_probability(tmp_path):
     made = certificate(tmp_path, KEYS)
     first, *others = made.evaluations[0].parameters
     known = replace(first, expanded_uncertainty=1.5e-6, coverage_factor=2.0)
-    root = ET.fromstring(DccRenderer().render(_with_parameters(made, (known, *others))))
+    root = ET.fromstring(registry().renderer("dcc").render(_with_parameters(made, (known, *others))))
 
     stated = root.find(".//si:measurementUncertaintyUnivariate/si:expandedMU", NAMES)
     assert stated is not None
@@ -166,7 +165,7 @@ def test_what_is_stated_of_a_limit(conformity, word, tmp_path):
     made = certificate(tmp_path, KEYS)
     first, *others = made.evaluations[0].parameters
     decided = replace(first, limit=10e-6, decision=Decision(conformity, 8e-6, 8e-6, 0.01))
-    root = ET.fromstring(DccRenderer().render(_with_parameters(made, (decided, *others))))
+    root = ET.fromstring(registry().renderer("dcc").render(_with_parameters(made, (decided, *others))))
 
     assert text(root, ".//dcc:metaData/dcc:conformity") == word
     limits = root.findall(".//dcc:metaData[@refType='basic_conformity']/dcc:data//si:value", NAMES)
@@ -177,7 +176,7 @@ def test_what_is_not_decided_is_neither_pass_nor_fail(tmp_path):
     made = certificate(tmp_path, KEYS)
     first, *_ = made.evaluations[0].parameters
     undecided = replace(first, limit=10e-6, decision=Decision(Conformity.UNDECIDED, None, None, None))
-    root = ET.fromstring(DccRenderer().render(_with_parameters(made, (undecided,))))
+    root = ET.fromstring(registry().renderer("dcc").render(_with_parameters(made, (undecided,))))
 
     assert root.find(".//dcc:measurementResult/dcc:results//dcc:conformity", NAMES) is None
     assert text(root, ".//dcc:metaData[@refType='basic_conformity']/dcc:declaration") == "not decided"
@@ -241,7 +240,7 @@ def test_everything_that_a_dcc_must_state_is_demanded_at_once(tmp_path):
     keys["certificate"] = {"number": "R-1", "kind": "report"}
     made = certificate(tmp_path, keys)
     with pytest.raises(InputError) as refused:
-        DccRenderer().render(made)
+        registry().renderer("dcc").render(made)
 
     said = [problem.message for problem in refused.value.problems]
     for key in (
@@ -259,7 +258,7 @@ def test_characters_that_xml_cannot_hold_become_visible(tmp_path):
     assert made.job is not None
     machine = made.job.keys.machine.model_copy(update={"model": "M\x00\x1b1"})
     keys = made.job.keys.model_copy(update={"machine": machine})
-    root = ET.fromstring(DccRenderer().render(replace(made, job=replace(made.job, keys=keys))))
+    root = ET.fromstring(registry().renderer("dcc").render(replace(made, job=replace(made.job, keys=keys))))
 
     assert text(root, ".//dcc:item/dcc:model") == "M\ufffd\ufffd1"
 

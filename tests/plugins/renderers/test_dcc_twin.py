@@ -15,14 +15,18 @@ from pypdf import PdfReader
 
 from document.certificate.documents import certificate, having
 from document.certificate.everything import EVERYTHING, write_tables
+from installed import registry
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
-from zlmreport.evaluation.evaluation import compare_parameters
 from zlmreport.plugin import Axis, AxisKind, InputError, MeasurementSet, Place
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugin.renderer import Certificate, Facts, Notice, Paragraph, Table
-from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.dcc.source import DccSource
-from zlmreport_plugins.renderers.pdf import PdfRenderer
+from zlmreport.plugin.renderer import (
+    Certificate,
+    Facts,
+    Notice,
+    Paragraph,
+    Table,
+    changes,
+)
 
 STATED: Mapping[str, Any] = {
     **EVERYTHING,
@@ -75,8 +79,8 @@ def both(tmp_path_factory: pytest.TempPathFactory) -> tuple[Certificate, str, st
     folder = tmp_path_factory.mktemp("twin")
     write_tables(folder)
     made = certificate(folder, STATED)
-    digital = " ".join(ET.fromstring(DccRenderer().render(made)).itertext())
-    pages = PdfReader(BytesIO(PdfRenderer().render(made))).pages
+    digital = " ".join(ET.fromstring(registry().renderer("dcc").render(made)).itertext())
+    pages = PdfReader(BytesIO(registry().renderer("pdf").render(made))).pages
     return made, solid(digital), solid(" ".join(_RUNNING.sub("", page.extract_text()) for page in pages))
 
 
@@ -132,7 +136,7 @@ def test_its_dates_span_the_measurement_as_found_too(tmp_path):
         "measurement": {**STATED["as_found"]["measurement"], "date": "2022-04-01"},
     }
     root = ET.fromstring(
-        DccRenderer().render(certificate(tmp_path, {**STATED, "as_found": earlier, "dates": {}}))
+        registry().renderer("dcc").render(certificate(tmp_path, {**STATED, "as_found": earlier, "dates": {}}))
     )
 
     assert root.findtext(".//dcc:beginPerformanceDate", "", NAMES) == "2022-04-01"
@@ -144,7 +148,7 @@ def test_the_contributions_stand_with_their_standard_uncertainties(both):
     unit = made.measurements.axis.deviation_unit
     written = [
         [float(each.text or "") for each in budget.iterfind(".//si:real/si:value", NAMES)]
-        for budget in ET.fromstring(DccRenderer().render(made)).iterfind(
+        for budget in ET.fromstring(registry().renderer("dcc").render(made)).iterfind(
             ".//dcc:measurementResult/dcc:measurementMetaData/dcc:metaData", NAMES
         )
         if budget.find("dcc:data", NAMES) is not None
@@ -160,13 +164,13 @@ def test_the_contributions_stand_with_their_standard_uncertainties(both):
 def test_the_changes_from_as_found_to_as_left_stand_with_their_uncertainty(both):
     made, *_ = both
     unit = made.measurements.axis.deviation_unit
-    root = ET.fromstring(DccRenderer().render(made))
+    root = ET.fromstring(registry().renderer("dcc").render(made))
     (changed,) = [
         each
         for each in root.iterfind(".//dcc:results/dcc:result", NAMES)
         if "as left − as found" in "".join(each.find("dcc:name", NAMES).itertext())
     ]
-    expected = compare_parameters(made.evaluations_as_found[0], made.evaluations[0])
+    expected = changes(made.evaluations_as_found[0], made.evaluations[0])
 
     for path, values in (
         ("si:value", [each.value for each in expected]),
@@ -183,7 +187,7 @@ def test_the_changes_from_as_found_to_as_left_stand_with_their_uncertainty(both)
 def test_a_parameter_has_the_interval_of_the_axis(tmp_path):
     made = certificate(tmp_path, KEYS)
     first = made.evaluations[0].parameters[0]
-    root = ET.fromstring(DccRenderer().render(made))
+    root = ET.fromstring(registry().renderer("dcc").render(made))
     ends = root.findall(
         ".//dcc:results/dcc:result[1]//dcc:quantity[1]/dcc:measurementMetaData/dcc:metaData[2]//si:value",
         NAMES,
@@ -196,8 +200,8 @@ def read_back(
     made: Certificate, folder: Path, state: str = "as left", kind: str = "linear"
 ) -> MeasurementSet:
     path = folder / "certificate.xml"
-    path.write_bytes(DccRenderer().render(made))
-    source = DccSource()
+    path.write_bytes(registry().renderer("dcc").render(made))
+    source = registry().source("dcc")
     options = source.options.model_validate({"file": path, "state": state})
     return source.read(options, SourceContext(Axis("Y", AxisKind(kind)), Place("job.yaml", 1, 1)))
 
@@ -268,7 +272,7 @@ def test_an_axis_of_another_kind_is_refused_with_the_cure(tmp_path):
 def test_what_is_no_dcc_is_refused(content, message, tmp_path):
     path = tmp_path / "x.xml"
     path.write_text(content)
-    source = DccSource()
+    source = registry().source("dcc")
     with pytest.raises(InputError, match=message):
         source.read(
             source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))
@@ -287,10 +291,10 @@ def test_what_is_no_dcc_is_refused(content, message, tmp_path):
 def test_columns_that_do_not_fit_are_named(old, new, message, tmp_path):
     made = certificate(tmp_path, KEYS)
     path = tmp_path / "x.xml"
-    content = DccRenderer().render(made).decode()
+    content = registry().renderer("dcc").render(made).decode()
     assert old in content
     path.write_text(content.replace(old, new))
-    source = DccSource()
+    source = registry().source("dcc")
     with pytest.raises(InputError, match=message):
         source.read(
             source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))

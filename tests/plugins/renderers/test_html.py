@@ -13,10 +13,10 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from document.typesetting import samples
+from installed import registry
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.html import HtmlRenderer
 
 
 class Page(HTMLParser):
@@ -52,7 +52,7 @@ class Page(HTMLParser):
 
 
 def render(certificate: Certificate) -> Page:
-    return Page(HtmlRenderer().render(certificate).decode())
+    return Page(registry().renderer("html").render(certificate).decode())
 
 
 @cache
@@ -72,14 +72,14 @@ def test_it_says_its_language(language: Language) -> None:
 
 
 def test_it_starts_as_html_and_is_xml_as_well() -> None:
-    content = HtmlRenderer().render(samples.certificate())
+    content = registry().renderer("html").render(samples.certificate())
     assert content.startswith(b"<!DOCTYPE html>\n")
     ET.fromstring(content)
 
 
 def test_elements_that_html_leaves_open_are_not_closed() -> None:
     void = {"br", "col", "img", "meta"}
-    content = HtmlRenderer().render(samples.certificate()).decode()
+    content = registry().renderer("html").render(samples.certificate()).decode()
     body = content[: content.index("<svg")]
     assert set(re.findall(r"<(\w+)[^<>]*/>", body)) <= void
 
@@ -146,8 +146,8 @@ def test_it_is_printed_on_the_paper_asked_for(paper: str) -> None:
 
 def test_it_is_the_same_twice() -> None:
     certificate = samples.certificate()
-    assert HtmlRenderer().render(certificate) == HtmlRenderer().render(certificate)
+    assert registry().renderer("html").render(certificate) == registry().renderer("html").render(certificate)
 
 
 def test_it_can_be_sent_by_mail() -> None:
-    assert len(HtmlRenderer().render(samples.certificate())) < 1_000_000
+    assert len(registry().renderer("html").render(samples.certificate())) < 1_000_000

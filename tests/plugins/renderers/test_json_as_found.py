@@ -11,10 +11,9 @@ import jsonschema
 import pytest
 
 from environments import ROOT
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugin.registry import find_plugins
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}
@@ -30,9 +29,8 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
         "certificate: {number: EXAMPLE-1, amends: {number: EXAMPLE-0, kind: replacement, "
         "reason: Wrong serial number.}}\n"
     )
-    registry = find_plugins()
-    certificate = pipeline.compose(load(path, registry), registry)
-    return json.loads(JsonResultsRenderer().render(certificate))
+    certificate = pipeline.compose(load(path, registry()), registry())
+    return json.loads(registry().renderer("json").render(certificate))
 
 
 def test_it_fits_its_schema(results: Any) -> None:

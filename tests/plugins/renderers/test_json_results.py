@@ -16,22 +16,21 @@ from jsonschema import Draft202012Validator
 
 from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
+from installed import registry
 from model.hidden_effect import example_diagnosis
 from zlmreport.document.certificate.attachments import Source, SourceRole
-from zlmreport.evaluation.decision import make_decision_rule, with_decisions
-from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
 from zlmreport.measurement.provenance import Exclusion
 from zlmreport.plugin import Approach, AxisKind, Language, MeasurementSet, Options, Words
-from zlmreport.plugin.extension import Acts, Distribution
+from zlmreport.plugin.extension import Acts, Distribution, with_uncertainty
 from zlmreport.plugin.renderer import Budget, Certificate, NoBudget
 from zlmreport.plugin.source import SourceFile
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
+from zlmreport.plugin.standard import decided, decision_rule
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 
 
 def render(certificate: Certificate) -> Any:
-    return json.loads(JsonResultsRenderer().render(certificate), parse_constant=_refuse)
+    return json.loads(registry().renderer("json").render(certificate), parse_constant=_refuse)
 
 
 def _refuse(constant: str) -> None:
@@ -82,7 +81,7 @@ def test_a_parameter_without_a_limit_has_no_place_for_one() -> None:
 def test_an_undecided_limit_says_so() -> None:
     certificate = samples.certificate(standards=1)
     # The rule needs an uncertainty, and none was evaluated.
-    undecided = with_decisions(certificate.evaluations[0], make_decision_rule("guard-band"))
+    undecided = decided(certificate.evaluations[0], decision_rule("guard-band"))
     results = render(replace(certificate, evaluations=(undecided,)))
     assert results["evaluations"][0]["parameters"][0]["conforms"] is None
 
@@ -108,7 +107,7 @@ def with_budget() -> Any:
     )
     bare = samples.certificate(standards=1)
     arithmetic = partial(samples.SampleStandard().arithmetic, options=Options())
-    (uncertain,) = add_uncertainty([(bare.evaluations[0], arithmetic)], budget)
+    (uncertain,) = with_uncertainty([(bare.evaluations[0], arithmetic)], budget)
     return render(replace(bare, evaluations=(uncertain,), budget=budget))
 
 
@@ -293,7 +292,7 @@ def test_any_text_comes_out_as_it_went_in(title: str) -> None:
 
 
 def test_it_is_the_same_twice() -> None:
-    assert JsonResultsRenderer().render(samples.certificate()) == JsonResultsRenderer().render(
+    assert registry().renderer("json").render(samples.certificate()) == registry().renderer("json").render(
         samples.certificate()
     )
 

@@ -17,13 +17,10 @@ from dcclib.validation.schematron import SchematronValidator
 from jsonschema import Draft202012Validator
 
 from document.certificate.circles import CIRCLE, document, report
-from document.certificate.documents import registry
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin.renderer import Certificate
 from zlmreport.verification.verify import verify
-from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 TURNS = {"ccw": 1, "cw": 1}
@@ -38,7 +35,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
 
 @pytest.fixture(scope="module")
 def results(made: Certificate) -> Any:
-    return json.loads(JsonResultsRenderer().render(made))
+    return json.loads(registry().renderer("json").render(made))
 
 
 def test_the_results_file_is_as_promised(results: Any) -> None:
@@ -50,13 +47,13 @@ def test_the_results_file_is_as_promised(results: Any) -> None:
 
 
 def test_a_table_has_every_parameter(made: Certificate, results: Any) -> None:
-    rows = csv.DictReader(io.StringIO(CsvRenderer().render(made).decode()))
+    rows = csv.DictReader(io.StringIO(registry().renderer("csv").render(made).decode()))
     found = {row["symbol"]: row["value"] for row in rows if not row["target"] and row["quantity"] == "value"}
     assert found == {each["symbol"]: repr(each["value"]) for each in results["evaluations"][0]["parameters"]}
 
 
 def test_a_workbook_speaks_of_angles_and_senses(made: Certificate) -> None:
-    book = openpyxl.load_workbook(io.BytesIO(XlsxRenderer().render(made)))
+    book = openpyxl.load_workbook(io.BytesIO(registry().renderer("xlsx").render(made)))
     headings, first, *_ = book["Readings"].iter_rows(values_only=True)
     assert headings == ("Run", "Direction", "Angle / deg", "Deviation / um")
     assert first == (1, "counter-clockwise", 0, 0)
@@ -64,7 +61,7 @@ def test_a_workbook_speaks_of_angles_and_senses(made: Certificate) -> None:
 
 
 def test_a_digital_certificate_is_valid_and_speaks_of_angles_and_senses(made: Certificate) -> None:
-    content = DccRenderer().render(made)
+    content = registry().renderer("dcc").render(made)
     assert SchematronValidator.for_dcc().validate_str(content.decode()).failed_assertions == []
     root = ET.fromstring(content)
     named = {"".join(each.itertext()).strip() for each in root.iterfind(".//dcc:results//dcc:name", NAMES)}
@@ -85,7 +82,7 @@ def test_its_readings_come_out_of_a_digital_certificate_as_they_went_in(tmp_path
     stated = report(tmp_path, TURNS)
     before = pipeline.read(stated, registry())
     (tmp_path / "circle.xml").write_bytes(
-        DccRenderer().render(pipeline.compose(stated, registry(), trials=100))
+        registry().renderer("dcc").render(pipeline.compose(stated, registry(), trials=100))
     )
     of_file = {"date": "2022-04-07", "source": {"plugin": "dcc", "file": "circle.xml"}}
 

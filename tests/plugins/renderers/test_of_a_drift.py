@@ -14,14 +14,12 @@ import pytest
 from dcclib.validation.schematron import SchematronValidator
 from jsonschema import Draft202012Validator
 
-from document.certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, job
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import Certificate
 from zlmreport.verification.verify import verify
-from zlmreport_plugins.renderers.dcc import DccRenderer
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.tables import CsvRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 HOURS = np.arange(0.0, 6.5, 0.5)
@@ -61,7 +59,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
 
 @pytest.fixture(scope="module")
 def results(made: Certificate) -> Any:
-    return json.loads(JsonResultsRenderer().render(made))
+    return json.loads(registry().renderer("json").render(made))
 
 
 def test_the_results_file_is_as_promised(results: Any) -> None:
@@ -72,7 +70,7 @@ def test_the_results_file_is_as_promised(results: Any) -> None:
 
 
 def test_a_table_has_every_parameter(made: Certificate, results: Any) -> None:
-    rows = csv.DictReader(io.StringIO(CsvRenderer().render(made).decode()))
+    rows = csv.DictReader(io.StringIO(registry().renderer("csv").render(made).decode()))
     found = {row["symbol"]: row["value"] for row in rows if not row["target"] and row["quantity"] == "value"}
     assert found == {each["symbol"]: repr(each["value"]) for each in results["evaluations"][0]["parameters"]}
 
@@ -84,7 +82,7 @@ def test_what_was_measured_over_time_asks_for_no_environment_beside_it(results: 
 
 
 def test_a_digital_certificate_is_valid_and_speaks_of_hours(made: Certificate) -> None:
-    content = DccRenderer().render(made).decode()
+    content = registry().renderer("dcc").render(made).decode()
     rules = SchematronValidator.for_dcc().validate_str(content)
     assert rules.failed_assertions == []
     assert [each.text for each in rules.successful_reports if each.role == "error"] == []
@@ -96,7 +94,7 @@ def test_its_readings_come_out_of_a_digital_certificate_as_they_went_in(
 ) -> None:
     stated = report(tmp_path)
     before = pipeline.read(stated, registry())
-    (tmp_path / "drift.xml").write_bytes(DccRenderer().render(made))
+    (tmp_path / "drift.xml").write_bytes(registry().renderer("dcc").render(made))
 
     after = pipeline.read(report(tmp_path, "{plugin: dcc, file: drift.xml, test: NAME}"), registry())
 

@@ -8,7 +8,8 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from document.certificate.documents import ROOT, certificate, registry
+from document.certificate.documents import ROOT, certificate
+from installed import registry
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.plugin.renderer import Certificate

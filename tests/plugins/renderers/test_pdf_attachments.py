@@ -12,8 +12,8 @@ from pypdf import PdfReader
 from pypdf.generic import DictionaryObject
 
 from document.typesetting import samples
+from installed import registry
 from zlmreport.plugin.renderer import Attachment, Relationship
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 ATTACHED = (
     Attachment("CAL-1.json", b"{}\n", "application/json", Relationship.DATA, "Results file"),
@@ -25,7 +25,7 @@ ATTACHED = (
 
 def printed(issued: date | None = date(2026, 11, 20)) -> PdfReader:
     certificate = replace(samples.certificate(standards=0), attachments=ATTACHED, issued=issued)
-    return PdfReader(BytesIO(PdfRenderer().render(certificate)))
+    return PdfReader(BytesIO(registry().renderer("pdf").render(certificate)))
 
 
 @pytest.fixture(scope="module")
@@ -71,6 +71,6 @@ def test_dates_of_files_come_from_the_certificate_and_not_from_the_clock(
 
 
 def test_without_files_there_is_no_list_of_them() -> None:
-    reader = PdfReader(BytesIO(PdfRenderer().render(samples.certificate(standards=0))))
+    reader = PdfReader(BytesIO(registry().renderer("pdf").render(samples.certificate(standards=0))))
     assert "/AF" not in reader.root_object
     assert "/EmbeddedFiles" not in reader.root_object.get("/Names", {})

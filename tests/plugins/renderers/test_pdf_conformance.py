@@ -12,14 +12,13 @@ from pypdf import PdfReader
 
 from document.typesetting import samples
 from environments import ROOT
+from installed import registry
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import sample
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import Language
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 
 def _with_logo() -> Certificate:
@@ -48,14 +47,13 @@ _CERTIFICATES = {
 
 @pytest.mark.parametrize("made", _CERTIFICATES.values(), ids=_CERTIFICATES)
 def test_it_conforms(made) -> None:
-    assert complaints(PdfRenderer().render(made())) == []
+    assert complaints(registry().renderer("pdf").render(made())) == []
 
 
 @pytest.mark.long
 def test_a_certificate_with_a_diagnosis_conforms() -> None:
-    registry = find_plugins()
-    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry, formats=("pdf",))
-    (document,) = pipeline.run(loaded, registry).documents
+    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry(), formats=("pdf",))
+    (document,) = pipeline.run(loaded, registry()).documents
     assert complaints(document.content) == []
 
 
@@ -73,7 +71,7 @@ def test_its_number_and_language_are_metadata() -> None:
 
 
 def test_metadata_can_be_read_without_unpacking_the_file() -> None:
-    content = PdfRenderer().render(samples.certificate(standards=0))
+    content = registry().renderer("pdf").render(samples.certificate(standards=0))
     assert b"<pdfuaid:part>1</pdfuaid:part>" in content
 
 

@@ -15,10 +15,11 @@ from pypdf import PdfReader
 from weasyprint import HTML
 
 from document.typesetting import samples
+from installed import registry
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
 from processes import PYTHON, run
 from zlmreport.plugin import AccessError, Language
-from zlmreport_plugins.renderers.pdf import PdfRenderer, press
+from zlmreport_plugins.renderers.pdf import press
 
 TESTS = Path(samples.__file__).parents[2]
 
@@ -159,7 +160,7 @@ def test_it_opens_no_file() -> None:
 def test_without_pango_the_user_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "zlmreport_plugins.renderers.pdf.press", None)
     with pytest.raises(AccessError, match=r"WeasyPrint cannot be loaded.*Pango.*apt-get install"):
-        PdfRenderer().render(samples.certificate(standards=0))
+        registry().renderer("pdf").render(samples.certificate(standards=0))
 
 
 def _titles(outline: list[Any]) -> list[Any]:
@@ -167,4 +168,4 @@ def _titles(outline: list[Any]) -> list[Any]:
 
 
 def test_the_file_opens_without_a_complaint() -> None:
-    PdfReader(BytesIO(PdfRenderer().render(samples.certificate(standards=0))), strict=True)
+    PdfReader(BytesIO(registry().renderer("pdf").render(samples.certificate(standards=0))), strict=True)

@@ -12,8 +12,8 @@ from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
 
 from document.certificate.documents import certificate
+from installed import registry
 from zlmreport.plugin import FONT_FACES, font_file
-from zlmreport_plugins.renderers.pdf.press import find_press
 from zlmreport_plugins.renderers.pdf.subset import keep_glyphs
 
 
@@ -23,10 +23,10 @@ def test_a_document_is_the_same_where_the_system_has_no_library_of_subsets(
 ) -> None:
     """`libharfbuzz-subset` is hidden in the way in which WeasyPrint finds it missing."""
     document = certificate(tmp_path)
-    usual = find_press().print(document)
+    usual = registry().renderer("pdf").render(document)
     for library in (None, object()):
         monkeypatch.setattr(weasyprint.pdf.fonts, "harfbuzz_subset", library)
-        assert find_press().print(document) == usual
+        assert registry().renderer("pdf").render(document) == usual
     assert "fontTools" not in caplog.text
 
 

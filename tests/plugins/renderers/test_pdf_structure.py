@@ -11,9 +11,9 @@ import pikepdf
 import pytest
 
 from document.typesetting import samples
+from installed import registry
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Align, Column, Graph, Paragraph, RowGroup, Section, Table
-from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 _ROWS = (("a", "1"), ("b", "2"))
 _TABLE = Table(
@@ -32,7 +32,7 @@ def opened(language: Language = Language.ENGLISH) -> pikepdf.Pdf:
         Section("far", "Far away", (Paragraph("far"), Graph(figure)), new_page=True),
     )
     certificate = samples.certificate(language, standards=0, sections=sections)
-    return pikepdf.open(BytesIO(PdfRenderer().render(certificate)))
+    return pikepdf.open(BytesIO(registry().renderer("pdf").render(certificate)))
 
 
 def elements(kind: str | None = None, below: pikepdf.Object | None = None) -> list[pikepdf.Dictionary]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from document.typesetting import samples
-from zlmreport_plugins.renderers.pdf import PdfRenderer
+from installed import registry
 from zlmreport_plugins.renderers.pdf.press import Supply
 
 
@@ -35,10 +35,10 @@ def test_anything_else_is_refused(address: str) -> None:
 
 
 def test_an_ordinary_certificate_asks_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    PdfRenderer().render(samples.certificate(standards=0))
+    registry().renderer("pdf").render(samples.certificate(standards=0))
     asked: list[str] = []
     monkeypatch.setattr(Supply, "fetch", lambda _, url, headers=None: asked.append(url))  # noqa: ARG005
-    PdfRenderer().render(samples.certificate(customer="<img src='file:///etc/passwd'>"))
+    registry().renderer("pdf").render(samples.certificate(customer="<img src='file:///etc/passwd'>"))
     assert asked == []
 
 
@@ -50,7 +50,7 @@ def test_a_drawing_as_logo_cannot_fetch_what_it_names(weasyprint_log: list[str])
     plain = samples.certificate(standards=0)
     assert plain.letterhead is not None
     letterhead = replace(plain.letterhead, logo=drawing, logo_type="image/svg+xml")
-    content = PdfRenderer().render(replace(plain, letterhead=letterhead))
+    content = registry().renderer("pdf").render(replace(plain, letterhead=letterhead))
     assert b"root:" not in content
     weasyprint_log.append(
         "Failed to load image at 'file:///etc/passwd': ValueError: "

@@ -14,10 +14,9 @@ import openpyxl
 import pytest
 
 from document.typesetting import samples
+from installed import registry
 from zlmreport.plugin import ANGLE, ARCSECOND, Language, Words
 from zlmreport.plugin.renderer import Certificate, NoBudget
-from zlmreport_plugins.renderers.json_results import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, make_harmless
 
 FORMULA = '=HYPERLINK("http://example.com";"1")'
 
@@ -29,16 +28,16 @@ def certificate() -> Certificate:
 
 @cache
 def results() -> Any:
-    return json.loads(JsonResultsRenderer().render(certificate()))
+    return json.loads(registry().renderer("json").render(certificate()))
 
 
 @cache
 def rows() -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(CsvRenderer().render(certificate()).decode())))
+    return list(csv.DictReader(io.StringIO(registry().renderer("csv").render(certificate()).decode())))
 
 
 def book(of: Certificate) -> Any:
-    return openpyxl.load_workbook(io.BytesIO(XlsxRenderer().render(of)))
+    return openpyxl.load_workbook(io.BytesIO(registry().renderer("xlsx").render(of)))
 
 
 def table(sheet: Any) -> list[dict[str, Any]]:
@@ -84,7 +83,7 @@ def test_positions_of_the_table_are_those_of_the_results_file() -> None:
 def test_what_u_does_not_consider_stands_beside_it_in_the_table_and_in_the_workbook() -> None:
     reason = Words(en="no number", de="keine Zahl")
     incomplete = replace(certificate(), budget=NoBudget(reason, missing=("misalignment", "instrument")))
-    printed = csv.DictReader(io.StringIO(CsvRenderer().render(incomplete).decode()))
+    printed = csv.DictReader(io.StringIO(registry().renderer("csv").render(incomplete).decode()))
     assert [row["symbol"] for row in printed if row["quantity"] == "uncertainty.missing"] == [
         "misalignment",
         "instrument",
@@ -100,7 +99,10 @@ def test_a_complete_u_has_no_such_rows_and_no_such_column() -> None:
 
 @pytest.mark.parametrize("text", [FORMULA, "+1", "-1", "@x", "\t=1"])
 def test_no_text_of_a_table_begins_a_formula(text: str) -> None:
-    assert make_harmless(text) == f"'{text}"
+    (first, *others) = certificate().evaluations
+    made = replace(certificate(), evaluations=(replace(first, standard=text), *others))
+    printed = csv.DictReader(io.StringIO(registry().renderer("csv").render(made).decode(), newline=""))
+    assert next(printed)["standard"] == f"'{text}"
 
 
 def test_the_workbook_holds_the_numbers_of_the_results_file() -> None:

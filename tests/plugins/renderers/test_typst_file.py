@@ -14,6 +14,7 @@ import pytest
 from PIL import Image
 
 from document.typesetting import samples
+from installed import registry
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import elements, fonts
 from plugins.renderers.test_pdf_attachments import ATTACHED, specifications
@@ -21,8 +22,6 @@ from plugins.renderers.typst_pages import read, sample
 from processes import PYTHON, run
 from zlmreport.plugin import AccessError, Language
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.pdf import PdfRenderer
-from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 TESTS = Path(samples.__file__).parents[2]
 
@@ -53,7 +52,7 @@ _CERTIFICATES = {
 
 @pytest.mark.parametrize("made", _CERTIFICATES.values(), ids=_CERTIFICATES)
 def test_it_conforms(made: Callable[[], Certificate]) -> None:
-    assert complaints(TypstRenderer().render(made())) == []
+    assert complaints(registry().renderer("pdf-typst").render(made())) == []
 
 
 def test_it_claims_both_standards() -> None:
@@ -69,7 +68,7 @@ def test_metadata_tell_what_the_document_is_and_who_made_it() -> None:
     assert metadata.author == "Laboratory for Machine Metrology"
     assert metadata.subject == "Positioning by SAMPLE 1:2026"
     assert metadata["/Keywords"] == "positioning, SAMPLE 1:2026"
-    assert (metadata.creator or "").startswith(TypstRenderer.creator)
+    assert (metadata.creator or "").startswith(registry().renderer("pdf-typst").creator)
 
 
 def test_its_dates_are_the_date_of_issue() -> None:
@@ -125,15 +124,15 @@ def test_the_logo_says_whose_it_is() -> None:
 
 
 def test_a_viewer_finds_nothing_to_run_or_to_load() -> None:
-    with pikepdf.open(BytesIO(TypstRenderer().render(samples.certificate()))) as pdf:
+    with pikepdf.open(BytesIO(registry().renderer("pdf-typst").render(samples.certificate()))) as pdf:
         assert "/OpenAction" not in pdf.Root
         assert "/JavaScript" not in pdf.Root.get("/Names", {})
 
 
 def test_its_structure_is_compressed_and_no_object_is_lost() -> None:
     certificate = samples.certificate()
-    pdf = TypstRenderer().render(certificate)
-    assert len(pdf) < 1.1 * len(PdfRenderer().render(certificate))
+    pdf = registry().renderer("pdf-typst").render(certificate)
+    assert len(pdf) < 1.1 * len(registry().renderer("pdf").render(certificate))
     with pikepdf.open(BytesIO(pdf)) as opened:
         assert opened.check_pdf_syntax() == []
         kinds = [each.get("/Type") for each in opened.objects if isinstance(each, pikepdf.Dictionary)]
@@ -142,16 +141,16 @@ def test_its_structure_is_compressed_and_no_object_is_lost() -> None:
 
 
 def test_the_order_of_documents_does_not_matter() -> None:
-    first = TypstRenderer().render(samples.certificate())
-    TypstRenderer().render(samples.certificate(Language.GERMAN))
-    assert TypstRenderer().render(samples.certificate()) == first
+    first = registry().renderer("pdf-typst").render(samples.certificate())
+    registry().renderer("pdf-typst").render(samples.certificate(Language.GERMAN))
+    assert registry().renderer("pdf-typst").render(samples.certificate()) == first
 
 
 def test_without_the_package_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "typst", None)
     monkeypatch.delitem(sys.modules, "zlmreport_plugins.renderers.pdf_typst.press", raising=False)
     with pytest.raises(AccessError, match=r"pip install 'zlmreport\[typst\]'"):
-        TypstRenderer().render(samples.certificate(standards=0))
+        registry().renderer("pdf-typst").render(samples.certificate(standards=0))
 
 
 def test_printing_needs_neither_matplotlib_nor_weasyprint() -> None:

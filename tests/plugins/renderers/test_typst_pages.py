@@ -10,9 +10,8 @@ from pypdf import PdfReader
 from document.typesetting import samples
 from plugins.renderers.pdf_pages import page_of, texts
 from plugins.renderers.typst_pages import read, sample
-from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.plugin import Language
+from zlmreport.plugin.page import FontFace, text_advance
 from zlmreport.plugin.renderer import (
     Align,
     Certificate,
@@ -38,7 +37,7 @@ def _ends(reader: PdfReader) -> float:
     places = []
 
     def visit(text: str, _cm: object, matrix: list[float], _font: object, size: float) -> None:
-        widest = max(measure_advance(line, TypeFace.REGULAR) for line in text.strip().split("\n"))
+        widest = max(text_advance(line, FontFace.REGULAR) for line in text.strip().split("\n"))
         places.append(matrix[4] + abs(matrix[0]) * size * widest)
 
     for page in reader.pages:

@@ -8,14 +8,14 @@ from io import BytesIO
 from pypdf import PdfReader
 
 from document.typesetting import samples
+from installed import registry
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 
 def read(certificate: Certificate) -> PdfReader:
     """Print a certificate and open it."""
-    return PdfReader(BytesIO(TypstRenderer().render(certificate)))
+    return PdfReader(BytesIO(registry().renderer("pdf-typst").render(certificate)))
 
 
 @cache

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from installed import registry
 from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
 from zlmreport.plugin.protocols import DataSource, SourceContext
 
@@ -21,10 +22,15 @@ UM, MM = 1e-6, 1e-3
 
 @dataclass(frozen=True)
 class File:
-    """A file for a data source, written anew for each reading."""
+    """A file for the data source of an identifier, written anew for each reading."""
 
-    source: DataSource
+    identifier: str
     path: Path
+
+    @property
+    def source(self) -> DataSource:
+        """The installed data source."""
+        return registry().source(self.identifier)
 
     def read(self, content: str | bytes, axis: Axis | None = None, **keys: Any) -> MeasurementSet:
         """Write the file and read it."""

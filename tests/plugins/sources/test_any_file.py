@@ -13,11 +13,7 @@ from hypothesis import given, strategies as st
 
 from plugins.sources.reading import DATA, File
 from zlmreport.plugin import InputError
-from zlmreport_plugins.sources.ecmc import Ecmc
-from zlmreport_plugins.sources.laser_csv import LaserCsv
-from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl
 
-SOURCES = [LaserCsv(), RenishawRtl(), Ecmc()]
 SAMPLES = {
     "laser-csv": (DATA / "published" / "ecmc_0657b0d4.csv").read_text(),
     "renishaw-rtl": (DATA / "sources" / "bidirectional.rtl").read_text(),
@@ -38,7 +34,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("files")
 
 
-@pytest.fixture(scope="module", params=SOURCES, ids=lambda source: source.identifier)
+@pytest.fixture(scope="module", params=SAMPLES)
 def file(request: pytest.FixtureRequest, folder: Path) -> File:
     return File(request.param, folder / "x.dat")
 
@@ -72,7 +68,7 @@ def test_any_damage_is_read_or_refused(file: File, data: st.DataObject) -> None:
 
 @given(data=st.data())
 def test_any_damage_of_a_wide_table_is_read_or_refused(folder: Path, data: st.DataObject) -> None:
-    file = File(LaserCsv(), folder / "x.csv")
+    file = File("laser-csv", folder / "x.csv")
     with contextlib.suppress(InputError):
         file.read(data.draw(damaged(WIDE)).encode("utf-8", "replace"), layout="wide")
 
@@ -123,7 +119,7 @@ def test_a_table_that_was_written_is_read_back_equal(folder: Path, data: st.Data
     content = "\n".join([delimiter.join(["target", "direction", "run", "deviation"]), *lines])
     if decimal == "comma":
         content = content.replace(".", ",")
-    file = File(LaserCsv(), folder / "x.csv")
+    file = File("laser-csv", folder / "x.csv")
     measurements = file.read(content, sign=sign, decimal=decimal)
     factor = 1 if sign == "actual-nominal" else -1
     assert measurements.target_positions.tolist() == [float(target) / 1e3 for target in targets]
@@ -152,7 +148,7 @@ def test_a_test_file_that_was_written_is_read_back_equal(folder: Path, data: st.
     content = "\n".join(
         ["TARGET DATA::", "Targets :", *targets, "Flags: 0", "DEVIATIONS::", "Run Target Data:", *lines]
     )
-    measurements = File(RenishawRtl(), folder / "x.rtl").read(content)
+    measurements = File("renishaw-rtl", folder / "x.rtl").read(content)
     cycles = {1: 0, -1: 0}
     for (_, direction), values in taken.items():
         cycles[direction] += 1
@@ -179,7 +175,7 @@ def test_a_log_that_was_written_is_read_back_equal(folder: Path, data: st.DataOb
                     float(actual) - float(targets[index])
                 ) / 1e3
     order = data.draw(st.permutations(lines))
-    measurements = File(Ecmc(), folder / "x.dat").read("\n".join(order))
+    measurements = File("ecmc", folder / "x.dat").read("\n".join(order))
     grid = measurements.deviations()
     assert np.count_nonzero(~np.isnan(grid)) == len(written)
     assert {place: grid[place] for place in written} == written

@@ -11,7 +11,6 @@ from pydantic import ValidationError
 
 from plugins.sources.reading import UM, File, said
 from zlmreport.plugin import DISPLACEMENT, Axis, InputError
-from zlmreport_plugins.sources.channels_csv import ChannelsCsv
 
 X1 = Axis("X1", quantity=DISPLACEMENT)
 LONG = "time,channel,value\n"
@@ -19,7 +18,7 @@ LONG = "time,channel,value\n"
 
 @pytest.fixture
 def file(tmp_path: Path) -> File:
-    return File(ChannelsCsv(), tmp_path / "drift.csv")
+    return File("channels-csv", tmp_path / "drift.csv")
 
 
 def test_a_row_may_be_a_reading_of_one_channel(file: File) -> None:
@@ -196,12 +195,12 @@ def test_a_table_of_channels_is_no_test_of_an_axis(file: File) -> None:
 @pytest.mark.parametrize("name", ["air_temp", "humidity_air"])
 def test_a_condition_that_is_none_is_not_lost_without_a_word(file: File, name: str) -> None:
     with pytest.raises(ValueError, match="is no condition"):
-        ChannelsCsv.options.model_validate({"file": file.path, "channels": {name: "Hall"}})
+        file.source.options.model_validate({"file": file.path, "channels": {name: "Hall"}})
 
 
 def test_a_file_of_sensors_and_temperatures_is_proposed(file: File) -> None:
     file.path.write_text("time,X1,X2,Z,air_temperature\n0,1,2,3,20\n60,2,3,4,20\n")
-    (proposal,) = ChannelsCsv().proposals(file.path)
+    (proposal,) = file.source.proposals(file.path)
     assert proposal.tests == ("X1", "X2", "Z")
     assert any("X1 and X2 apart" in question for question in proposal.asks)
 
@@ -211,7 +210,7 @@ def test_a_file_of_sensors_and_temperatures_is_proposed(file: File) -> None:
 )
 def test_a_file_of_something_else_is_not(file: File, content: str) -> None:
     file.path.write_text(content)
-    assert list(ChannelsCsv().proposals(file.path)) == []
+    assert list(file.source.proposals(file.path)) == []
 
 
 def test_a_day_may_have_a_column_of_its_own(file: File) -> None:
@@ -276,7 +275,7 @@ def test_a_logger_may_call_its_columns_in_german(
     file: File, content: str, columns: dict[str, str] | None, channels: dict[str, str] | None
 ) -> None:
     file.path.write_text(content, encoding="utf-8")
-    (proposal,) = ChannelsCsv().proposals(file.path)
+    (proposal,) = file.source.proposals(file.path)
     assert proposal.keys.get("columns") == columns
     assert proposal.keys.get("channels") == channels
     found = file.read(content, Axis(proposal.tests[0], quantity=DISPLACEMENT), **proposal.keys)
@@ -285,6 +284,6 @@ def test_a_logger_may_call_its_columns_in_german(
 
 def test_a_temperature_of_which_nobody_says_whose_it_is_is_asked(file: File) -> None:
     file.path.write_text("Zeit,X1,Temperatur\n0,1,20\n60,2,20\n", encoding="utf-8")
-    (proposal,) = ChannelsCsv().proposals(file.path)
+    (proposal,) = file.source.proposals(file.path)
     assert proposal.keys["channels"] == {"air_temperature": "Temperatur"}
     assert "Is 'Temperatur' the temperature of the air?" in proposal.asks[0]

@@ -8,11 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from installed import registry
 from plugins.sources.reading import MM, UM, File, said
 from zlmreport.looking import look_at
 from zlmreport.plugin import CIRCLE, Axis, InputError, NominalCircle
-from zlmreport.plugin.registry.find import find_plugins
-from zlmreport_plugins.sources.circle_csv import CircleCsv
 
 #: Radius 150 mm, feed 1000 mm/min.
 XY = Axis("XY", quantity=CIRCLE, circle=NominalCircle("XY", 0.15, 1 / 60))
@@ -21,7 +20,7 @@ HEADER = "sense,run,angle,deviation\n"
 
 @pytest.fixture
 def file(tmp_path: Path) -> File:
-    return File(CircleCsv(), tmp_path / "circle.csv")
+    return File("circle-csv", tmp_path / "circle.csv")
 
 
 def rows(count=36, senses=("ccw", "cw"), runs=(1,), deviation=math.cos, first=0.0):
@@ -256,20 +255,20 @@ def test_a_radius_in_metres_is_read_in_metres(file: File) -> None:
 
 @pytest.mark.parametrize(("way", "sense"), [(1, "ccw"), (-1, "cw")])
 def test_a_turn_that_names_no_sense_is_known_by_its_radial_deviations(
-    tmp_path: Path, way: int, sense: str
+    file: File, tmp_path: Path, way: int, sense: str
 ) -> None:
     path = tmp_path / "run.csv"
     turn = [f"{(way * step * 10) % 360},{math.cos(step):.3f}" for step in range(36)]
     path.write_text("\n".join(["Angle [deg],Radial deviation [um]", *turn]) + "\n", encoding="utf-8")
-    (found,) = CircleCsv().proposals(path)
+    (found,) = file.source.proposals(path)
     assert dict(found.keys) == {"sense": sense, "columns": {"deviation": "Radial deviation [um]"}}
     assert found.circle is not None
 
 
-def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
+def test_angles_of_a_rotary_axis_are_no_circle(file: File, tmp_path: Path) -> None:
     path = tmp_path / "rotary.csv"
     path.write_text("angle,deviation\n" + "".join(f"{10 * n},{n}\n" for n in range(36)), encoding="utf-8")
-    assert not list(CircleCsv().proposals(path))
+    assert not list(file.source.proposals(path))
 
 
 @pytest.mark.parametrize(
@@ -281,11 +280,11 @@ def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
     ],
 )
 def test_a_table_that_tells_nothing_of_a_circle_is_looked_at_without_a_warning(
-    tmp_path: Path, rows: str
+    file: File, tmp_path: Path, rows: str
 ) -> None:
     path = tmp_path / "empty.csv"
     path.write_text(rows, encoding="utf-8")
-    assert all(each.circle for each in CircleCsv().proposals(path))
+    assert all(each.circle for each in file.source.proposals(path))
 
 
 def test_deviations_in_a_column_of_radii_are_told_from_radii(tmp_path: Path) -> None:
@@ -293,4 +292,4 @@ def test_deviations_in_a_column_of_radii_are_told_from_radii(tmp_path: Path) -> 
     turn = [f"ccw,1,{angle},{0.01 + angle / 1e6:.6f}" for angle in range(0, 360, 10)]
     path.write_text("\n".join(["sense,run,angle,radius", *turn]) + "\n", encoding="utf-8")
     with pytest.raises(InputError, match="are they deviations, or is a unit wrong"):
-        look_at(path, find_plugins({}))
+        look_at(path, registry())

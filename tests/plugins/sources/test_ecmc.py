@@ -11,8 +11,6 @@ import pytest
 from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, Axis, AxisKind
-from zlmreport_plugins.sources.ecmc import Ecmc
-from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 SPECIMEN = (DATA / "sources" / "ecmc_13e6c326.dat").read_bytes()
 #: One cycle at two targets; the first line is 1, the last 8.
@@ -32,7 +30,7 @@ NOISE = 2 * np.spacing(20.0) * MM
 
 @pytest.fixture
 def file(tmp_path: Path) -> File:
-    return File(Ecmc(), tmp_path / "x.dat")
+    return File("ecmc", tmp_path / "x.dat")
 
 
 def test_actual_positions_give_deviations_cycle_by_cycle(file: File) -> None:
@@ -46,7 +44,7 @@ def test_actual_positions_give_deviations_cycle_by_cycle(file: File) -> None:
 def test_the_log_and_the_report_of_one_test_have_their_directions_exchanged(
     file: File, tmp_path: Path
 ) -> None:
-    report = File(LaserCsv(), tmp_path / "x.csv").read((DATA / "published/ecmc_13e6c326.csv").read_bytes())
+    report = File("laser-csv", tmp_path / "x.csv").read((DATA / "published/ecmc_13e6c326.csv").read_bytes())
     log = file.read(SPECIMEN)
     np.testing.assert_allclose(log.deviations()[::-1], report.deviations(), rtol=0.0, atol=NOISE)
     assert_same_readings(file.read(SPECIMEN, exchange_directions=True), report, NOISE)

@@ -18,7 +18,6 @@ from plugins.sources.untidy_files import FILES
 from zlmreport.looking import look_at
 from zlmreport.plugin import Axis, AxisKind, InputError
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 REGISTRY = find_plugins({})
 HEADER = "target;direction;run;deviation\n"
@@ -32,11 +31,6 @@ SAMPLES = [
     ),
 ]
 LYING = "Position;0;100\n1+;1,5;2,5\n1-;0,5;\n"
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> File:
-    return File(LaserCsv(), tmp_path / "x.csv")
 
 
 def sheet(path: Path, *rows: list[object]) -> Path:
@@ -166,18 +160,18 @@ def test_times_are_read_as_spreadsheets_write_them(file: File, first: str, secon
 
 def test_an_empty_last_cell_of_a_sheet_is_a_missing_reading(tmp_path: Path) -> None:
     path = sheet(tmp_path / "x.xlsx", ["target", "1+", "1-"], [0, 1, 2], [9, 3, None])
-    assert len(File(LaserCsv(), path).read_as_it_is(layout="wide").missing()) == 1
+    assert len(File("laser-csv", path).read_as_it_is(layout="wide").missing()) == 1
 
 
 def test_a_place_in_a_sheet_is_row_and_column(tmp_path: Path) -> None:
     path = sheet(tmp_path / "x.xlsx", ["target", "1+", "1-"], [0, 1, "two"])
     with pytest.raises(InputError, match=r"x\.xlsx:2:3: 'two' stands where a number belongs"):
-        File(LaserCsv(), path).read_as_it_is(layout="wide")
+        File("laser-csv", path).read_as_it_is(layout="wide")
 
 
 def test_in_a_sheet_numbers_have_a_point_and_texts_may_have_a_comma(tmp_path: Path) -> None:
     path = sheet(tmp_path / "x.xlsx", ["target", "1+", "1-"], [0, 0.25, "1,5"], [9, 1.5, "0,25"])
-    measurements = File(LaserCsv(), path).read_as_it_is(layout="wide")
+    measurements = File("laser-csv", path).read_as_it_is(layout="wide")
     assert (measurements.deviations()[:, :, 0] / UM).round(9).tolist() == [[0.25, 1.5], [1.5, 0.25]]
 
 

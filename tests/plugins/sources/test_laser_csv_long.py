@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,18 +10,12 @@ import pytest
 from plugins.sources.reading import DATA, MM, UM, File, assert_same_readings, said
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, Axis, AxisKind
-from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 HEADER = "target,direction,run,deviation\n"
 #: 2 targets, both directions.
 ROWS = "0,+,1,1.5\n100,+,1,-2\n100,-,1,3\n0,-,1,0.25\n"
 ROTARY = Axis("C", AxisKind.ROTARY)
 NO_TIMES = "No times were logged: drift and warm-up can only be judged by the order of the readings."
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> File:
-    return File(LaserCsv(), tmp_path / "x.csv")
 
 
 def test_a_table_is_read_in_si_in_the_order_of_its_rows(file: File) -> None:

@@ -8,15 +8,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from zlmreport.measurement.error_symbol import find_error_named
-from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
+from zlmreport.plugin import (
+    Axis,
+    InputError,
+    Language,
+    MeasurementSet,
+    Place,
+    error_named,
+)
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 
 POSITIONS = np.arange(0.0, 601.0, 100.0)
 AXIS = 2e-5 * POSITIONS * (600.0 - POSITIONS) + 0.004 * POSITIONS
 MIRROR = 0.7 * np.sin(POSITIONS / 90.0)
-STRAIGHTNESS = Axis("X", quantity=find_error_named("EYX").measurand, error="EYX")
+STRAIGHTNESS = Axis("X", quantity=error_named("EYX").measurand, error="EYX")
 
 
 def table(folder: Path, name: str, values: np.ndarray, order: int = 1) -> Path:
@@ -63,6 +69,6 @@ def test_a_second_table_of_another_plan_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("symbol", ["EXX", "EBX"])
 def test_only_a_straightness_is_reversed(tmp_path: Path, symbol: str) -> None:
-    axis = Axis("X", quantity=find_error_named(symbol).measurand, error=symbol)
+    axis = Axis("X", quantity=error_named(symbol).measurand, error=symbol)
     with pytest.raises(InputError, match="names one, such as EYX"):
         read(tmp_path, axis)

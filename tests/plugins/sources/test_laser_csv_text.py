@@ -10,22 +10,17 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from installed import registry
 from plugins.sources.reading import File, assert_same_readings
 from zlmreport.plugin import AccessError, InputError, MeasurementSet
-from zlmreport_plugins.sources.laser_csv import LaserCsv
 
 HEADER = "target,direction,run,deviation\n"
 TABLE = f"{HEADER}0,+,1,1.5\n100,+,1,-2\n"
 
 
 @pytest.fixture
-def file(tmp_path: Path) -> File:
-    return File(LaserCsv(), tmp_path / "x.csv")
-
-
-@pytest.fixture
 def expected(tmp_path: Path) -> MeasurementSet:
-    return File(LaserCsv(), tmp_path / "expected.csv").read(TABLE)
+    return File("laser-csv", tmp_path / "expected.csv").read(TABLE)
 
 
 @pytest.mark.parametrize(
@@ -279,7 +274,7 @@ def test_a_file_that_is_not_there_could_not_be_read(file: File) -> None:
 )
 def test_job_keys_are_held_against_what_there_is(keys: dict[str, object], complaint: str) -> None:
     with pytest.raises(ValidationError) as caught:
-        LaserCsv.options.model_validate({"file": "x.csv", **keys})
+        registry().source("laser-csv").options.model_validate({"file": "x.csv", **keys})
     assert complaint in str(caught.value)
 
 

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from plugins.sources.reading import File, assert_same_readings, said
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, MeasurementSet
-from zlmreport_plugins.sources.laser_csv import LaserCsv
-from zlmreport_plugins.sources.laser_csv.options import run_and_direction
 
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
 
@@ -19,11 +15,6 @@ LONG = (
     "0,+,1,1\n100,+,1,5\n100,-,1,6\n0,-,1,2\n0,+,2,3\n100,+,2,7\n100,-,2,8\n0,-,2,4\n"
 )
 ROWS = "0,1,2,3,4\n100,5,6,7,8\n"
-
-
-@pytest.fixture
-def file(tmp_path: Path) -> File:
-    return File(LaserCsv(), tmp_path / "x.csv")
 
 
 def wide(file: File, content: str, **keys: object) -> MeasurementSet:
@@ -69,20 +60,21 @@ def test_it_is_said_that_the_table_does_not_tell_the_order_of_readings(file: Fil
         ("1+", (1, UP)),
         ("12 -", (12, DOWN)),
         ("3−", (3, DOWN)),
-        ("RUN 7", (7, None)),
-        ("Run-1", None),
-        ("run 0 +", None),
-        ("1+2", None),
-        ("Average", None),
-        ("fwd", None),
-        ("posıtıv 1", None),
-        ("", None),
     ],
 )
-def test_a_header_tells_run_and_direction_by_a_rule_or_nothing(
-    header: str, told: tuple[int, Approach | None] | None
-) -> None:
-    assert run_and_direction(header) == told
+def test_a_header_tells_run_and_direction(file: File, header: str, told: tuple[int, Approach]) -> None:
+    found = wide(file, f"target,{header}\n0,1\n")
+    assert (found.run.tolist(), found.approaches) == ([told[0]], (told[1],))
+
+
+def test_a_header_may_tell_the_run_alone(file: File) -> None:
+    assert wide(file, "target,RUN 7\n0,1\n", direction="up").run.tolist() == [7]
+
+
+@pytest.mark.parametrize("header", ["Run-1", "run 0 +", "1+2", "Average", "fwd", "posıtıv 1"])
+def test_a_header_tells_run_and_direction_by_a_rule_or_nothing(file: File, header: str) -> None:
+    complaint = file.complaint(f"target,1-,{header}\n0,1,2\n", layout="wide")
+    assert f"no rule reads the column '{header}'" in complaint
 
 
 def test_a_column_without_a_meaning_is_never_dropped_silently(file: File) -> None:

@@ -10,7 +10,6 @@ import pytest
 from environments import ROOT
 from plugins.sources.reading import MM, File
 from zlmreport.plugin import Axis
-from zlmreport_plugins.sources.plate_csv import PlateCsv
 from zlmreport_plugins.union_jack_lines import LINE, LINES
 
 ARCSECOND = np.pi / 180 / 3600
@@ -20,7 +19,7 @@ PLATE = "line,station,reading\nNW-SE,1,3\nNW-SE,2,4\nNW-SE,3,6\nW-E,1,9\nW-E,2,8
 
 @pytest.fixture
 def file(tmp_path: Path) -> File:
-    return File(PlateCsv(), tmp_path / "plate.csv")
+    return File("plate-csv", tmp_path / "plate.csv")
 
 
 def test_a_station_is_where_the_front_foot_stands(file: File) -> None:
@@ -58,9 +57,9 @@ def test_feet_that_are_in_another_unit_are_told(file: File, foot: float) -> None
 
 
 @pytest.mark.parametrize("foot", [0, -100, "four inches"])
-def test_feet_that_are_no_distance_are_refused(foot: object) -> None:
+def test_feet_that_are_no_distance_are_refused(file: File, foot: object) -> None:
     with pytest.raises(ValueError, match="foot"):
-        PlateCsv.options.model_validate({"file": "plate.csv", "foot": foot})
+        file.source.options.model_validate({"file": "plate.csv", "foot": foot})
 
 
 def test_a_line_that_is_not_there_is_told_with_the_nearest(file: File) -> None:
@@ -73,8 +72,8 @@ def test_a_job_on_something_else_is_told_how_lines_are_named(file: File) -> None
     assert "name the lines as tests" in file.complaint(PLATE, Axis("X"), foot=100)
 
 
-def test_the_lines_of_a_file_are_proposed_and_what_it_cannot_say_is_asked() -> None:
-    (proposal,) = PlateCsv().proposals(ROOT / "configs" / "flatness" / "plate.csv")
+def test_the_lines_of_a_file_are_proposed_and_what_it_cannot_say_is_asked(file: File) -> None:
+    (proposal,) = file.source.proposals(ROOT / "configs" / "flatness" / "plate.csv")
     assert set(proposal.tests) == set(LINES)
     assert proposal.keys == {"foot": 100}
     feet, sense = proposal.asks
@@ -84,7 +83,7 @@ def test_the_lines_of_a_file_are_proposed_and_what_it_cannot_say_is_asked() -> N
 
 def test_what_is_no_line_of_a_union_jack_is_asked(file: File) -> None:
     file.path.write_text(PLATE + "check,1,2\n")
-    (proposal,) = PlateCsv().proposals(file.path)
+    (proposal,) = file.source.proposals(file.path)
     assert proposal.tests == ("NW-SE", "W-E")
     assert "What is 'check'?" in proposal.asks[-1]
 
@@ -95,4 +94,4 @@ def test_what_is_no_line_of_a_union_jack_is_asked(file: File) -> None:
 )
 def test_a_file_of_something_else_is_not_proposed(file: File, content: str) -> None:
     file.path.write_text(content)
-    assert list(PlateCsv().proposals(file.path)) == []
+    assert list(file.source.proposals(file.path)) == []

@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from installed import registry
 from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, Axis, AxisKind, Language
-from zlmreport_plugins.sources.laser_csv import LaserCsv
-from zlmreport_plugins.sources.renishaw_rtl import RenishawRtl
 
 SPECIMEN = (DATA / "sources" / "bidirectional.rtl").read_bytes()
 ROTARY = Axis("C", AxisKind.ROTARY)
@@ -21,7 +20,7 @@ ROTARY = Axis("C", AxisKind.ROTARY)
 
 @pytest.fixture
 def file(tmp_path: Path) -> File:
-    return File(RenishawRtl(), tmp_path / "x.rtl")
+    return File("renishaw-rtl", tmp_path / "x.rtl")
 
 
 def specimen(deviations: str, *, targets: str = "0 100 200", kind: str = "rtl", more: str = "") -> str:
@@ -37,7 +36,7 @@ BIDIRECTIONAL = "1 1 1.0\n1 2 2.0\n1 3 3.0\n2 3 3.5\n2 2 2.5\n2 1 1.5"
 
 
 def test_the_specimen_is_the_published_table(file: File, tmp_path: Path) -> None:
-    table = File(LaserCsv(), tmp_path / "x.csv").read((DATA / "published/ecmc_13e6c326.csv").read_bytes())
+    table = File("laser-csv", tmp_path / "x.csv").read((DATA / "published/ecmc_13e6c326.csv").read_bytes())
     assert_same_readings(file.read(SPECIMEN), table)
 
 
@@ -128,7 +127,9 @@ def test_the_unit_of_deviations_may_be_stated(file: File) -> None:
 
 def test_a_unit_that_there_is_not_is_refused_with_the_job() -> None:
     with pytest.raises(ValidationError, match="'furlong' is no unit of this quantity"):
-        RenishawRtl.options.model_validate({"file": "x.rtl", "deviation_unit": "furlong"})
+        registry().source("renishaw-rtl").options.model_validate(
+            {"file": "x.rtl", "deviation_unit": "furlong"}
+        )
 
 
 @pytest.mark.parametrize(
@@ -162,7 +163,7 @@ def test_the_kind_of_file_is_that_of_the_axis(file: File, kind: str, axis: Axis,
 
 
 def test_without_a_header_the_suffix_tells_the_kind(tmp_path: Path) -> None:
-    file = File(RenishawRtl(), tmp_path / "x.RTA")
+    file = File("renishaw-rtl", tmp_path / "x.RTA")
     content = "TARGET DATA::\nTargets :\n0 100\nDEVIATIONS::\n1 1 1\n1 2 2"
     assert file.complaint(content).startswith("x.RTA: the file is of type rta, and the axis is linear")
     assert file.read(content, ROTARY).deviation.tolist() == [1 / 1e3, 2 / 1e3]

@@ -8,18 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from installed import registry
 from live.capture.moves import MM, UM, Axis, listed, planned
 from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
-from zlmreport.live.capture.events import Ended, Resumed
 from zlmreport.live.capture.journal import Journal
-from zlmreport.measurement import axis as axes
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.model.planning.methods import Method
-from zlmreport.plugin import AccessError, Approach, InputError, Language, MeasurementSet
-from zlmreport.plugin.instrument import Fault
+from zlmreport.plugin import AccessError, Approach, Axis as MeasuredAxis, InputError, Language, MeasurementSet
+from zlmreport.plugin.instrument import CaptureEnded, CaptureResumed, Fault
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 
 #: The last reading before an axis is quite there may be among the hundred of a mean, m.
 ARRIVAL = 1 * UM / 100
@@ -27,9 +25,9 @@ LINEAR = DATA / "sources" / "linear.journal"
 
 
 def read(journal: Path, name: str = "X") -> MeasurementSet:
-    source = SerialInterferometer()
+    source = registry().source("serial-interferometer")
     options = source.options.model_validate({"journal": journal})
-    return source.read(options, SourceContext(axes.Axis(name), JOB))
+    return source.read(options, SourceContext(MeasuredAxis(name), JOB))
 
 
 def beam_lost(axis: Axis) -> chain:
@@ -43,9 +41,9 @@ def broken_in_run_1(path: Path, *, until: float) -> Path:
     axis = Axis(time=axis.time + 500, error=dict.fromkeys((0, 100, 200), 0.004))
     targets = [target for target in (0, 100, 200) if target <= until]
     with Journal.resume(path) as journal:
-        journal.append(Resumed(), axis.time - 100)
+        journal.append(CaptureResumed(), axis.time - 100)
         recorded(chain(axis.stand(), axis.go(*targets)), journal)
-        journal.append(Ended(), journal.elapsed)
+        journal.append(CaptureEnded(), journal.elapsed)
     return path
 
 
@@ -105,9 +103,9 @@ def test_a_difference_at_the_check_of_the_datum_is_said(tmp_path: Path) -> None:
     written(path, chain(axis.stand(), axis.go(0, 100)))
     axis = Axis(position=95, time=axis.time + 500, error={100: 0.0031})
     with Journal.resume(path) as journal:
-        journal.append(Resumed(), axis.time - 100)
+        journal.append(CaptureResumed(), axis.time - 100)
         recorded(axis.go(100), journal)
-        journal.append(Ended(), journal.elapsed)
+        journal.append(CaptureEnded(), journal.elapsed)
     assert any("largest difference: 3.1 µm" in remark for remark in said(read(path)))
 
 
@@ -137,7 +135,7 @@ def test_of_a_visit_that_was_read_again_the_last_reading_counts(tmp_path: Path) 
     axis = Axis(error={-0.025: 0.0})
     written(tmp_path / "x.journal", chain(axis.stand(), axis.go(-0.025, stay=1.5), axis.go(0, 100)))
     with Journal.resume(tmp_path / "x.journal") as journal:
-        journal.append(Ended(), journal.elapsed)
+        journal.append(CaptureEnded(), journal.elapsed)
     assert read(tmp_path / "x.journal").deviation[0] == 0.0
 
 

@@ -1,16 +1,23 @@
-"""The seven standards that come with zlmreport, by identifier."""
+"""The seven standards of positioning that come with zlmreport, by identifier."""
 
 from __future__ import annotations
 
+from installed import registry
 from zlmreport.plugin import Evaluation, MeasurementSet
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugin.standard import evaluate
-from zlmreport_plugins.standards import iso230_2, nmtba, vdi
 
 STANDARDS: dict[str, Standard] = {
-    standard.identifier: standard
-    for module in (iso230_2, vdi, nmtba)
-    for standard in module.zlmreport_standards()
+    each: registry().standard(each)
+    for each in (
+        "iso230-2:1988",
+        "iso230-2:1997",
+        "iso230-2:2006",
+        "iso230-2:2014",
+        "vdi-dgq-3441",
+        "vdi-vde-2617",
+        "nmtba",
+    )
 }
 
 

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from installed import registry
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import DISPLACEMENT, Axis, Evaluation, Language, MeasurementSet
 from zlmreport.plugin.standard import evaluate
-from zlmreport_plugins.standards.iso230_3 import Iso230Part3
-from zlmreport_plugins.standards.iso230_3.quantities import DRIFT
 
 ARCSECOND = np.pi / 180 / 3600
 HOURS = np.arange(0.0, 24.25, 0.25)
-STANDARD = Iso230Part3()
+STANDARD = registry().standard("iso230-3")
+(DRIFT,) = STANDARD.measurands
 
 
 def sensor(name: str, values: np.ndarray, hours: np.ndarray = HOURS) -> MeasurementSet:

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from installed import registry
 from plugins.standards.circle_oracle import least_squares, minimum_zone_width
 from zlmreport.plugin.standard import position_statistics
-from zlmreport_plugins.standards.iso230_4 import Iso230Part4, Iso230Part4Options
 from zlmreport_plugins.standards.iso230_4.circles import (
     find_minimum_zone,
     find_zone_about,
@@ -20,10 +20,10 @@ from zlmreport_plugins.standards.iso230_4.circles import (
     measure_covered_arc,
 )
 
-STANDARD = Iso230Part4()
+STANDARD = registry().standard("iso230-4:2005")
 CIRCLE = {"radius": 150, "feed": 1000, "calibrated_length": True}
-CALIBRATED = Iso230Part4Options(circle=CIRCLE)
-UNCALIBRATED = Iso230Part4Options(circle={**CIRCLE, "calibrated_length": False})
+CALIBRATED = STANDARD.options(circle=CIRCLE)
+UNCALIBRATED = STANDARD.options(circle={**CIRCLE, "calibrated_length": False})
 UM = 1e-6
 
 

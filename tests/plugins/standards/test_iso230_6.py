@@ -10,14 +10,19 @@ import pytest
 from hypothesis import given, strategies as st
 
 from cli.commands import Shop
+from installed import registry
 from zlmreport.machines.kinematics import Chain, deviation
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import Axis, Evaluation, Language, MeasurementSet
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.iso230_6 import Iso230Part6
-from zlmreport_plugins.standards.iso230_6.quantities import BODY, DIAGONAL, DIAGONALS, FACES
 
+STANDARD = registry().standard("iso230-6:2002")
+(DIAGONALS,) = STANDARD.measurands
+#: By the axes that fall along them; the first end is where all of them begin.
+BODY = ("PPP", "NPP", "PNP", "NNP")
+#: By the squareness error that they show.
+FACES = {"C0Y": ("XYPP", "XYNP"), "B0Z": ("XZPP", "XZNP"), "A0Z": ("YZPP", "YZNP")}
 ARCSECOND = np.pi / 180 / 3600
 SPACE = {"X": (0.0, 500.0), "Y": (0.0, 400.0), "Z": (0.0, 300.0)}
 SHARES = np.linspace(0.0, 1.0, 9)
@@ -26,13 +31,12 @@ SHARES = np.linspace(0.0, 1.0, 9)
 def line(name: str, up: np.ndarray, down: np.ndarray | None = None, length: float = 600.0) -> MeasurementSet:
     """Return the readings of a diagonal, µm: a row for each of nine positions, a column for each run."""
     back = np.full_like(up, np.nan) if down is None else down
-    return bidirectional_test(SHARES * length, up, back, axis=Axis(name, quantity=DIAGONAL))
+    return bidirectional_test(SHARES * length, up, back, axis=Axis(name, quantity=DIAGONALS.of_lines))
 
 
 def together(tests: dict[str, MeasurementSet], space: dict[str, tuple[float, float]] = SPACE) -> Evaluation:
-    standard = Iso230Part6()
-    options = standard.options.model_validate({"axes": space})
-    return evaluate(standard, join_lines(Axis("space", quantity=DIAGONALS), tests), options, {})
+    options = STANDARD.options.model_validate({"axes": space})
+    return evaluate(STANDARD, join_lines(Axis("space", quantity=DIAGONALS), tests), options, {})
 
 
 def values(evaluation: Evaluation) -> dict[str, float]:
@@ -126,7 +130,9 @@ def test_three_diagonals_have_no_largest_of_four() -> None:
 
 
 def test_a_diagonal_of_one_position_has_no_length_and_no_systematic_deviation() -> None:
-    one = bidirectional_test([0.0], np.array([[0.1]]), np.array([[0.3]]), axis=Axis("PPP", quantity=DIAGONAL))
+    one = bidirectional_test(
+        [0.0], np.array([[0.1]]), np.array([[0.3]]), axis=Axis("PPP", quantity=DIAGONALS.of_lines)
+    )
     assert values(together({"PPP": one})) == {"B_PPP": pytest.approx(0.2)}
 
 

@@ -10,19 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zlmreport.measurement.error_symbol import find_error_named
+from installed import registry
 from zlmreport.measurement.measurement_set import join_lines
-from zlmreport.plugin import Axis, Evaluation, MeasurementSet
+from zlmreport.plugin import Axis, Evaluation, MeasurementSet, error_named
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 
 _HP = Path(__file__).parents[3] / "data" / "straightness" / "hp_5528a.csv"
 
 
 def axis_of(symbol: str, at: Sequence[tuple[str, float]] = ()) -> Axis:
     """Return the axis of an error; `at` in m."""
-    error = find_error_named(symbol)
+    error = error_named(symbol)
     return Axis(error.axis, quantity=error.measurand, error=symbol, at=tuple(at))
 
 
@@ -52,7 +51,7 @@ def hp(axis: int) -> tuple[list[float], list[float]]:
 def evaluated(measurements: MeasurementSet, **keys: Any) -> Evaluation:
     """Evaluate a measured line, or what follows from several."""
     axis = measurements.axis
-    standard = Iso230Part1(find_error_named(axis.error))
+    standard = registry().standard("iso230-1:2012").of_error(error_named(axis.error))
     return evaluate(standard, measurements, standard.options.model_validate(keys), {})
 
 

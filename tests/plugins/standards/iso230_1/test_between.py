@@ -5,16 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from installed import registry
 from plugins.standards.iso230_1.lines import evaluated, hp, line, together, values
-from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.machines.kinematics import Chain, deviation
-from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.measurement_set import join_lines
-from zlmreport.plugin import Axis, Language
+from zlmreport.plugin import Axis, Language, error_named
 from zlmreport.plugin.extension import Acts
 from zlmreport.plugin.standard import evaluate
-from zlmreport_plugins.standards.iso230_1 import Iso230Part1
-from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM
 
 ARCSECOND = np.pi / 180 / 3600
 
@@ -71,8 +68,10 @@ def test_an_alignment_that_both_lines_share_leaves_no_squareness(symbol: str) ->
 def test_parallel_axes_have_the_difference_of_their_slopes() -> None:
     positions = np.linspace(0.0, 500.0, 6)
     first, second = line("EXZ", positions, 0.03 * positions), line("EXW", positions, 0.01 * positions)
-    standard = Iso230Part1(PARALLELISM)
-    both = join_lines(Axis("Z", quantity=PARALLELISM), {"a": first, "b": second})
+    iso = registry().standard("iso230-1:2012")
+    (parallelism,) = [each for each in iso.measurands if each.identifier == "parallelism"]
+    standard = iso.of_error(parallelism)
+    both = join_lines(Axis("Z", quantity=parallelism), {"a": first, "b": second})
     found = evaluate(standard, both, standard.options(), {})
     assert found.value("parallelism") == pytest.approx(20e-6)
 
@@ -91,11 +90,10 @@ def test_lines_that_do_not_meet_are_told() -> None:
 
 
 def test_the_square_tilts_the_second_line_by_its_uncertainty() -> None:
-    standard = Iso230Part1(find_error_named("C0Y"))
+    standard = registry().standard("iso230-1:2012").of_error(error_named("C0Y"))
     lines = together("C0Y", x=line("EYX", *hp(1)), y=line("EXY", *hp(2)))
     options = standard.options.model_validate({"square": {"error": 0, "expanded_uncertainty": 0.5}})
     ((name, (found,)),) = standard.contributions(lines, options).items()
     assert name == "y"
     assert found.acts is Acts.ALONG_THE_LENGTH
     assert found.standard_uncertainty == pytest.approx(0.25 * ARCSECOND * 0.45)
-    assert join_budgets({}, (), ["square"]).missing == ("square",)

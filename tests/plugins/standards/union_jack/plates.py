@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from installed import registry
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import Axis, Evaluation, MeasurementSet
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, PLACES
 
 ARCSECOND = np.pi / 180 / 3600
@@ -40,7 +40,7 @@ def read(
 
 def evaluated(lines: Mapping[str, MeasurementSet]) -> Evaluation:
     """Return the evaluation of lines by the standard."""
-    standard = UnionJack()
+    standard = registry().standard("union-jack")
     return evaluate(standard, join_lines(Axis("plate", quantity=FLATNESS), lines), standard.options(), {})
 
 

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from installed import registry
 from plugins.standards.union_jack.plates import evaluated, line, read, values
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import Axis, Language, MeasurementSet
 from zlmreport.plugin.extension import Acts, Contribution
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.standards.union_jack.heights import find_plate_of
 from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, reverse_name
 
@@ -120,8 +120,9 @@ HOLLOW = read(lambda x, y: 1e-5 * ((x - 400) ** 2 + (y - 300) ** 2))
 
 def of_the_feet(stated: dict[str, float]) -> dict[str, Contribution]:
     """Return what the standard adds to each line of a hollow plate for the carriage."""
-    options = UnionJack.options.model_validate({"carriage": stated})
-    found = UnionJack().contributions(join_lines(Axis("plate", quantity=FLATNESS), HOLLOW), options)
+    standard = registry().standard("union-jack")
+    options = standard.options.model_validate({"carriage": stated})
+    found = standard.contributions(join_lines(Axis("plate", quantity=FLATNESS), HOLLOW), options)
     return {name: each for name, (each,) in found.items()}
 
 
