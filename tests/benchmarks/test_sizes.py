@@ -9,7 +9,7 @@ import pytest
 
 from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
 from hidden_effects.sizes import base_columns, beyond, drawn_theta, scaled_effect
-from model.simulation.describing import EFFECTS
+from model.axis_tests import EFFECTS
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of
