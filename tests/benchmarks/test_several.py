@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 
@@ -154,31 +155,23 @@ def test_a_stranger_stands_beside_the_causes() -> None:
     assert _draw_beside().stranger is not None
 
 
+def _outcome(
+    drawn: Drawn,
+    built: tuple[str, ...],
+    equals: Mapping[str, frozenset[str]],
+    left: float,
+    **told: bool | float,
+) -> Outcome:
+    """Return what came of building a model, of which nothing was told but what is stated."""
+    silent = dict.fromkeys(("remainder", "is_placed", "is_unexplained", "is_nameless"), False)
+    return Outcome(drawn, built, equals, left, **{**silent, "seconds": 2.0, **told})
+
+
 def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> None:
     drawn = _draw_alone()
-    whole = Outcome(
-        drawn,
-        drawn.causes,
-        {},
-        1.0,
-        remainder=False,
-        is_placed=False,
-        is_unexplained=False,
-        is_nameless=False,
-        seconds=2.0,
-    )
+    whole = _outcome(drawn, drawn.causes, {}, 1.0)
     first, *_ = drawn.causes
-    half = Outcome(
-        drawn,
-        (first, "no such effect"),
-        {},
-        3.0,
-        remainder=True,
-        is_placed=False,
-        is_unexplained=False,
-        is_nameless=False,
-        seconds=4.0,
-    )
+    half = _outcome(drawn, (first, "no such effect"), {}, 3.0, remainder=True, seconds=4.0)
     assert (half.found, half.wrong) == ((first,), ("no such effect",))
     causes = len(drawn.causes)
     last = report([whole, half]).splitlines()[-2]
@@ -188,22 +181,21 @@ def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> Non
     assert "3.0 s of CPU" in last
 
 
+def test_it_is_told_apart_whether_a_name_stands_beside_what_nothing_surely_explains() -> None:
+    drawn = _draw_alone()
+    named, nameless = (
+        _outcome(drawn, (), {}, 2.0, is_unexplained=True, is_nameless=each) for each in (False, True)
+    )
+    told = report([named, nameless]).splitlines()[-2]
+    assert "explains what is left in 2, in 1 of them without a name" in " ".join(told.split())
+
+
 def test_a_cause_that_is_named_as_an_equal_of_what_was_added_makes_one_name_right() -> None:
     drawn = _draw_alone()
     first, *others = drawn.causes
     equals = {"its twin": frozenset({first}), "another": frozenset({first})}
     built = ("its twin", "another", *others)
-    outcome = Outcome(
-        drawn,
-        built,
-        equals,
-        1.0,
-        remainder=False,
-        is_placed=False,
-        is_unexplained=False,
-        is_nameless=False,
-        seconds=2.0,
-    )
+    outcome = _outcome(drawn, built, equals, 1.0)
     assert outcome.others == ("its twin", "another")
     assert outcome.wrong == ("another",)
     assert outcome.as_equals == drawn.causes
@@ -220,16 +212,8 @@ def test_lost_motion_is_the_mean_of_a_gap_that_changes(mean: float, names: tuple
     assert beside.in_stranger == names
     equals = {"backlash-gradient": frozenset({"backlash"})}
     built = (*drawn.causes, "backlash-gradient")
-    said = Outcome(
-        beside,
-        built,
-        equals,
-        1.0,
-        remainder=True,
-        is_placed=True,
-        is_unexplained=True,
-        is_nameless=True,
-        seconds=2.0,
+    said = _outcome(
+        beside, built, equals, 1.0, remainder=True, is_placed=True, is_unexplained=True, is_nameless=True
     )
     assert said.wrong == (() if names else ("backlash-gradient",))
 
@@ -245,17 +229,7 @@ def test_scale_error_is_the_mean_of_a_slope_that_changes() -> None:
 def test_what_a_cause_has_as_a_part_by_its_definition_is_no_wrong_name() -> None:
     drawn = replace(_draw_alone(), causes=("backlash", "polynomial"))
     built = ("backlash", "scale-error")
-    part = Outcome(
-        drawn,
-        built,
-        {},
-        1.0,
-        remainder=True,
-        is_placed=False,
-        is_unexplained=False,
-        is_nameless=False,
-        seconds=2.0,
-    )
+    part = _outcome(drawn, built, {}, 1.0, remainder=True)
     assert part.wrong == ()
     whole = replace(part, built=(*built, "polynomial"))
     assert whole.wrong == ("scale-error",)
@@ -325,7 +299,7 @@ def test_what_is_left_is_placed_where_the_stranger_is_largest() -> None:
     drawn = _draw_beside()
     last = report(
         [
-            Outcome(
+            _outcome(
                 drawn,
                 (),
                 {},
