@@ -5,6 +5,7 @@ from __future__ import annotations
 PLUGIN = """\
 import os
 import signal
+import tempfile
 from pathlib import Path
 
 from offers import offering
@@ -19,6 +20,7 @@ class Deadly(ExemplaryRenderer):
     def render(self, certificate):
         deed = certificate.number.removeprefix("CAL-").rstrip("0123456789")
         folder = Path(certificate.job.files[0].path).parent
+        tempfile.mkstemp()
         if deed == "KILLED":
             os.kill(os.getpid(), signal.SIGKILL)
         if deed == "KILLED-ONCE" and not (folder / "killed").exists():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -27,9 +28,11 @@ def fleet(tmp_path_factory: pytest.TempPathFactory) -> Fleet:
 @pytest.fixture(scope="module")
 def spent(fleet: Fleet) -> Witness:
     """Spend a night with two workers that make three certificates each before they are renewed."""
-    witness = Witness()
+    witness, aside = Witness(), fleet.folder / "temporary"
+    aside.mkdir()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(workers, "LIFE", 3)
+        patch.setattr(tempfile, "tempdir", str(aside))
         night.spend_night(fleet.file, night.Order((fleet.folder / "deadly.py",), workers=2), witness)
     return witness
 
@@ -96,3 +99,10 @@ def test_a_worker_that_nobody_ends_is_ended_by_the_system() -> None:
 def test_no_worker_is_left_behind(fleet: Fleet) -> None:
     pids = {path.read_text() for path in (fleet.folder / "certificates").rglob("*.pid")}
     assert not [pid for pid in pids if Path("/proc", pid).exists()]
+
+
+@pytest.mark.usefixtures("spent")
+def test_no_temporary_file_of_a_worker_is_left_behind(fleet: Fleet) -> None:
+    left = [each.name for each in (fleet.folder / "temporary").iterdir()]
+    # What `multiprocessing` shares with workers lies in a folder that goes with this process.
+    assert [each for each in left if not each.startswith("pymp-")] == []

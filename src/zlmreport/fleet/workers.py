@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import signal
+import tempfile
 import time
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -62,19 +63,29 @@ class _Ended:
         return Failed((problem,), is_stopped=self.was_ready)
 
 
+def _make_folder_aside() -> tempfile.TemporaryDirectory[str]:
+    return tempfile.TemporaryDirectory(prefix="zlmreport-night-", ignore_cleanup_errors=True)
+
+
 @dataclass(slots=True)
 class Pool:
     """Workers on this machine; it is left as a context manager, which ends them.
 
     A worker has one task at a time, so that it is known which one ended it. Such a task is tried once more,
     alone, when all others are done: then nobody else can have taken its memory. One that exceeds its time is
-    killed with its worker, and not tried again.
+    killed with its worker, and not tried again. What workers keep in temporary files goes when the pool is
+    left, however they ended.
     """
 
     workers: int  #: How many.
     plugins: tuple[Path, ...] = ()  #: Plugins in files of their own.
     beat: Callable[[], None] = lambda: None  #: Is called every few seconds, whatever the workers do.
     _staff: list[_Worker] = field(default_factory=list)
+    _aside: tempfile.TemporaryDirectory[str] = field(
+        default_factory=lambda: tempfile.TemporaryDirectory(
+            prefix="zlmreport-night-", ignore_cleanup_errors=True
+        )
+    )
 
     def __enter__(self) -> Self:
         """Start the workers: they load the plugins while the night is planned."""
@@ -86,6 +97,7 @@ class Pool:
         for worker in self._staff:
             self._dismiss(worker)
         self._staff.clear()
+        self._aside.cleanup()
 
     def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         """Yield what became of each task, as it is done; tasks are taken as workers have time for them."""
@@ -166,7 +178,8 @@ class Pool:
         context.set_forkserver_preload([_serve.__module__])  # what all need is loaded once, plugins apart
         ours, theirs = context.Pipe()
         is_ready, memory = context.Event(), context.RawArray("B", SIZE)
-        process = context.Process(target=_serve, args=(theirs, is_ready, memory, self.plugins), daemon=True)
+        told = theirs, is_ready, memory, self.plugins, self._aside.name
+        process = context.Process(target=_serve, args=told, daemon=True)
         process.start()
         theirs.close()
         return _Worker(process, ours, is_ready, Presence(memoryview(memory).cast("B")))
@@ -185,11 +198,13 @@ class Pool:
         worker.process.join()
 
 
-def _serve(line: Connection, is_ready: Event, memory: Any, plugins: tuple[Path, ...]) -> None:
+def _serve(line: Connection, is_ready: Event, memory: Any, plugins: tuple[Path, ...], aside: str) -> None:
     """Answer tasks until the line is closed, by whatever end of the other side.
 
     `memory`: In which it notes which plugin is at work.
+    `aside`: The folder of its temporary files.
     """
+    tempfile.tempdir = aside
     PRESENCE.use(memoryview(memory).cast("B"))
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the night decides what it means
     with contextlib.suppress(Exception):  # what is wrong with a plugin is said of each job

@@ -17,7 +17,7 @@ from weasyprint import HTML
 from document.typesetting import samples
 from installed import registry
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
-from processes import PYTHON, run
+from processes import PYTHON, ZLMREPORT, run
 from zlmreport.plugin import AccessError, Language
 from zlmreport_plugins.renderers.pdf import press
 
@@ -149,6 +149,15 @@ def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_ou
     )
     monkeypatch.setattr(press._Document, "_ua_stylesheets", HTML._ua_stylesheets)
     assert press.Press().print(certificate) == pdf
+
+
+def test_fonts_that_were_unpacked_to_print_go_with_the_program(tmp_path: Path) -> None:
+    """A machine that prints each night has no more files each morning."""
+    (tmp_path / "temporary").mkdir()
+    run(*ZLMREPORT, "init", tmp_path / "job", check=True)
+    settings = os.environ | {"TMPDIR": str(tmp_path / "temporary")}
+    run(*ZLMREPORT, tmp_path / "job" / "job.yaml", "--format", "pdf", env=settings, check=True)
+    assert list((tmp_path / "temporary").iterdir()) == []
 
 
 @pytest.mark.long

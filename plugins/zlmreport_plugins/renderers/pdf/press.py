@@ -6,6 +6,7 @@ new font configuration costs memory that WeasyPrint 70 never gives back.
 
 from __future__ import annotations
 
+import atexit
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -72,6 +73,8 @@ class Press:
     def __init__(self) -> None:
         subset.settle()
         self._fonts = FontConfiguration()
+        # It takes the fonts that it unpacked with it when it is collected; where a process ends, none is.
+        atexit.register(self._fonts.__del__)
         self._lock = Lock()
         profile = (files("weasyprint.pdf") / "sRGB2014.icc").read_bytes()
         self._profiles = {_PROFILE: _ColourProfile("sRGB2014", profile)}
