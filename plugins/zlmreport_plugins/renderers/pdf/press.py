@@ -44,7 +44,7 @@ from zlmreport.plugin.page import (
     style_sheet,
 )
 from zlmreport.plugin.renderer import Certificate, Look
-from zlmreport_plugins.renderers.pdf import structure, subset
+from zlmreport_plugins.renderers.pdf import blanks, structure, subset
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -71,6 +71,7 @@ class Press:
 
     def __init__(self) -> None:
         subset.settle()
+        blanks.settle()
         self._fonts = FontConfiguration()
         self._lock = Lock()
         profile = (files("weasyprint.pdf") / "sRGB2014.icc").read_bytes()
