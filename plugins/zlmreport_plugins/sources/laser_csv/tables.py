@@ -32,6 +32,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     read_number,
     resolve_meanings,
 )
+from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction
 
 #: Lines that are looked through for a header; and those of a table that may lie on its side.
 _DEEPEST, _WIDEST = 60, 400
@@ -272,6 +273,17 @@ def _is_perhaps_header(cells: Sequence[str]) -> bool:
     return known > 1 and any(each in _VALUES for each in found) and (has_target or readings > 1)
 
 
+def _settle_direction(meanings: list[str | None], rows: Sequence[TextRow]) -> None:
+    """Say which column is the direction where no name says it: the one that has both, and nothing else."""
+    if "direction" in meanings:
+        return
+    for index, meaning in enumerate(meanings):
+        cells = [row.cells[index] if index < len(row.cells) else "" for row in rows]
+        if meaning is None and all(map(names_direction, cells)) and len({*map(read_direction, cells)}) > 1:
+            meanings[index] = "direction"
+            return
+
+
 def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
     """Yield the table below a header: to the first row that has no target."""
     is_workbook = layout.found.text.of_cells
@@ -296,4 +308,5 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     last = next(ends, len(rows))
     is_even = is_workbook or layout.is_transposed or len(rows[0].cells if rows else ()) >= width
     if last and is_even:
+        _settle_direction(meanings, rows[:last])
         yield FoundTable(layout, header, units, rows[:last], rows[last:], meanings, notation)
