@@ -265,7 +265,12 @@ def _list_rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow
 
 
 def _is_perhaps_header(cells: Sequence[str]) -> bool:
-    """Return whether names are those of a table of readings, or its columns are readings under no name."""
+    """Return whether names are those of a table of readings, or its columns are readings under no name.
+
+    A row of readings has signs and numbers that could name columns of runs, but it begins with its target.
+    """
+    if _is_number(cells[0]):
+        return False
     found = [find_meaning(cell) for cell in cells]
     known = sum(each is not None and each != NUMBER for each in found)
     has_target = any(each in _TARGET for each in found)
