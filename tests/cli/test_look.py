@@ -145,6 +145,20 @@ def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
     assert "units:" not in asked
 
 
+def test_of_names_that_nobody_foresaw_it_is_told_which_would_be_right(table: Any) -> None:
+    """Rows of signs and numbers below them are no names of columns."""
+    rows = "0,0;+;1;1,5\n9,0;+;1;1,7\n20,0;+;1;1,9\n20,0;-;1;2,9\n9,0;-;1;2,5\n0,0;-;1;2,1\n"
+    path = table(f"Plaats;Zin;Ronde;Afwijking\n{rows}".encode())
+
+    with pytest.raises(ZlmreportError) as refused:
+        look_at(path, REGISTRY)
+
+    assert str(refused.value.problems[0]).startswith(
+        f"{path}:1:1: there is no column 'target'; name it in the job, as in 'columns: {{target: …}}' "
+        "(the file has 'Plaats', 'Zin', 'Ronde', 'Afwijking')"
+    )
+
+
 def test_files_of_instruments_find_their_readers() -> None:
     data = ROOT / "tests" / "data" / "sources"
     found = {

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from document.certificate.documents import text_of
+from doubtful.doubtful_jobs import cover
 from environments import ROOT
 from installed import registry
 from zlmreport import pipeline
@@ -285,3 +286,23 @@ def test_a_straightness_says_what_it_was_held_against() -> None:
     assert job.keys.instrument is not None
     beam = job.keys.instrument.model_copy(update={"name": "Laser interferometer, straightness optics"})
     assert check(replace(job, keys=job.keys.model_copy(update={"instrument": beam})), measurements)
+
+
+@pytest.mark.parametrize(
+    ("example", "quantity"),
+    [
+        ("machine/xy-squareness.yaml", "Squareness error"),
+        ("whole-machine/diagonals.yaml", "Diagonal displacement test"),
+        ("machine/x-straightness.yaml", "Straightness error"),
+    ],
+)
+def test_results_outside_the_accredited_scope_are_those_that_the_certificate_is_about(
+    example: str, quantity: str, tmp_path: Path
+) -> None:
+    accredited = "laboratory: {cmc: {constant: 0.3}}\ncertificate: {"
+    job = spoilt(tmp_path, example, scope=("certificate: {", accredited))
+
+    found = cover(pipeline.compose(job, registry()))
+
+    said = re.findall(r"Outside the accredited scope: (.*?)\. The capability .* is for (.*?);", found)
+    assert said == [(quantity, "Positioning accuracy")]

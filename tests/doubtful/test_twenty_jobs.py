@@ -197,6 +197,13 @@ JOBS: dict[str, Doubtful] = {
         "Outside the accredited scope: results of a rotary axis",
         targets=ANGLES,
     ),
+    "a turning axis beside a scope of lengths": Doubtful(
+        changed(
+            ("laboratory.cmc", {"constant": 0.3, "per_metre": 0.5}), by("iso230-2:2014", A=9), of=TURNING
+        ),
+        "Outside the accredited scope: results of a rotary axis",
+        targets=ANGLES,
+    ),
     "five runs over 2.5 m": Doubtful(
         changed(REPORT, GERMAN, SHEET, ("axis.travel", [0, 2500]), by("iso230-2:2006", A=20)),
         "über ihre Grenzwerte wird nicht entschieden",

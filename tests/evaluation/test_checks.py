@@ -369,6 +369,19 @@ def test_equal_intervals_carry_no_random_fraction() -> None:
     )
 
 
+@pytest.mark.parametrize(("interval", "words"), [(45.0, "45°"), (30.0, "30°"), (0.1, "0.1°")])
+def test_equal_intervals_of_a_rotary_axis_are_named_in_round_degrees(interval: float, words: str) -> None:
+    turned = rotary(*(interval * number for number in range(4)))
+
+    assert said(random_fractions(turned, FORMULA, Basis.PUBLISHED))[1] == f"all intervals alike: {words}"
+
+
+def test_a_mean_interval_of_a_rotary_axis_is_named_in_round_degrees() -> None:
+    found = mean_interval(rotary(0, 40, 100, 135), math.radians(45), Basis.PUBLISHED)
+
+    assert said(found)[1:] == ("45°", True)
+
+
 def test_differing_intervals_can_carry_a_random_fraction() -> None:
     found = random_fractions(taken_at(0, 10.21, 19.87, 30.4), FORMULA, Basis.PUBLISHED)
 

@@ -49,6 +49,16 @@ def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:
     )
 
 
+def test_a_capability_of_rotary_axes_does_not_grow_with_metres(tmp_path: Path) -> None:
+    laboratory = {**COMPLETE["laboratory"], "cmc": {"constant": 0.3, "per_metre": 0.5, "kind": "rotary"}}
+
+    message = refused(tmp_path, laboratory=laboratory)
+
+    assert message == (
+        "laboratory.cmc: per_metre belongs to linear axes: a rotary one has no metres; take it out"
+    )
+
+
 def test_a_formula_with_a_length_is_none_of_a_rotary_axis(tmp_path: Path) -> None:
     instrument = {**COMPLETE["instrument"], "expanded_uncertainty": "0.2 + 0.5*L"}
 

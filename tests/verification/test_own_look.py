@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import matplotlib as mpl
 import pytest
 
+from installed import registry
 from verification.issued import LABORATORY, issue, lay_out, page_with, with_digit, with_page_content
+from zlmreport import pipeline
+from zlmreport.job.loading import load
 from zlmreport.verification.findings import CheckedCertificate, VerificationOutcome, VerificationVerdict
 
 FONT = Path(mpl.get_data_path(), "fonts", "ttf", "DejaVuSerif.ttf")
@@ -71,3 +75,21 @@ def test_a_page_whose_number_was_changed_never_holds(
     found = verified(forged)
     assert found.outcome is outcome
     assert VerificationVerdict.HOLDS not in {each.verdict for each in found.pages if each.subject in changed}
+
+
+@pytest.mark.long
+def test_pages_with_letters_of_another_system_are_not_decided(
+    tmp_path: Path, verified: Callable[[bytes], CheckedCertificate]
+) -> None:
+    """It was printed where a typeface has them all; here boxes would stand for them."""
+    name = LABORATORY.replace("Example Laboratory", "Laboratory \U000f1234")
+    job = load(lay_out(tmp_path, laboratory=name), registry(), formats=("pdf",))
+    certificate = pipeline.compose(job, registry())
+    printed = replace(certificate, look=replace(certificate.look, may_lack_letters=True))
+    pdf = pipeline.render(printed, [registry().renderer("pdf")], registry())["pdf"]
+
+    found = verified(with_page_content(pdf, 1, lambda content: content.replace(b" Tf", b".5 Tf")))
+
+    assert found.outcome is VerificationOutcome.UNDECIDED
+    assert {each.verdict for each in found.values} == {VerificationVerdict.HOLDS}
+    assert "letters that no typeface of this system has" in found.remarks[0].en

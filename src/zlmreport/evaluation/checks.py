@@ -364,7 +364,7 @@ def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -
     shortest, longest = float(intervals.min()), float(intervals.max())
     if longest - shortest <= _ALIKE * longest:
         found = Words("all intervals alike: {interval}")
-        found = found.given(interval=position_in_words(axis, _round_mean(float(intervals.mean()))))
+        found = found.given(interval=_mean_in_words(axis, float(intervals.mean())))
         return Finding(requirement, found, met=False, basis=basis)
     has_interval = longest <= _NO_INTERVAL * float(np.median(intervals))
     words = _INTERVALS if has_interval else _NO_COMMON_INTERVAL
@@ -378,14 +378,13 @@ def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> F
     requirement = Words("Mean interval at most {limit}")
     requirement = requirement.given(limit=position_in_words(axis, limit))
     interval = float(targets[-1] - targets[0]) / max(1, len(targets) - 1)
-    return Finding(
-        requirement, position_in_words(axis, _round_mean(interval)), interval <= limit * (1 + _ALIKE), basis
-    )
+    return Finding(requirement, _mean_in_words(axis, interval), interval <= limit * (1 + _ALIKE), basis)
 
 
-def _round_mean(interval: float) -> float:
-    """Return a mean of intervals without the digits that nobody stated."""
-    return float(f"{interval:.6g}")
+def _mean_in_words(axis: Axis, interval: float) -> Words:
+    """Return a mean of intervals, m or rad, rounded as printed: without the digits that nobody stated."""
+    unit = axis.position_unit
+    return say_stated(float(f"{unit.from_si(interval):.6g}"), unit.symbol)
 
 
 def worst_of_lines(lines: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:

@@ -90,6 +90,16 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
         yield from _say_too_warm(job, known, measurements)
 
 
+def find_other_capability(job: Job) -> Iterator[Words]:
+    """Yield that the laboratory's capability is for another quantity than the one that a job is about.
+
+    Of several lines it is the one that they were measured for: squareness, and not the straightness of both.
+    """
+    cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
+    if cmc and cmc.quantity != job.axis.measurand.identifier:
+        yield _OTHER_CAPABILITY.given(quantity=job.axis.measurand.title, own=_OF_QUANTITY[cmc.quantity])
+
+
 def find_doubts_of_artefacts(job: Job) -> Iterator[Words]:
     """Yield the artefacts of a job that are not shown to be traceable: those of all its lines together."""
     yield from (each.words for each in _find_breaks_of_artefacts(job))
@@ -264,12 +274,11 @@ def _is_expanded(job: Job, measurements: MeasurementSet) -> bool:
 
 
 def _say_out_of_scope(job: Job, cmc: Capability, measurements: MeasurementSet) -> Iterator[Words]:
-    """Yield which results lie outside the scope for which the laboratory is accredited."""
+    """Yield which results lie outside the scope for which the laboratory is accredited for their quantity."""
     axis, targets = job.axis, measurements.target_positions
     if cmc.quantity != axis.measurand.identifier:
-        yield _OTHER_CAPABILITY.given(quantity=axis.measurand.title, own=_OF_QUANTITY[cmc.quantity])
         return
-    if cmc.kind is not None and cmc.kind is not axis.kind:
+    if cmc.axes not in (None, axis.kind):
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
     if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):

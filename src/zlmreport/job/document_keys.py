@@ -287,7 +287,8 @@ class Capability(JobPart):
     )
     per_metre: NotNegative = Field(
         0.0,
-        description="What it gains with each metre of measured length, micrometres/m (arc seconds/m).",
+        description="What it gains with each metre of measured length, micrometres/m (arc seconds/m): a "
+        "capability that states it is for linear axes.",
         examples=[0.5],
     )
     length: Annotated[float, Field(gt=0)] | None = Field(
@@ -310,9 +311,20 @@ class Capability(JobPart):
         examples=[["iso230-2:2014"]],
     )
 
+    @model_validator(mode="after")
+    def _grows_with_a_length(self) -> Self:
+        if self.kind is AxisKind.ROTARY and self.per_metre:
+            raise ValueError("per_metre belongs to linear axes: a rotary one has no metres; take it out")
+        return self
+
+    @property
+    def axes(self) -> AxisKind | None:
+        """The kind of axes that it is for; None for any. What grows with each metre is of linear ones."""
+        return self.kind or (AxisKind.LINEAR if self.per_metre else None)
+
     def is_for(self, quantity: str, kind: AxisKind) -> bool:
         """Return whether its numbers are of a quantity on a kind of axis, and so in its unit."""
-        return quantity == self.quantity and self.kind in (None, kind)
+        return quantity == self.quantity and self.axes in (None, kind)
 
 
 class Laboratory(JobPart):

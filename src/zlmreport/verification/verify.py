@@ -57,6 +57,9 @@ _OWN_LOOK = Words(
     "printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
     "carry: how its pages are drawn is not decided"
 )
+_LACKING_LETTERS = Words(
+    "printed with letters that no typeface of this system has: how its pages are drawn is not decided"
+)
 _NUMBER = re.compile(r"\d+[.,]\d+")
 #: Not those of a date, a standard or a document's own number.
 _WHOLE_NUMBER = re.compile(r"(?<![\w.,:/-])\d+(?![\d:/-]|[.,]\d)")
@@ -81,7 +84,8 @@ class _Again:
     """A certificate that was made again from its attachments.
 
     `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
-    than the one that made it had to print it. `own_words` are those of whoever wrote its job, and
+    than the one that made it had to print it. `undrawn` says why its pages cannot be drawn here as they
+    were, if they cannot. `own_words` are those of whoever wrote its job, and
     `future_dates` what it says of days that have not come; `digest` is that of its readings and results.
     """
 
@@ -89,7 +93,7 @@ class _Again:
     prints: pages.Prints
     results: bytes
     is_by_its_own_renderer: bool
-    has_own_look: bool
+    undrawn: Words | None
     own_words: tuple[QuotedText, ...] = ()
     future_dates: tuple[CheckedStatement, ...] = ()
     digest: str = ""
@@ -195,17 +199,29 @@ def make_certificate_again(job_path: Path, carrier: Carrier, stated: Results, re
         for each in registry.renderers
         if each is not results and _is_carried(each, certificate, carrier) and _is_made(each, certificate)
     ]
-    contents = pipeline.render(certificate, [results, *others, printer], registry)
+    contents, has_letters = _print_again(certificate, [results, *others, printer], registry)
+    undrawn = _OWN_LOOK if has_own_look else None if has_letters else _LACKING_LETTERS
     return _Again(
         here,
         pages.Prints(open_pdf(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],
         is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
-        has_own_look,
+        undrawn,
         quote_own_texts(certificate, job),
         _say_days_to_come(job, read_clock()),
         certificate.digest,
     )
+
+
+def _print_again(
+    certificate: Certificate, renderers: Sequence[Renderer], registry: Registry
+) -> tuple[Mapping[str, bytes], bool]:
+    """Return the files of a certificate by their renderers, and whether a typeface has all its letters."""
+    try:
+        return pipeline.render(certificate, renderers, registry), True
+    except InputError:
+        with_boxes = replace(certificate, look=replace(certificate.look, may_lack_letters=True))
+        return pipeline.render(with_boxes, renderers, registry), False
 
 
 def _make_machine_again(path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
@@ -224,7 +240,7 @@ def _make_machine_again(path: Path, carrier: Carrier, stated: Results, registry:
         pages.Prints(open_pdf(printed, Place(f"{carrier.place} (printed again)"))),
         document.results,
         is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
-        has_own_look=False,
+        undrawn=None,
         own_words=quote_own_texts_of(machine.file.keys),
     )
 
@@ -322,10 +338,11 @@ def _compare(
     if not again.is_by_its_own_renderer:
         remark = _OTHER_RENDERER.given(creator=carrier.creator or "another renderer")
         return replace(_leave_open(found), remarks=(remark,))
-    if again.has_own_look:
+    if again.undrawn:
         lacking = guard(lambda: _count_taken(carrier, again.prints.carrier), carrier.place)
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
-        found = replace(_leave_open(found), remarks=(_OWN_LOOK,))
+        left_open = _leave_open(found)
+        found = replace(left_open, remarks=(again.undrawn,) if left_open.undecided else ())
         return replace(found, document=(*found.document, CheckedStatement.of("printed numbers", detail)))
     remarks = () if printed.is_drawn_alike else (_OTHER_LIBRARIES,)
     not_asked = readers.name_absent()

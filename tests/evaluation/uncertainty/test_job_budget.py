@@ -321,6 +321,18 @@ def test_the_accreditation_bounds_u_from_below(tmp_path: Path) -> None:
     assert budget.least == pytest.approx((3 + 5 * LENGTH) * MICROMETRE)
 
 
+def test_a_capability_that_grows_with_each_metre_bounds_nothing_of_a_rotary_axis(tmp_path: Path) -> None:
+    """A whole turn is no 6.28 m."""
+    turning = {
+        **keys(laboratory={"cmc": {"constant": 0.3, "per_metre": 0.5}}),
+        "axis": {"name": "C", "kind": "rotary"},
+    }
+    budget = made(tmp_path, turning)
+
+    assert isinstance(budget, Budget)
+    assert budget.least == 0.0
+
+
 @pytest.mark.parametrize("other", [{"quantity": "angle"}, {"kind": "rotary"}])
 def test_a_capability_of_another_quantity_or_unit_bounds_nothing(
     other: dict[str, str], tmp_path: Path

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from pypdfium2 import PdfDocument
 
 from document.typesetting import samples
+from installed import registry
 from plugins.renderers.pdf_pages import page_of, read, sample, texts
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Align, Certificate, Column, Paragraph, RowGroup, Section, Table
@@ -47,6 +49,20 @@ def test_the_longest_number_stands_whole_on_every_page() -> None:
     long = replace(plain, number=number, page_words=replace(plain.page_words, number=number))
     for text in texts(read(long)):
         assert number in text.replace("\n", "")
+
+
+def test_the_head_of_a_page_stands_within_its_margin_beside_a_laboratory_of_one_long_word() -> None:
+    head = samples.certificate(standards=0).letterhead
+    assert head is not None
+    laboratory = replace(head.laboratory, name="Präzisionsmaschinenvermessungs" * 4)
+    section = Section("item", "Item, method and conditions", (Paragraph("Text"),), new_page=True)
+    document = replace(with_blocks(section), letterhead=replace(head, laboratory=laboratory))
+
+    page = PdfDocument(registry().renderer("pdf").render(document))[1]
+
+    text = page.get_textpage()
+    top = max(text.get_charbox(number)[3] for number in range(text.count_chars()))
+    assert (page.get_height() - top) * POINT > 8
 
 
 def test_the_end_is_marked_once_on_the_last_page() -> None:

@@ -15,7 +15,7 @@ from plugins.renderers.pdf_pages import (
     sample,
     texts,
 )
-from zlmreport.plugin import Language
+from zlmreport.plugin import InputError, Language
 from zlmreport.plugin.renderer import Notice, Section
 
 
@@ -67,19 +67,15 @@ def test_a_name_from_right_to_left_leaves_the_rest_as_it_was() -> None:
     assert "Sample Works HMC 500" in text
 
 
-@pytest.mark.parametrize("customer", ["中文测试", "🙂", "👩‍🔬"])
-def test_a_letter_without_a_font_is_visibly_missing_and_harms_nothing_else(
-    customer: str, weasyprint_log: list[str], caplog: pytest.LogCaptureFixture
-) -> None:
-    reader = read(samples.certificate(standards=0, customer=f"before {customer} after"))
-    # Where a glyph is missing, pypdf reads each letter of its font as two bytes.
-    text = "".join(texts(reader)).replace("\x00", "")
-    complaints = [record.getMessage() for record in caplog.records if record.name == "weasyprint"]
-    # On a machine with a font for them they are printed, and nothing is complained of.
-    assert all(message.startswith(".notdef glyph rendered") for message in complaints)
-    weasyprint_log.extend(complaints)
-    assert "before " in text
-    assert " after" in text
+def test_a_letter_that_no_typeface_has_is_named_and_no_box_stands_for_it(weasyprint_log: list[str]) -> None:
+    """Not even a signer would see what the box meant; and programs read none of the letters beside it."""
+    document = samples.certificate(standards=0, customer="A \U000f1234 Customer")
+    weasyprint_log.append(
+        '.notdef glyph rendered for Unicode string unsupported by fonts: "\U000f1234" (U+F1234)'
+    )
+
+    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); write it otherwise"):
+        read(document)
 
 
 def test_graphs_carry_their_words_as_text() -> None:

@@ -423,6 +423,34 @@ def _passes_as_runs() -> Untidy:
     )
 
 
+def _abbreviated_direction() -> Untidy:
+    """A column of signs under a name that nobody foresaw."""
+    signs = {1: "+", -1: "-"}
+    return Untidy(
+        "abbreviated.csv",
+        text(
+            "Soll;Richt.;Lauf;Abw. (µm)",
+            *(f"{target};{signs[sense]};{run};{value}" for target, sense, run, value in rows()),
+        ),
+        {"columns": {"target": "Soll", "direction": "Richt.", "run": "Lauf", "deviation": "Abw."}},
+    )
+
+
+def _without_umlauts() -> Untidy:
+    """German words for both directions, from a keyboard that has no umlauts."""
+    return Untidy(
+        "hin-und-zurueck.csv",
+        text(
+            "Position;Hin 1;Zurueck 1;Hin 2;Zurueck 2",
+            *(
+                f"{target};{UP[0][index]};{DOWN[0][index]};{UP[1][index]};{DOWN[1][index]}"
+                for index, target in enumerate(TARGETS)
+            ),
+        ),
+        {"layout": "wide", "columns": {"target": "Position"}},
+    )
+
+
 FILES: tuple[Callable[[], Untidy], ...] = (
     _german_export,
     _american_export,
@@ -438,4 +466,6 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _without_names,
     _empty_corner,
     _passes_as_runs,
+    _abbreviated_direction,
+    _without_umlauts,
 )

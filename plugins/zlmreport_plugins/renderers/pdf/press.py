@@ -45,7 +45,8 @@ from zlmreport.plugin.page import (
     style_sheet,
 )
 from zlmreport.plugin.renderer import Certificate, Look
-from zlmreport_plugins.renderers.pdf import structure, subset
+from zlmreport_plugins.letters import refuse_letters
+from zlmreport_plugins.renderers.pdf import blanks, structure, subset
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -72,6 +73,7 @@ class Press:
 
     def __init__(self) -> None:
         subset.settle()
+        blanks.settle()
         self._fonts = FontConfiguration()
         # It takes the fonts that it unpacked with it when it is collected; where a process ends, none is.
         atexit.register(self._fonts.__del__)
@@ -141,8 +143,18 @@ def find_press() -> Press:
     return Press()
 
 
-def _finish(certificate: Certificate, _: Any, pdf: Any) -> None:
-    """Complete a file that is ready but for its trailer."""
+def _finish(certificate: Certificate, document: Any, pdf: Any) -> None:
+    """Complete a file that is ready but for its trailer.
+
+    Raises `InputError` if it shows boxes where letters belong, of which programs that read it make nonsense.
+    """
+    if not certificate.look.may_lack_letters:
+        refuse_letters(
+            (chr(letter) for font in document.fonts.values() for letter in font.missing),
+            certificate.number,
+            "neither the typeface of the format pdf nor one of this system has",
+            "write it otherwise, or state a typeface that has it: certificate.style.typeface",
+        )
     if "AF" in pdf.catalog:  # WeasyPrint 70 names each attachment twice among the associated files
         pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
     structure.identify(pdf, certificate)

@@ -13,9 +13,9 @@ from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import groupby
 from typing import Any, TypeAlias
-from unicodedata import category, combining, name, normalize
+from unicodedata import combining, normalize
 
-from zlmreport.plugin import InputError, Place, held_together
+from zlmreport.plugin import held_together
 from zlmreport.plugin.page import (
     FontFace,
     has_letter,
@@ -23,6 +23,7 @@ from zlmreport.plugin.page import (
     text_advance,
 )
 from zlmreport.plugin.renderer import Symbol, notation_spans, with_symbols
+from zlmreport_plugins.letters import refuse_letters
 
 #: A text, or its stretches, each with the way in which it is set.
 Text: TypeAlias = str | list[tuple[Any, str]]
@@ -142,10 +143,7 @@ def _part_word(text: str, face: FontFace) -> Iterator[Stretch]:
             before = stretch[-1]
 
 
-#: What is seen only by what it does: line ends, joiners, direction marks.
-_UNSEEN = frozenset({"Cf", "Zl", "Zp"})
 _ESCAPED = re.compile(r"\\(?:u(?P<code>[0-9a-f]{4})|.)")
-_MOST_TOLD = 10
 
 
 def demand_letters(document: str, number: str) -> None:
@@ -156,18 +154,9 @@ def demand_letters(document: str, number: str) -> None:
     letters = set(document) | {
         chr(int(each["code"], 16)) for each in _ESCAPED.finditer(document) if each["code"]
     }
-    seen = (letter for letter in letters if category(letter) not in _UNSEEN)
-    lacking = sorted(letter for letter in seen if not has_letter(letter, FontFace.REGULAR))
-    if lacking:
-        told = ", ".join(map(_tell_letter, lacking[:_MOST_TOLD]))
-        more = f" and {len(lacking) - _MOST_TOLD} more" if len(lacking) > _MOST_TOLD else ""
-        raise InputError.at(
-            Place(number),
-            f"the typeface of the format pdf-typst has no {told}{more}; "
-            "write it otherwise, or ask for the format pdf, which takes letters from the system's typefaces",
-        )
-
-
-def _tell_letter(letter: str) -> str:
-    shown = f"{letter!r} " if letter.isprintable() else ""
-    return f"{shown}(U+{ord(letter):04X} {name(letter, 'a control character')})"
+    refuse_letters(
+        (letter for letter in letters if not has_letter(letter, FontFace.REGULAR)),
+        number,
+        "the typeface of the format pdf-typst has no",
+        "write it otherwise, or ask for the format pdf, which takes letters from the system's typefaces",
+    )

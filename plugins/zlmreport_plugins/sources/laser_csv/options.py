@@ -62,7 +62,7 @@ _WORDS = {
                 "minus",
                 "decreasing",
             ),
-            *("ab", "abwärts", "rück", "rueck", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
+            *("ab", "abwärts", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
             *("negativ", "fallend"),
         ),
         Approach.NEGATIVE,
@@ -79,7 +79,10 @@ _NUMBERS = {
     "-1": Approach.NEGATIVE,
     f"{MINUS_SIGN}1": Approach.NEGATIVE,
 }
-_SPELLED_OUT: Mapping[str, Approach] = MappingProxyType({**_SIGNS, **_ARROWS, **_WORDS})
+#: As keyboards without umlauts write them.
+_TRANSCRIBED = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss"})
+_IN_ASCII = {word.translate(_TRANSCRIBED): approach for word, approach in _WORDS.items()}
+_SPELLED_OUT: Mapping[str, Approach] = MappingProxyType({**_SIGNS, **_ARROWS, **_WORDS, **_IN_ASCII})
 _DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_LETTERS, **_NUMBERS})
 
 _IN_HEADERS = "|".join(re.escape(spelling) for spelling in sorted(_SPELLED_OUT, key=len, reverse=True))

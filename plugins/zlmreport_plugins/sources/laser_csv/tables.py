@@ -32,6 +32,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     read_number,
     resolve_meanings,
 )
+from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction
 
 #: Lines that are looked through for a header; and those of a table that may lie on its side.
 _DEEPEST, _WIDEST = 60, 400
@@ -264,12 +265,28 @@ def _list_rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow
 
 
 def _is_perhaps_header(cells: Sequence[str]) -> bool:
-    """Return whether names are those of a table of readings, or its columns are readings under no name."""
+    """Return whether names are those of a table of readings, or its columns are readings under no name.
+
+    A row of readings has signs and numbers that could name columns of runs, but it begins with its target.
+    """
+    if _is_number(cells[0]):
+        return False
     found = [find_meaning(cell) for cell in cells]
     known = sum(each is not None and each != NUMBER for each in found)
     has_target = any(each in _TARGET for each in found)
     readings = found.count(READING)
     return known > 1 and any(each in _VALUES for each in found) and (has_target or readings > 1)
+
+
+def _settle_direction(meanings: list[str | None], rows: Sequence[TextRow]) -> None:
+    """Say which column is the direction where no name says it: the one that has both, and nothing else."""
+    if "direction" in meanings:
+        return
+    for index, meaning in enumerate(meanings):
+        cells = [row.cells[index] if index < len(row.cells) else "" for row in rows]
+        if meaning is None and all(map(names_direction, cells)) and len({*map(read_direction, cells)}) > 1:
+            meanings[index] = "direction"
+            return
 
 
 def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
@@ -296,4 +313,5 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     last = next(ends, len(rows))
     is_even = is_workbook or layout.is_transposed or len(rows[0].cells if rows else ()) >= width
     if last and is_even:
+        _settle_direction(meanings, rows[:last])
         yield FoundTable(layout, header, units, rows[:last], rows[last:], meanings, notation)

@@ -89,6 +89,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     shown = (
         *said,
         *(_collect_shown_together(job, measurements, said) if tests else ()),
+        *traceability.find_other_capability(job),
         *(words for each in evaluated for words in find_contradicting_limits(each.evaluation)),
     )
     if as_found:

@@ -100,13 +100,15 @@ class Look:
     """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands.
 
     `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, by name, with
-    its style sheet ``style.css`` among them.
+    its style sheet ``style.css`` among them. Where it `may_lack_letters`, boxes stand for those that no
+    typeface has: so a document is printed only to be compared with one that was issued.
     """
 
     accent: str = ACCENT
     logo: Literal["left", "right"] = "right"
     typeface: Typeface | None = None
     templates: tuple[tuple[str, str], ...] = ()
+    may_lack_letters: bool = False
 
 
 @dataclass(frozen=True, slots=True)
