@@ -65,6 +65,19 @@ def compute_left_beside(columns: FloatArray, values: FloatArray) -> FloatArray:
     The columns, (N, q), are brought to one length first: a time in seconds would else outweigh a length in
     metres, and what is small beside it would count as nothing.
     """
-    lengths = np.linalg.norm(columns, axis=0)
-    scaled = columns / np.where(lengths > 0, lengths, 1.0)
+    scaled = _scale_to_one_length(columns)
     return np.asarray(values - scaled @ np.linalg.lstsq(scaled, values, rcond=None)[0], dtype=np.float64)
+
+
+def make_orthonormal(columns: FloatArray, dependent: float) -> FloatArray:
+    """Return orthonormal columns of the same span, (N, r), of columns of any lengths, (N, q).
+
+    `dependent`: Singular value over the largest, up to which a combination of columns is no further one.
+    """
+    vectors, singular, _ = np.linalg.svd(_scale_to_one_length(columns), full_matrices=False)
+    return np.asarray(vectors[:, singular > dependent * singular.max(initial=0.0)], dtype=np.float64)
+
+
+def _scale_to_one_length(columns: FloatArray) -> FloatArray:
+    lengths = np.linalg.norm(columns, axis=0)
+    return np.asarray(columns / np.where(lengths > 0, lengths, 1.0), dtype=np.float64)

@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.by_target import FactorsByTarget, ProductsByTarget, RootByTarget
 from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
@@ -194,11 +194,7 @@ def make_contrasts_of(
     `weights`: w, the variance of each reading over the mean one, shape (N,); or how readings scatter singly.
     """
     single = weights if isinstance(weights, SingleReadings) else SingleReadings(1.0 / np.sqrt(weights))
-    weighted = single.whiten(base)
-    lengths = np.linalg.norm(weighted, axis=0)
-    left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
-    orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
-    return Contrasts(orthonormal, single, tuple(parts))
+    return Contrasts(make_orthonormal(single.whiten(base), _DEPENDENT), single, tuple(parts))
 
 
 def estimate_restricted(
