@@ -16,8 +16,8 @@ from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.subjects.compensation import (
     Uncertainties,
-    forecast,
     lay_out_confirmation,
+    lay_out_forecast,
     make_compensation_sheet,
 )
 from zlmreport.document.writer import Writer
@@ -75,7 +75,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_json(_collect_values(job, made, uncertainties, written))
         return 0
-    section = forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
+    section = lay_out_forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
     print(*_lay_out_heading(job, made), *lay_out_sections([section]), "", sep="\n")
     for path in written:
         print(show_path(path))

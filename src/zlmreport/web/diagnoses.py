@@ -87,6 +87,7 @@ def _identify_program(effects: Iterable[Effect | CircleEffect]) -> str:
     return repr([(path, stat.st_mtime_ns, stat.st_size) for path, stat in stats])
 
 
+_ENDED = "the diagnosis ended unexpectedly"
 _SHARE = "share-done"
 _TOLD = f'{{"{_SHARE}"'
 _MODULE = "zlmreport.web.diagnoses"
@@ -150,7 +151,7 @@ class Diagnoses:
             worker.stdin.flush()
         except BrokenPipeError:
             self._end()
-            self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
+            self._answer = {"problems": [_ENDED]}
             return
         Thread(target=self._listen, args=(worker, content), daemon=True).start()
 
@@ -170,7 +171,7 @@ class Diagnoses:
                     self.answers.keep(self._answer["content"], self._answer["diagnosis"])
             else:
                 self._end()
-                self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
+                self._answer = {"problems": [_ENDED]}
 
     def _start_process(self) -> subprocess.Popen[str]:
         if self._worker is None:
