@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
-import os
 import subprocess
 import sys
 import time
@@ -34,6 +33,7 @@ from zlmreport.model.planning.experiment import Experiment
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.naming import Naming
+from zlmreport.web.processes import start_module
 from zlmreport.web.view import collect_diagnosed
 
 #: Diagnoses that are kept: some hundred kilobytes each.
@@ -175,20 +175,11 @@ class Diagnoses:
 
     def _start_process(self) -> subprocess.Popen[str]:
         if self._worker is None:
-            environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8"}
-            self._worker = subprocess.Popen(  # noqa: S603 - this program itself
-                [
-                    sys.executable,
-                    "-m",
-                    self.module,
-                    str(self.path.resolve()),
-                    *(str(each.resolve()) for each in self.plugins),
-                ],
+            self._worker = start_module(
+                self.module,
+                *(str(each.resolve()) for each in (self.path, *self.plugins)),
                 stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                encoding="utf-8",
-                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
-                env=environment,
+                environment={"OPENBLAS_NUM_THREADS": "1"},
             )
         return self._worker
 
