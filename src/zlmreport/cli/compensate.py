@@ -28,6 +28,7 @@ from zlmreport.job.choices import choose_controller_of
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.tree import KeyEntry, Keys, Scalar, make_keys_of
+from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.measurement.axis import refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -235,11 +236,9 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
     }
     if before.keys.environment is not None:
         found["environment"] = before.keys.environment.model_dump(mode="json", exclude_unset=True)
-    text = (
-        "# The axis as found and as left, before and after its compensation table.\n"
-        f"extends: {json.dumps(told(path.resolve()))}\n"
-        f"as_found: {json.dumps(found, default=told, ensure_ascii=False, indent=2)}\n"
-    )
+    keys = {"extends": told(path.resolve()), "as_found": json.loads(json.dumps(found, default=told))}
+    lines = ["# The axis as found and as left, before and after its compensation table.", *write_group(keys)]
+    text = "".join(f"{line}\n" for line in lines)
     return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())
 
 
