@@ -19,7 +19,7 @@ from typing import Any
 import yaml
 from yaml import MarkedYAMLError
 
-from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.errors import InputError, Place, Problem, describe_character, quoted
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar
 
 #: How the name of a YAML file ends, in small letters.
@@ -86,12 +86,12 @@ def decode(content: bytes, file: str) -> str:
     except UnicodeDecodeError as error:
         before = content[: error.start].decode("utf-8")
         raise InputError.at(
-            _make_place_behind(before, file),
+            Place.of_next(before, file),
             f"byte 0x{content[error.start]:02X} is not UTF-8; save the file as UTF-8",
         ) from error
     problems: list[Problem] = []
     for found in _find_hidden(text):
-        place = _make_place_behind(text[: found.start()], file)
+        place = Place.of_next(text[: found.start()], file)
         if len(problems) == _MOST_NAMED:
             problems.append(Problem(place, "and more of the kind; is this a text file?"))
             break
@@ -118,23 +118,6 @@ def _is_joining(text: str, place: int) -> bool:
     before, behind = text[place - 1], text[place + 1]
     is_between_letters = all(unicodedata.bidirectional(each) == "AL" for each in (before, behind))
     return unicodedata.combining(before) == _VIRAMA or is_between_letters
-
-
-def describe_character(character: str) -> str:
-    r"""Say which character that nobody sees stands in a text.
-
-    >>> describe_character("\x07"), describe_character("\u202e")
-    ('control character U+0007', 'invisible character U+202E (right-to-left override)')
-    """
-    code = f"U+{ord(character):04X}"
-    name = unicodedata.name(character, "").lower()
-    return f"invisible character {code} ({name})" if name else f"control character {code}"
-
-
-def _make_place_behind(before: str, file: str) -> Place:
-    """Return the place of the character after a text."""
-    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    return Place(file, len(lines), len(lines[-1]) + 1)
 
 
 def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
