@@ -22,7 +22,8 @@ from zlmreport.live.capture.journal import Journal, capture
 from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import Settings, start_of, visit_list
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
+from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene
+from zlmreport.live.emulation.troubles import Troubles
 from zlmreport.live.ports.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import traceback
+import unicodedata
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +25,12 @@ class Place:
     file: str
     line: int = 0
     column: int = 0
+
+    @classmethod
+    def of_next(cls, text: str, file: str) -> Place:
+        """Return the place of the character that follows a text from the beginning of a file."""
+        lines = split_lines(text)
+        return cls(file, len(lines), len(lines[-1]) + 1)
 
     def __str__(self) -> str:
         """Return ``file:line:column``, as editors and compilers write it."""
@@ -139,6 +146,22 @@ def count_in_words(number: int, thing: str) -> str:
     ('1 value', '100,000 characters')
     """
     return f"{number:,} {thing}{'' if number == 1 else 's'}"
+
+
+def split_lines(text: str) -> list[str]:
+    """Split where editors do: `str.splitlines` knows more line ends than they."""
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+def describe_character(character: str) -> str:
+    r"""Say which character that nobody sees stands in a text.
+
+    >>> describe_character("\x07"), describe_character("\u202e")
+    ('control character U+0007', 'invisible character U+202E (right-to-left override)')
+    """
+    code = f"U+{ord(character):04X}"
+    name = unicodedata.name(character, "").lower()
+    return f"invisible character {code} ({name})" if name else f"control character {code}"
 
 
 def list_names(names: Iterable[str], last: str = "and") -> str:

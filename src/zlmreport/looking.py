@@ -48,8 +48,9 @@ def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
 
     `sheet`: Of a workbook, the sheet that holds the readings; without it the likeliest one.
 
-    Raises `ZlmreportError` if no data source reads it: what the likeliest of them says.
+    Raises `ZlmreportError` if no data source reads it: what the likeliest of them says; or no job names it.
     """
+    _refuse_unwritable(path.name, path)
     suffix = path.suffix.casefold()
     sources = sorted(registry.sources, key=lambda each: suffix not in getattr(each, "suffixes", ()))
     ways: list[tuple[DataSource, SourceProposal]] = []
@@ -76,6 +77,17 @@ def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
                     raise
                 errors.append(error)
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
+
+
+def _refuse_unwritable(name: str, path: Path) -> None:
+    """Refuse a name that is no text: a job is UTF-8, and cannot hold it."""
+    try:
+        name.encode()
+    except UnicodeEncodeError as error:
+        raise InputError.at(
+            Place(str(path)),
+            "has a path in another encoding than UTF-8, and no job can name it; rename it",
+        ) from error
 
 
 def _propose_readings(source: DataSource, path: Path, sheet: str) -> Iterator[SourceProposal]:
@@ -132,6 +144,7 @@ def _choose_standard_for(proposal: SourceProposal, registry: Registry) -> str:
 def write_job_of(looked: Looked, file: Path, directory: Path) -> str:
     """Return the job in a folder that makes a report of a file; what is to be asked stands in comments."""
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
+    _refuse_unwritable(name, file)
     return "\n".join(
         [
             f"# A measuring report of {' '.join(file.name.split())}. 'zlmreport schema' describes every key.",

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from cli.commands import Shop
+from environments import ROOT
 from processes import PYTHON, ZLMREPORT, run
 from zlmreport import __version__
 from zlmreport.cli import arguments
@@ -139,6 +140,16 @@ def test_terminal_without_the_letters_gets_escapes() -> None:
     done = run(PYTHON, "-W", "error", "-m", "zlmreport", "µ.yaml", env=environment)
     assert done.returncode == 3
     assert done.stderr.startswith("\\xb5.yaml: cannot be read")
+
+
+def test_a_table_whose_name_is_no_text_makes_no_job(tmp_path: Path) -> None:
+    table = tmp_path / os.fsdecode(b"a\xff.csv")
+    table.write_bytes((ROOT / "configs" / "linear-axis" / "y-axis.csv").read_bytes())
+    done = run(PYTHON, "-m", "zlmreport", "init", "new", "--from", table.name, cwd=tmp_path)
+    assert done.returncode == 2
+    assert done.stderr == (
+        "a\\udcff.csv: has a path in another encoding than UTF-8, and no job can name it; rename it\n"
+    )
 
 
 def test_name_that_is_no_text_is_printed_as_an_escape(tmp_path: Path) -> None:

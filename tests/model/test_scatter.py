@@ -13,7 +13,7 @@ from zlmreport.model.fitting.repeats import (
     estimate_lasting_floor,
     estimate_noise_floor,
     is_apart_in_time,
-    spread_tests,
+    list_spread_tests,
 )
 from zlmreport.plugin import FloatArray
 
@@ -102,8 +102,8 @@ def test_scatter_that_grows_along_the_axis_is_known_at_both_ends(ends: tuple[flo
 
 @pytest.mark.long
 def test_even_scatter_grows_in_one_test_of_a_hundred() -> None:
-    p_values = [spread_tests(DESIGN, noise(DESIGN, seed))[0].p_value for seed in range(200)]
-    assert spread_tests(DESIGN, noise(DESIGN))[0].factor is SpreadFactor.GROWTH
+    p_values = [list_spread_tests(DESIGN, noise(DESIGN, seed))[0].p_value for seed in range(200)]
+    assert list_spread_tests(DESIGN, noise(DESIGN))[0].factor is SpreadFactor.GROWTH
     assert sum(p < 0.01 for p in p_values) <= 7  # 2 expected; 8 by chance in a test of a thousand
     assert 8 <= sum(p < 0.1 for p in p_values) <= 34  # 20 expected, with a standard deviation of 4.2
 
@@ -118,13 +118,15 @@ def test_readings_without_any_scatter_are_not_weighted() -> None:
 def test_a_fan_that_opens_with_time_is_no_scatter() -> None:
     fan = 10e-6 * DESIGN.position * DESIGN.time / DESIGN.duration
     by_position = next(
-        each for each in spread_tests(DESIGN, noise(DESIGN) + fan) if each.factor is SpreadFactor.POSITION
+        each
+        for each in list_spread_tests(DESIGN, noise(DESIGN) + fan)
+        if each.factor is SpreadFactor.POSITION
     )
     assert by_position.p_value > 0.01
 
 
 def test_where_it_scatters_most_is_named() -> None:
-    found = spread_tests(DESIGN, noise(DESIGN) * np.where(DESIGN.run == 3, 4.0, 1.0))
+    found = list_spread_tests(DESIGN, noise(DESIGN) * np.where(DESIGN.run == 3, 4.0, 1.0))
     by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
     assert by_run.widest == 3
     assert by_run.p_value < 0.01
@@ -132,5 +134,5 @@ def test_where_it_scatters_most_is_named() -> None:
 
 def test_of_two_runs_none_scatters_more_than_the_other() -> None:
     design = linear_test(runs=2)
-    found = spread_tests(design, noise(design) * np.where(design.run == 2, 4.0, 1.0))
+    found = list_spread_tests(design, noise(design) * np.where(design.run == 2, 4.0, 1.0))
     assert SpreadFactor.RUN not in {each.factor for each in found}

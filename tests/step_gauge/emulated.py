@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from processes import PATIENCE
 from step_gauge.paths import planned
 from zlmreport.live.emulation.channels import LocalSocket, serve
-from zlmreport.live.emulation.emulator import Troubles
+from zlmreport.live.emulation.troubles import Troubles
 from zlmreport_step_gauge.machines.emulated import Boxes, CoordinateMachine
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
 from zlmreport_step_gauge.machines.session import MachineError

@@ -18,9 +18,8 @@ from zlmreport.plugin.circle_effect import (
     Law,
     Parity,
     Searched,
-    pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences, title_difference
+from zlmreport_plugins.circle_effects.shared import find_differences, title_difference, write_pair
 
 
 class ServoLag(CircleEffect):
@@ -76,23 +75,19 @@ class ServoMismatch(CircleEffect):
         for each in estimates:
             early, late = _list_axes(each)
             early, late = (early, late) if each.value < 0 else (late, early)
-            time, u = _write_pair(each, abs(each.value))
+            time, u = write_pair(each, abs(each.value))
             yield _LAGS.given(late=late, early=early, time=time, u=u)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that drives follow alike."""
         for each in estimates:
             one, other = _list_axes(each)
-            time, u = _write_pair(each, each.value)
+            time, u = write_pair(each, each.value)
             yield _ALIKE.given(one=one, other=other, time=time, u=u)
 
 
 def _list_axes(estimate: Estimate) -> list[str]:
     return estimate.name.replace("T_", "").split("-")
-
-
-def _write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
-    return pair_words(estimate.unit.from_si(value), estimate.unit.from_si(estimate.expanded_uncertainty))
 
 
 _LAG = Words("lag {one} − {other}")

@@ -18,9 +18,8 @@ from zlmreport.plugin.circle_effect import (
     Parity,
     Searched,
     SearchedParameter,
-    pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences, title_difference
+from zlmreport_plugins.circle_effects.shared import find_differences, title_difference, write_pair
 
 
 class ScaleMismatch(CircleEffect):
@@ -49,20 +48,15 @@ class ScaleMismatch(CircleEffect):
         for each in estimates:
             one, other = each.name.split("-")
             longer, shorter = (one, other) if each.value > 0 else (other, one)
-            value, u = _write_pair(each, abs(each.value))
+            value, u = write_pair(each, abs(each.value))
             yield _LONGER.given(longer=longer, shorter=shorter, value=value, u=u)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that scales agree."""
         for each in estimates:
             one, other = each.name.split("-")
-            value, u = _write_pair(each, each.value)
+            value, u = write_pair(each, each.value)
             yield _AGREE.given(one=one, other=other, value=value, u=u)
-
-
-def _write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
-    unit = estimate.unit
-    return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))
 
 
 _LONGER = Words("the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m")
@@ -106,7 +100,7 @@ class Squareness(CircleEffect):
 def _say_of_planes(estimates: Sequence[Estimate], words: Words) -> Iterator[Words]:
     planes = {name: plane for plane, (name, _) in _SQUARENESS.items()}
     for each in estimates:
-        value, u = _write_pair(each, each.value)
+        value, u = write_pair(each, each.value)
         plane = planes[each.name]
         yield words.given(one=plane[0], other=plane[1], name=each.name, value=value, u=u)
 

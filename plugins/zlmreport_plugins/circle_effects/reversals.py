@@ -19,8 +19,8 @@ from zlmreport.plugin.circle_effect import (
     Parity,
     Searched,
     SearchedParameter,
-    pair_words,
 )
+from zlmreport_plugins.circle_effects.shared import write_pair
 
 _LARGEST_LOST_MOTION = 5e-4  # m
 #: Whether both ends of the travel lose alike, or each has its own.
@@ -67,7 +67,7 @@ class CircleBacklash(CircleEffect):
         """Say which axis loses how much where it turns, at which end of the circle, and what to do."""
         seen = [each for each in estimates if each.value > each.expanded_uncertainty]
         for each in seen:
-            value, u = _write_pair(each)
+            value, u = write_pair(each, each.value)
             axis, end = each.name[:1], each.name[1:]
             yield (_LOSES_AT[end] if end else _LOSES).given(axis=axis, value=value, u=u)
         if _has_unlike_ends(estimates):
@@ -78,7 +78,7 @@ class CircleBacklash(CircleEffect):
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much lost motion there might be."""
         for each in estimates:
-            value, u = _write_pair(each)
+            value, u = write_pair(each, each.value)
             yield _NO_BACKLASH.given(axis=each.name, value=value, u=u)
 
 
@@ -117,13 +117,8 @@ class OverCompensation(CircleEffect):
         """Say which axis is over-compensated."""
         for each in estimates:
             if each.value < -each.expanded_uncertainty:
-                value, u = _write_pair(each)
+                value, u = write_pair(each, each.value)
                 yield _OVER.given(axis=each.name, value=value, u=u)
-
-
-def _write_pair(estimate: Estimate) -> tuple[Words, Words]:
-    unit = estimate.unit
-    return pair_words(unit.from_si(estimate.value), unit.from_si(estimate.expanded_uncertainty))
 
 
 _NO_BACKLASH = Words("no backlash of {axis}: {value} ± {u} µm")
@@ -166,7 +161,7 @@ class LateralPlay(CircleEffect):
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much play there might be."""
         for each in estimates:
-            value, u = _write_pair(each)
+            value, u = write_pair(each, each.value)
             yield _NO_PLAY.given(axis=each.name, value=value, u=u)
 
 

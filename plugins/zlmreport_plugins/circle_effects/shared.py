@@ -1,4 +1,4 @@
-"""Differences between axes, for effects that two axes share."""
+"""Differences between axes, for effects that two axes share; estimates in sentences."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from zlmreport.plugin import MINUS_SIGN, FloatArray, Words, same_in_all_languages
-from zlmreport.plugin.circle_effect import AXES, CircleDesign
+from zlmreport.plugin.circle_effect import AXES, CircleDesign, Estimate, pair_words
 
 
 def find_differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
@@ -28,3 +28,9 @@ def find_differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
 def title_difference(name: str) -> Words:
     """Return how pages write the name of a difference between axes."""
     return same_in_all_languages(name.replace("-", f" {MINUS_SIGN} "))
+
+
+def write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
+    """Return a value of an estimate, SI, and its U, in its unit and rounded together."""
+    unit = estimate.unit
+    return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))

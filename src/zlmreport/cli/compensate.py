@@ -16,8 +16,8 @@ from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.subjects.compensation import (
     Uncertainties,
-    forecast,
     lay_out_confirmation,
+    lay_out_forecast,
     make_compensation_sheet,
 )
 from zlmreport.document.writer import Writer
@@ -28,6 +28,7 @@ from zlmreport.job.choices import choose_controller_of
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.tree import KeyEntry, Keys, Scalar, make_keys_of
+from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.measurement.axis import refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -75,7 +76,7 @@ def run(options: Namespace) -> int:
     if options.json:
         print_json(_collect_values(job, made, uncertainties, written))
         return 0
-    section = forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
+    section = lay_out_forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
     print(*_lay_out_heading(job, made), *lay_out_sections([section]), "", sep="\n")
     for path in written:
         print(show_path(path))
@@ -235,11 +236,9 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
     }
     if before.keys.environment is not None:
         found["environment"] = before.keys.environment.model_dump(mode="json", exclude_unset=True)
-    text = (
-        "# The axis as found and as left, before and after its compensation table.\n"
-        f"extends: {json.dumps(told(path.resolve()))}\n"
-        f"as_found: {json.dumps(found, default=told, ensure_ascii=False, indent=2)}\n"
-    )
+    keys = {"extends": told(path.resolve()), "as_found": json.loads(json.dumps(found, default=told))}
+    lines = ["# The axis as found and as left, before and after its compensation table.", *write_group(keys)]
+    text = "".join(f"{line}\n" for line in lines)
     return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())
 
 

@@ -13,7 +13,8 @@ from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_stated_number
 from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene
+from zlmreport.live.emulation.troubles import Troubles
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.plugin.registry import find_plugins
 
@@ -57,7 +58,7 @@ def refuse_two_lines(options: Namespace, command: str) -> None:
 
 def make_troubles_of(options: Namespace) -> Troubles:
     """Return what the command line says that goes wrong."""
-    return Troubles(tuple(Planned(Trouble(kind), start) for kind, start in options.fault))
+    return Troubles(tuple(options.fault))
 
 
 def put_on_line(

@@ -123,7 +123,7 @@ class JobResult:
             return False
         return True if verdicts and None not in verdicts else None
 
-    def choose_exit_code(self, *, fail_on_nonconformity: bool = False) -> int:
+    def choose_exit_code(self, *, fail_on_nonconformity: bool) -> int:
         """Return the exit code of this job alone."""
         if self.error:
             return self.error.exit_code

@@ -42,7 +42,7 @@ def lay_out_sections(sections: Iterable[Section]) -> Iterator[str]:
             yield from lay_out_blocks(block, section.title)
 
 
-def lay_out_blocks(block: Block, title: str = "") -> Iterator[str]:
+def lay_out_blocks(block: Block, title: str) -> Iterator[str]:
     """Yield what stands in a section of this title; a heading that repeats it is left out."""
     match block:
         case Paragraph(text, mark):

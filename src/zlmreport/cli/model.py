@@ -109,7 +109,7 @@ def _fit(session: _Session, options: Namespace) -> _Answer:
         *fit_lines(fitted, session.job),
         *write_point_lines(points, session.job.axis),
         "",
-        _say_next("diagnose", session),
+        _say_next(session),
     )
     return lines, lambda: fit_values(fitted) | list_point_values(points, session.job.axis)
 
@@ -138,7 +138,7 @@ def _tell_history(session: _Session, _: Namespace) -> _Answer:
     lines = (
         *tell_history(history, forecasts, session.job, session.writer),
         "",
-        _say_next("diagnose", session),
+        _say_next(session),
     )
     return lines, lambda: collect_history(history, forecasts)
 
@@ -228,8 +228,8 @@ def _write_change(session: _Session, change: ModelChange) -> _Answer:
     return lines, lambda: change_values(session.path, change)
 
 
-def _say_next(action: str, session: _Session) -> str:
-    return f"next: zlmreport model {action} {session.shown_path}"
+def _say_next(session: _Session) -> str:
+    return f"next: zlmreport model diagnose {session.shown_path}"
 
 
 def _demand_effects(session: _Session) -> None:

@@ -43,9 +43,7 @@ def estimate_agreement_by_chance(series: FloatArray, step: float) -> float:
     return float(np.median(shares)) if shares else 1.0
 
 
-def are_nearly_copies(
-    one: FloatArray, other: FloatArray, step: float, by_chance: float, pairs: int = 1
-) -> bool:
+def are_nearly_copies(one: FloatArray, other: FloatArray, step: float, by_chance: float, pairs: int) -> bool:
     """Return whether two series differ by a constant, but for one reading or few.
 
     `by_chance`: The share of equal differences of honest series; `pairs`: how many pairs are looked at.

@@ -143,9 +143,9 @@ def _list_artefacts(job: Job) -> Iterator[str]:
     """
     for _, group in _list_artefact_keys(job):
         certificate = getattr(group, "certificate", None) or ""
-        yield "" if _is_this_document(job, certificate) else certificate
+        yield "" if _is_this_document(job.keys, certificate) else certificate
     for line in job.lines.values():
-        stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
+        stated = line.keys.uncertainty.contributions
         yield from (each.certificate for each in stated if each.certificate)
 
 
@@ -200,7 +200,7 @@ def _find_breaks_of_artefacts(job: Job) -> Iterator[_Break]:
         where = f"{_find_group(job, key)}.certificate"
         if not is_reference(certificate):
             yield _Break(where, _NO_CERTIFICATE.given(what=what), is_broken=False)
-        elif _is_this_document(job, certificate):
+        elif _is_this_document(job.keys, certificate):
             words = _THIS_DOCUMENT.given(what=what, number=job.keys.certificate.number)
             yield _Break(where, words, is_broken=True)
 
@@ -215,8 +215,8 @@ def _find_group(job: Job, key: str) -> str:
     return next(places, key)
 
 
-def _is_this_document(job: Job, certificate: str) -> bool:
-    return certificate.casefold() == job.keys.certificate.number.casefold()
+def _is_this_document(keys: JobKeys, certificate: str) -> bool:
+    return certificate.casefold() == keys.certificate.number.casefold()
 
 
 def _find_breaks_of_calibration(
@@ -229,9 +229,9 @@ def _find_breaks_of_calibration(
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
     elif is_instrument and device.certificate and not is_reference(device.certificate):
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=True)
-    own = keys.certificate.number
-    if device.certificate and device.certificate.casefold() == own.casefold():
-        yield _Break(f"{key}.certificate", _THIS_DOCUMENT.given(what=what, number=own), is_broken=True)
+    if device.certificate and _is_this_document(keys, device.certificate):
+        words = _THIS_DOCUMENT.given(what=what, number=keys.certificate.number)
+        yield _Break(f"{key}.certificate", words, is_broken=True)
     day = device.calibrated
     if day is None:
         if device.certificate and is_reference(device.certificate):

@@ -45,7 +45,7 @@ def find_cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
     found = []
     for each in effects:
         if (each.machine, each.axis) == (trend.series.machine, trend.series.axis):
-            change, ratio = _change(each, first, since)
+            change, ratio = _estimate_change(each, first, since)
             found.append((ratio, change, each))
     ratio, change, best = max(found, key=lambda one: one[0], default=(0.0, 0.0, None))
     if best is None or ratio < _LEAST:
@@ -54,7 +54,7 @@ def find_cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
     return Cause(since, effect, name, change, best.unit, before, after)
 
 
-def _change(series: Series, first: date, since: date) -> tuple[float, float]:
+def _estimate_change(series: Series, first: date, since: date) -> tuple[float, float]:
     """Return by how much a parameter changed, and as how many standard deviations."""
     before = [each.parameter for each in series.calibrations if first <= each.measured < since]
     after = [each.parameter for each in series.calibrations if each.measured >= since]

@@ -110,9 +110,7 @@ def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float
     return ParameterCourse(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
-def _is_standing_out(
-    before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float = 1.0
-) -> bool:
+def _is_standing_out(before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float) -> bool:
     """Whether a test differs from those before it, and from a drift that these show.
 
     `fleet`, `share`: As `judge_course` has them.

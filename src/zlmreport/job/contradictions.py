@@ -118,9 +118,7 @@ def _resolve(scalar: Scalar) -> float | LocatedText | None:
     return LocatedText(scalar.text, scalar.place)
 
 
-def find_all_contradictions(
-    keys: JobKeys, tree: Keys, others: Iterable[Contradiction] = ()
-) -> Iterator[Problem]:
+def find_all_contradictions(keys: JobKeys, tree: Keys, others: Iterable[Contradiction]) -> Iterator[Problem]:
     """Yield every contradiction of a job, and others that are known, at the key that would have to change."""
     for path, message in (*_find_contradictions(keys), *others):
         named = ".".join(step for step in path if isinstance(step, str))

@@ -210,7 +210,7 @@ def _find_foreign_acts(
 
 
 def find_uncertainty_contradictions(
-    keys: UncertaintyKeys, kind: AxisKind, *, is_circle: bool = False
+    keys: UncertaintyKeys, kind: AxisKind, *, is_circle: bool
 ) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Yield what no single key shows to be wrong: the path of a key, and a sentence."""
     for names, why in _find_keys_not_of(kind, is_circle=is_circle):

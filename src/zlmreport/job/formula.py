@@ -82,7 +82,7 @@ class Extent(NamedTuple):
         ]
         return "·".join(parts) or "a number"
 
-    def combine(self, other: Extent, sign: int = 1) -> Extent:
+    def combine(self, other: Extent, sign: int) -> Extent:
         """Return the extent of a product, or with −1 of a quotient."""
         return Extent(*(mine + sign * its for mine, its in zip(self, other, strict=True)))
 

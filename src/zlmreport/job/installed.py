@@ -21,7 +21,7 @@ class Named(Protocol):
 
 
 class WithKeys(Named, Protocol):
-    """A plugin with keys of its own: a data source, a live instrument."""
+    """A plugin with keys of its own: a data source, a control, a live instrument."""
 
     options: type[Options]  #: Its own keys.
 
@@ -69,11 +69,9 @@ class InstalledProgram(WithKeys, Protocol):
     suffix: str  #: Of its files.
 
 
-class InstalledExtension(Protocol):
-    """A group of job keys, where in it part programs are listed, and what it says of a job."""
+class InstalledExtension(WithKeys, Protocol):
+    """A group of job keys called as it is, where in it part programs are listed, what it says of a job."""
 
-    identifier: str  #: The key of the group.
-    options: type[Options]  #: Its keys.
     description: str  #: What it is.
     example: Mapping[str, Any]  #: Some of its keys.
     programs: tuple[str, ...]  #: The path to its part programs; empty for none.

@@ -19,7 +19,7 @@ from typing import Any
 import yaml
 from yaml import MarkedYAMLError
 
-from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.errors import InputError, Place, Problem, describe_character, quoted
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar
 
 #: How the name of a YAML file ends, in small letters.
@@ -86,12 +86,12 @@ def decode(content: bytes, file: str) -> str:
     except UnicodeDecodeError as error:
         before = content[: error.start].decode("utf-8")
         raise InputError.at(
-            _place(before, file),
+            Place.of_next(before, file),
             f"byte 0x{content[error.start]:02X} is not UTF-8; save the file as UTF-8",
         ) from error
     problems: list[Problem] = []
     for found in _find_hidden(text):
-        place = _place(text[: found.start()], file)
+        place = Place.of_next(text[: found.start()], file)
         if len(problems) == _MOST_NAMED:
             problems.append(Problem(place, "and more of the kind; is this a text file?"))
             break
@@ -118,23 +118,6 @@ def _is_joining(text: str, place: int) -> bool:
     before, behind = text[place - 1], text[place + 1]
     is_between_letters = all(unicodedata.bidirectional(each) == "AL" for each in (before, behind))
     return unicodedata.combining(before) == _VIRAMA or is_between_letters
-
-
-def describe_character(character: str) -> str:
-    r"""Say which character that nobody sees stands in a text.
-
-    >>> describe_character("\x07"), describe_character("\u202e")
-    ('control character U+0007', 'invisible character U+202E (right-to-left override)')
-    """
-    code = f"U+{ord(character):04X}"
-    name = unicodedata.name(character, "").lower()
-    return f"invisible character {code} ({name})" if name else f"control character {code}"
-
-
-def _place(before: str, file: str) -> Place:
-    """Return the place of the character after a text."""
-    lines = before.replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    return Place(file, len(lines), len(lines[-1]) + 1)
 
 
 def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
@@ -203,7 +186,7 @@ class _Reader:
 
     def find_stuck(self) -> Problem:
         """Return the problem of a character that the parser cannot get past."""
-        return Problem(place(self._parser.get_mark(), self._file), NOT_YAML)
+        return Problem(_find_place_of(self._parser.get_mark(), self._file), _NOT_YAML)
 
     def _read_node(self, event: Any, depth: int) -> Node:
         if isinstance(event, yaml.AliasEvent):
@@ -231,13 +214,13 @@ class _Reader:
         for unseen in _find_hidden(event.value):
             self._refuse(event, f"{describe_character(unseen[0])} in a text; remove it")
             break
-        return Scalar(place(event.start_mark, self._file), event.value, plain=not event.style)
+        return Scalar(_find_place_of(event.start_mark, self._file), event.value, plain=not event.style)
 
     def _read_items(self, start: yaml.Event, depth: int) -> Items:
         items = []
         while not isinstance(event := self._take_next(), yaml.SequenceEndEvent):
             items.append(self._read_node(event, depth + 1))
-        return Items(place(start.start_mark, self._file), tuple(items))
+        return Items(_find_place_of(start.start_mark, self._file), tuple(items))
 
     def _read_keys(self, start: yaml.Event, depth: int) -> Keys:
         entries: dict[str, KeyEntry] = {}
@@ -255,7 +238,7 @@ class _Reader:
                 if isinstance(value, Scalar) and value.plain and not value.text:
                     value = Scalar(key.place, "")
                 entries[key.text] = KeyEntry(key.text, key.place, value)
-        return Keys(place(start.start_mark, self._file), MappingProxyType(entries))
+        return Keys(_find_place_of(start.start_mark, self._file), MappingProxyType(entries))
 
     def _find_aliased(self, event: yaml.AliasEvent) -> Node:
         if event.anchor not in self._anchors:
@@ -277,13 +260,13 @@ class _Reader:
             )
 
     def _refuse(self, event: yaml.Event, message: str) -> None:
-        self.problems.append(Problem(place(event.start_mark, self._file), message))
+        self.problems.append(Problem(_find_place_of(event.start_mark, self._file), message))
 
     def _make_error(self, event: yaml.Event, message: str) -> InputError:
-        return InputError([*self.problems, Problem(place(event.start_mark, self._file), message)])
+        return InputError([*self.problems, Problem(_find_place_of(event.start_mark, self._file), message)])
 
 
-NOT_YAML = "is not YAML from here on; compare with the lines above"
+_NOT_YAML = "is not YAML from here on; compare with the lines above"
 
 _SINGLE_QUOTES = "use single quotes, which keep a backslash as it is"
 #: A parser's complaint, and ours; {found} is what the pattern's group found, and {line} where it began.
@@ -339,10 +322,10 @@ def _make_complaint(error: MarkedYAMLError, file: str) -> Problem:
         found = re.search(pattern, problem)
         if found:
             message = sentence.format(found=found[1] if found.groups() else "", line=line)
-            return Problem(place(mark, file), message)
-    return Problem(place(mark, file), NOT_YAML)
+            return Problem(_find_place_of(mark, file), message)
+    return Problem(_find_place_of(mark, file), _NOT_YAML)
 
 
-def place(mark: Any, file: str) -> Place:
+def _find_place_of(mark: Any, file: str) -> Place:
     """Return the place of a parser's mark."""
     return Place(file, mark.line + 1, mark.column + 1) if mark else Place(file, 1, 1)

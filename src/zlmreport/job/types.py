@@ -328,7 +328,7 @@ JobPath = Annotated[
 ]
 
 
-def list_free_texts(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
+def list_free_texts(keys: BaseModel, within: str) -> Iterator[tuple[str, str]]:
     """Yield the texts of keys that are free words, each with its key, dotted: ``customer.name``."""
     for name, field in list_keys_in(type(keys)).items():
         attribute = next(each for each, info in type(keys).model_fields.items() if info is field)

@@ -11,6 +11,8 @@ from zlmreport.job.tree import Items, Keys, Node, Scalar
 
 #: Text that means nothing but itself without quotes, wherever it stands.
 _PLAIN = re.compile(r"[^\W\d_]((?:[\w ./()+-]|:(?=[\w./-]))*[\w).])?")
+#: Of names of files that are no UTF-8: nothing that is written can hold them, and they are escaped.
+_HALVES = re.compile("[\ud800-\udfff]")
 _WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
 
 
@@ -38,7 +40,8 @@ def quote_text(text: str, quote: str = "") -> str:
     if quote == "'" and "'" not in text and "\n" not in text:
         return f"'{text}'"
     is_plain = _PLAIN.fullmatch(text) and text.casefold() not in _WORDS_OF_YAML
-    return text if is_plain and not quote else json.dumps(text, ensure_ascii=False)
+    is_written = _HALVES.search(text) is None
+    return text if is_plain and not quote else json.dumps(text, ensure_ascii=not is_written)
 
 
 def write_in_a_line(value: Any) -> str:

@@ -31,7 +31,7 @@ _PRICE_OF_TERM = 2.0
 
 
 def study_circles(
-    machine: MachineModel, circles: Sequence[CircularTest], effects: Iterable[CircleEffect] = ()
+    machine: MachineModel, circles: Sequence[CircularTest], effects: Iterable[CircleEffect]
 ) -> CircleStudy:
     """Return the study of circles; effects that search for a value get the one that fits best."""
     study = study_bare(machine, circles)

@@ -109,7 +109,7 @@ def make_machine_document(
             letterhead=make_letterhead(laboratory, logo),
             cover=cover,
             sections=() if is_sheet else tuple(_lay_out_sections(material, registry, say)),
-            page_words=PageWords.said(stated.language, f"{title} {machine.number}"),
+            page_words=PageWords.in_language(stated.language, f"{title} {machine.number}"),
             description=say(named(title, name)),
             measurements=_make_empty_measurement(),
             evaluations=(),

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import permutations
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -74,10 +73,6 @@ class Chain:
     def list_axes_behind(self, axis: str) -> str:
         """Return the axes between one and the tool."""
         return self.order[self.order.index(axis) + 1 :]
-
-
-#: The six orders.
-ORDERS = tuple("".join(order) for order in permutations(AXES))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,6 +18,7 @@ from zlmreport.model.effects.circle_design import AXES
 
 #: Points of the map along each axis.
 _POINTS = 11
+_ON_A_DIAGONAL = 21
 #: The body diagonals by the signs of their directions, as ISO 230-6 has them.
 DIAGONALS = ("PPP", "NPP", "PNP", "NNP")
 
@@ -122,7 +123,7 @@ def map_volume(machine: MachineModel, space: Space) -> VolumeMap:
     )
 
 
-def predict_diagonals(machine: MachineModel, space: Space, points: int = 21) -> tuple[Diagonal, ...]:
+def predict_diagonals(machine: MachineModel, space: Space) -> tuple[Diagonal, ...]:
     """Return what the errors predict of the four body diagonals."""
     found = []
     for name in DIAGONALS:
@@ -131,7 +132,7 @@ def predict_diagonals(machine: MachineModel, space: Space, points: int = 21) -> 
         end = np.where(forward, space.high, space.low)
         way = end - begin
         length = float(np.linalg.norm(way))
-        share = np.linspace(0.0, 1.0, points)
+        share = np.linspace(0.0, 1.0, _ON_A_DIAGONAL)
         values, factor, _ = _compute_relative(machine, begin + share[:, np.newaxis] * way, begin)
         sensed = np.einsum("ndr,d->nr", factor, way / length)
         found.append(

@@ -1,4 +1,4 @@
-"""Types of arrays, read-only arrays, decimals and scatter of numbers."""
+"""Types of arrays, read-only arrays, decimals and scatter of numbers, what columns leave of them."""
 
 from __future__ import annotations
 
@@ -57,3 +57,27 @@ def estimate_robust_deviation(values: FloatArray) -> float:
     1.4826
     """
     return _NORMAL_OVER_MEDIAN * float(np.median(np.abs(values)))
+
+
+def compute_left_beside(columns: FloatArray, values: FloatArray) -> FloatArray:
+    """Return what columns in their best combination (least squares) leave of values, shape (N,).
+
+    The columns, (N, q), are brought to one length first: a time in seconds would else outweigh a length in
+    metres, and what is small beside it would count as nothing.
+    """
+    scaled = _scale_to_one_length(columns)
+    return np.asarray(values - scaled @ np.linalg.lstsq(scaled, values, rcond=None)[0], dtype=np.float64)
+
+
+def make_orthonormal(columns: FloatArray, dependent: float) -> FloatArray:
+    """Return orthonormal columns of the same span, (N, r), of columns of any lengths, (N, q).
+
+    `dependent`: Singular value over the largest, up to which a combination of columns is no further one.
+    """
+    vectors, singular, _ = np.linalg.svd(_scale_to_one_length(columns), full_matrices=False)
+    return np.asarray(vectors[:, singular > dependent * singular.max(initial=0.0)], dtype=np.float64)
+
+
+def _scale_to_one_length(columns: FloatArray) -> FloatArray:
+    lengths = np.linalg.norm(columns, axis=0)
+    return np.asarray(columns / np.where(lengths > 0, lengths, 1.0), dtype=np.float64)

@@ -406,7 +406,7 @@ def part_line(number: int, line: str, delimiter: str, width: int = 0) -> TextRow
     return TextRow(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
 
 
-def _split_line(line: str, delimiter: str, width: int = 0) -> Iterator[tuple[int, str]]:
+def _split_line(line: str, delimiter: str, width: int) -> Iterator[tuple[int, str]]:
     """Yield the cells of a line that is not simply parted, each with the index at which it begins."""
     if delimiter != BLANKS:
         return _split_quoted_line(line, delimiter)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, quoted
+from zlmreport.errors import AccessError, InputError, Place, describe_character, quoted, split_lines
 from zlmreport.files import make_unreadable, read
 from zlmreport.language.formatting import MINUS, DecimalSign
 from zlmreport.measurement.provenance import SourceFile
@@ -142,8 +142,13 @@ def read_text(path: Path, encoding: str | None = None, sheet: str | None = None)
     text = _decode(content, file, encoding).rstrip(_END_OF_FILE)
     unseen = _UNSEEN.search(text)
     if unseen:
-        raise InputError.at(_place_after(text[: unseen.start()], file), _describe_character(unseen[0]))
-    lines = _split_lines(text)
+        is_named = unicodedata.name(unseen[0], "") != ""
+        raise InputError.at(
+            Place.of_next(text[: unseen.start()], file.file),
+            f"{describe_character(unseen[0])}; "
+            f"{'remove it' if is_named else 'is this a text file, and in the encoding that the job states?'}",
+        )
+    lines = split_lines(text)
     if not lines[-1]:
         lines.pop()
     _refuse_continuous_logs(lines, file)
@@ -221,7 +226,7 @@ def _decode(content: bytes, file: Place, encoding: str | None) -> str:
     try:
         return content.decode(encoding)
     except UnicodeDecodeError as error:
-        place = _place_after(content[: error.start].decode(encoding, "replace"), file)
+        place = Place.of_next(content[: error.start].decode(encoding, "replace"), file.file)
         wrong = f"byte 0x{content[error.start]:02X} is not {encoding.upper()}"
         if b"\0" in content:
             raise InputError.at(
@@ -258,25 +263,6 @@ def _refuse_continuous_logs(lines: list[str], file: Place) -> None:
                 Place(file.file, number, LONGEST_LINE + 1),
                 f"the line has {len(line)} characters; is this a file of readings?",
             )
-
-
-def _describe_character(character: str) -> str:
-    code = f"U+{ord(character):04X}"
-    name = unicodedata.name(character, "").lower()
-    if name:
-        return f"invisible character {code} ({name}); remove it"
-    return f"control character {code}; is this a text file, and in the encoding that the job states?"
-
-
-def _place_after(text: str, file: Place) -> Place:
-    """Return the place of the character that follows a text."""
-    lines = _split_lines(text)
-    return Place(file.file, len(lines), len(lines[-1]) + 1)
-
-
-def _split_lines(text: str) -> list[str]:
-    """Split where editors do: `str.splitlines` knows more line ends than they."""
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
 
 #: Characters of a number; 20 digits occur.

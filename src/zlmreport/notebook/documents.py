@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate as ComposedCertificate
-from zlmreport.document.subjects.compensation import forecast
+from zlmreport.document.subjects.compensation import lay_out_forecast
 from zlmreport.document.writer import Writer
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, write, write_new
@@ -259,7 +259,7 @@ class Compensation:
 
     def _repr_html_(self) -> str:
         writer = Writer.of(self.data.measurements, Language.ENGLISH)
-        return sections_html([forecast(self._made, writer, ({}, {}))])
+        return sections_html([lay_out_forecast(self._made, writer, ({}, {}))])
 
 
 def compensate(  # noqa: PLR0913 - each by its name

@@ -32,6 +32,8 @@ from zlmreport.live.capture.records import (
 from zlmreport.live.emulation.emulator import (
     Emulator,
     Scene,
+)
+from zlmreport.live.emulation.troubles import (
     Trouble,
 )
 from zlmreport.live.ports.clock import (

@@ -104,7 +104,7 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
             Section("results", text, _make_blocks(evaluation, text), new_page=True),
             Section("nothing", text, ()),
         ),
-        page_words=PageWords.said(language, f"Kit {NUMBER}"),
+        page_words=PageWords.in_language(language, f"Kit {NUMBER}"),
         description=text,
         measurements=measurements,
         evaluations=(evaluation,),

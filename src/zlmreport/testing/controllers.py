@@ -62,9 +62,9 @@ class ControlExample:
     across: CrossExample | None = None
 
 
-def sample_table(rows: int = 11, step: float = 0.030125) -> CompensationTable:
+def sample_table() -> CompensationTable:
     """Return a table of an axis X that begins at zero: forward and reverse part by 12 µm."""
-    positions = step * np.arange(rows)
+    positions = 0.030125 * np.arange(11)
     forward = 4e-6 * np.sin(7 * positions) + 20e-6 * positions
     return CompensationTable(
         Axis("X"),

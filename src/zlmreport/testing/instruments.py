@@ -17,7 +17,8 @@ from typing import Any
 
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.live.emulation.channels import LocalSocket, serve
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis, Scene
+from zlmreport.live.emulation.troubles import Planned, Trouble, Troubles
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.plugin.kinds import INSTRUMENT
 from zlmreport.plugin.protocols import Instrument

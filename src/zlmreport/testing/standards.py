@@ -164,7 +164,7 @@ def figures_of_any_test(standard: Standard, options: Options, *_more: Any) -> No
 @check
 def figures_are_worded(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a graph has its caption, its axes, and a description with its values, in every language."""
-    for where, figure, _ in _figures(standard, options):
+    for where, figure, _ in _list_figures(standard, options):
         expect_identifier(figure.key, f"{where}: key")
         for name, words in (
             ("title", figure.title),
@@ -181,7 +181,7 @@ def figures_are_worded(standard: Standard, options: Options, *_more: Any) -> Non
             known = {*_UNITS, *_OF_CONDITIONS}
             expect(unit in known, f"{where}: unit {unit!r} of a panel is none of {', '.join(sorted(known))}")
     for kind in good_tests(standard):
-        for where, figure, _ in _figures(standard, options, kind):
+        for where, figure, _ in _list_figures(standard, options, kind):
             for language in Language:
                 text = figure.alternative.in_language(language)
                 expect(
@@ -196,7 +196,7 @@ def marks_stand_at_targets(standard: Standard, options: Options, *_more: Any) ->
 
     A wire picture shows places of a body, and not positions.
     """
-    for where, figure, evaluation in _figures(standard, options):
+    for where, figure, evaluation in _list_figures(standard, options):
         lines = [line.target_positions for line in evaluation.measurements.lines]
         targets = _UNITS[figure.x_unit].from_si(np.concatenate(lines))
         for panel in (each for each in figure.panels if not each.is_wire):
@@ -222,7 +222,7 @@ def marks_stand_at_targets(standard: Standard, options: Options, *_more: Any) ->
 @check
 def curves_have_a_value_at_each_position(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that curves and bands have a value at each position, and a band its limits in order."""
-    for where, figure, _ in _figures(standard, options):
+    for where, figure, _ in _list_figures(standard, options):
         for panel in figure.panels:
             for mark in _list_marks(panel):
                 values = (mark.lower, mark.upper) if isinstance(mark, Band) else (mark.y,)
@@ -241,7 +241,7 @@ def curves_have_a_value_at_each_position(standard: Standard, options: Options, *
 @check
 def marks_have_finite_ends(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that arrows, brackets and levels have finite ends, the lower one first."""
-    for where, figure, _ in _figures(standard, options):
+    for where, figure, _ in _list_figures(standard, options):
         for panel in figure.panels:
             spans: tuple[Arrow | Bracket, ...] = (*panel.arrows, *panel.brackets)
             for mark in spans:
@@ -257,7 +257,7 @@ def marks_have_finite_ends(standard: Standard, options: Options, *_more: Any) ->
 @check
 def brackets_span_what_is_drawn(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a bracket's ends are values that the panel shows at their targets, or its zero line."""
-    for where, figure, _ in _figures(standard, options):
+    for where, figure, _ in _list_figures(standard, options):
         for panel in figure.panels:
             for bracket in panel.brackets:
                 for end, value, position in (
@@ -275,7 +275,7 @@ def brackets_span_what_is_drawn(standard: Standard, options: Options, *_more: An
 @check
 def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a bracket that carries a parameter's notation spans exactly the parameter's value."""
-    for where, figure, evaluation in _figures(standard, options):
+    for where, figure, evaluation in _list_figures(standard, options):
         for panel in figure.panels:
             unit = _UNITS.get(figure.value_axis(panel)[1])
             if unit is None:  # of a condition, which no parameter is
@@ -290,7 +290,7 @@ def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options
                     )
 
 
-def _figures(
+def _list_figures(
     standard: Standard, options: Options, kind: str | None = None
 ) -> Iterator[tuple[str, Figure, Evaluation]]:
     """Yield every figure of every test (or of one kind of test), with what to call it in a sentence."""

@@ -10,7 +10,8 @@ import unicodedata
 from collections.abc import Iterator
 from functools import cache
 
-from zlmreport.job.parse import describe_character, list_invisible
+from zlmreport.errors import describe_character
+from zlmreport.job.parse import list_invisible
 from zlmreport.language import Words
 
 _WORD = re.compile(r"[^\W\d_]+")

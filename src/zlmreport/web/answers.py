@@ -21,34 +21,9 @@ from zlmreport.web.commands import Wanted
 from zlmreport.web.diagnoses import Diagnoses
 from zlmreport.web.making import Making, draw_page
 from zlmreport.web.texts import NO_SCRIPT, TITLE, collect_texts
+from zlmreport.web.watched import LoadedFile, WatchedFile
 
 OTHER_PAGE = "the request is none of a page of this version"
-
-
-class LoadedFile(Protocol):
-    """A file on the bench as it was read."""
-
-    @property
-    def content(self) -> str:
-        """Names what stands in all files behind it."""
-
-    @property
-    def language(self) -> Language:
-        """Of its document."""
-
-
-class FileBench(Protocol):
-    """A file that is worked on."""
-
-    @property
-    def path(self) -> Path:
-        """The file."""
-
-    def make_stamp(self) -> str:
-        """Return the name of the state of all files behind it."""
-
-    def load(self) -> LoadedFile:
-        """Return the file as it is now."""
 
 
 class FileCommands(Protocol):
@@ -73,7 +48,7 @@ class PageAnswers:
 
     __slots__ = ()
 
-    bench: FileBench  #: The file.
+    bench: WatchedFile[LoadedFile]  #: The file.
     #: diagnoses and commands: Made beside, each in a process of its own.
     diagnoses: Diagnoses
     commands: FileCommands

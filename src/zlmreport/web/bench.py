@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import hashlib
 from collections import OrderedDict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from threading import RLock
 
 from zlmreport import pipeline
 from zlmreport.document.certificate.results import Evaluated
-from zlmreport.errors import Place, ZlmreportError
+from zlmreport.errors import Place
 from zlmreport.evaluation.correction.corrections import drop_excluded
 from zlmreport.job.effect_choices import EffectChoice
 from zlmreport.job.job import Job
@@ -23,7 +22,7 @@ from zlmreport.measurement.provenance import SourceFile
 from zlmreport.model.diagnosis.study import Fitted, Study, read_addition
 from zlmreport.model.effects.axis_model import AxisModel, choose_terms
 from zlmreport.model.fitting.sessions import add_zeros
-from zlmreport.plugin.registry import Registry
+from zlmreport.web.watched import WatchedFile, make_stamp_of
 
 #: Where mistakes stand that are made on the page.
 PLACE = Place("workbench")
@@ -74,45 +73,19 @@ class _Readings:
 
 
 @dataclass(slots=True)
-class Bench:
+class Bench(WatchedFile[Loaded]):
     """A job file that is worked on."""
 
-    path: Path  #: The job file.
-    registry: Registry  #: The installed plugins.
-    #: Held while the job is read or changed: pages ask from several threads.
-    lock: RLock = field(default_factory=RLock)
-    _loaded: Loaded | None = None
     _readings: _Readings | None = None
     _raw: tuple[str, MeasurementSet] | None = None
-    _watched: tuple[Path, ...] = ()
     _fits: OrderedDict[tuple[object, ...], Future[Fitted]] = field(default_factory=OrderedDict)
 
-    def make_stamp(self) -> str:
-        """Return the name of the state in which the files are now, without reading the job."""
-        return make_stamp_of([self.path, *self._watched])
-
-    def load(self) -> Loaded:
-        """Return the job as it stands in its files now.
-
-        Raises `InputError` or `AccessError` as from the main job: with every mistake that somebody has
-        written into the files.
-        """
-        with self.lock:
-            if self._loaded is not None and self._loaded.stamp == self.make_stamp():
-                return self._loaded
-            self._loaded = None
-            try:
-                job = load(self.path, self.registry)
-                found = self.try_job(job)
-            except ZlmreportError as error:
-                # Which of them will be mended nobody knows: those of before, and those that are named.
-                named = (Path(each.place.file) for each in error.problems)
-                self._watched = tuple(dict.fromkeys((*self._watched, *named)))
-                raise
-            files = (*job.files, *_list_files(found.measurements, *found.study.sessions))
-            self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
-            self._loaded = replace(found, stamp=self.make_stamp())
-            return self._loaded
+    def read(self) -> tuple[Callable[[str], Loaded], Iterable[Path | None]]:
+        """Read the job with its readings."""
+        job = load(self.path, self.registry)
+        found = self.try_job(job)
+        files = (*job.files, *_list_files(found.measurements, *found.study.sessions))
+        return lambda stamp: replace(found, stamp=stamp), (each.path for each in files)
 
     def try_job(self, job: Job) -> Loaded:
         """Return a job with its readings, whether or not it is written already."""
@@ -219,16 +192,3 @@ def _write_basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bo
 def _list_files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
     """Return the files from which readings came."""
     return tuple(file for each in measurements for file in each.provenance.files)
-
-
-def make_stamp_of(paths: Iterable[Path]) -> str:
-    """Return a name of the state of files, from what the file system says of them."""
-    states = []
-    for path in paths:
-        try:
-            found = path.resolve().stat()
-        except OSError:
-            states.append(f"{path.name} is gone")
-        else:
-            states.append(f"{path.name} {found.st_mtime_ns} {found.st_size} {found.st_ino}")
-    return hashlib.sha256("\n".join(states).encode()).hexdigest()[:16]

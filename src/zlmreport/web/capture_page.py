@@ -29,8 +29,9 @@ from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import Record, from_record
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.bench import PLACE, Bench, make_stamp_of
+from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.capturing import CaptureProcess, CaptureRequest
+from zlmreport.web.watched import make_stamp_of
 
 _SECONDS_A_MINUTE = 60
 

@@ -7,9 +7,7 @@ capture. So the page may be closed and opened, and a busy server delays what is 
 from __future__ import annotations
 
 import json
-import os
 import subprocess
-import sys
 from collections import deque
 from collections.abc import Sequence
 from contextlib import suppress
@@ -24,10 +22,10 @@ from pydantic import BaseModel, ConfigDict, Field
 from zlmreport.errors import InputError
 from zlmreport.live.capture.records import Record
 from zlmreport.web.bench import PLACE
+from zlmreport.web.processes import ENDED, start_command
 
 #: Lines on what happened that the page shows.
 _KEPT_LINES = 30
-_ENDED = "zlmreport ended unexpectedly"
 #: How long a process may take to write its last line, s; then it is killed, which loses nothing.
 _PATIENCE = 10.0
 #: Exit code of a command that was interrupted.
@@ -117,15 +115,8 @@ class CaptureProcess:
             self._now, self._asked = None, None
             self._events.clear()
             self._problems.clear()
-            plugins = (part for each in self.plugins for part in ("--plugin", str(each.resolve())))
-            self._process = subprocess.Popen(  # noqa: S603 - this program itself
-                [sys.executable, "-m", "zlmreport", "capture", str(self.path), *arguments, *plugins],
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                encoding="utf-8",
-                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
-                env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+            self._process = start_command(
+                "capture", str(self.path), *arguments, plugins=self.plugins, stdin=subprocess.PIPE
             )
             Thread(target=self._listen, args=(self._process,), daemon=True).start()
 
@@ -152,7 +143,7 @@ class CaptureProcess:
             listener.join()
         with self._lock:
             said = [each.strip() for each in complaints if each.strip()]
-            self._problems = [] if code == _INTERRUPTED else said or ([_ENDED] if code else [])
+            self._problems = [] if code == _INTERRUPTED else said or ([ENDED] if code else [])
             self._process, self._now, self._asked = None, None, None
 
     def _hear(self, line: str) -> None:

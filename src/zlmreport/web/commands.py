@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +15,7 @@ from zlmreport.errors import InputError
 from zlmreport.files import Document, write
 from zlmreport.job.job import Job
 from zlmreport.job.parse import is_named_as_yaml
+from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
 from zlmreport.web.bench import PLACE, Bench, Loaded
@@ -114,14 +114,14 @@ class Commands:
         if job.keys.certificate.layout == "sheet" or printed.isdisjoint(wanted.formats or job.formats):
             return []
         folder = self._make_folder()
-        unsigned = ", signature: null" if job.keys.certificate.signature else ""
-        lines = (
-            f"extends: {json.dumps(str(self.bench.path.resolve()))}",
-            f"certificate: {{layout: sheet{unsigned}}}",
-            f"output: {{directory: {json.dumps(folder)}}}",
-        )
+        unsigned = {"signature": None} if job.keys.certificate.signature else {}
+        keys = {
+            "extends": str(self.bench.path.resolve()),
+            "certificate": {"layout": "sheet", **unsigned},
+            "output": {"directory": folder},
+        }
         path = Path(folder, "sheet.yaml")
-        write([Document(path, "\n".join(lines).encode())])
+        write([Document(path, "\n".join(write_group(keys)).encode())])
         return [str(path)]
 
     def _make_folder(self) -> str:

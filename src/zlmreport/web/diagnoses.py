@@ -11,7 +11,6 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
-import os
 import subprocess
 import sys
 import time
@@ -34,6 +33,7 @@ from zlmreport.model.planning.experiment import Experiment
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.naming import Naming
+from zlmreport.web.processes import start_module
 from zlmreport.web.view import collect_diagnosed
 
 #: Diagnoses that are kept: some hundred kilobytes each.
@@ -87,6 +87,7 @@ def _identify_program(effects: Iterable[Effect | CircleEffect]) -> str:
     return repr([(path, stat.st_mtime_ns, stat.st_size) for path, stat in stats])
 
 
+_ENDED = "the diagnosis ended unexpectedly"
 _SHARE = "share-done"
 _TOLD = f'{{"{_SHARE}"'
 _MODULE = "zlmreport.web.diagnoses"
@@ -150,7 +151,7 @@ class Diagnoses:
             worker.stdin.flush()
         except BrokenPipeError:
             self._end()
-            self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
+            self._answer = {"problems": [_ENDED]}
             return
         Thread(target=self._listen, args=(worker, content), daemon=True).start()
 
@@ -170,24 +171,15 @@ class Diagnoses:
                     self.answers.keep(self._answer["content"], self._answer["diagnosis"])
             else:
                 self._end()
-                self._answer = {"problems": ["the diagnosis ended unexpectedly"]}
+                self._answer = {"problems": [_ENDED]}
 
     def _start_process(self) -> subprocess.Popen[str]:
         if self._worker is None:
-            environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8"}
-            self._worker = subprocess.Popen(  # noqa: S603 - this program itself
-                [
-                    sys.executable,
-                    "-m",
-                    self.module,
-                    str(self.path.resolve()),
-                    *(str(each.resolve()) for each in self.plugins),
-                ],
+            self._worker = start_module(
+                self.module,
+                *(str(each.resolve()) for each in (self.path, *self.plugins)),
                 stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                encoding="utf-8",
-                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
-                env=environment,
+                environment={"OPENBLAS_NUM_THREADS": "1"},
             )
         return self._worker
 

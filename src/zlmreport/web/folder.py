@@ -26,7 +26,8 @@ from zlmreport.machines.reading import read_machine
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.carrier import find_results_in
-from zlmreport.web.bench import PLACE, Bench, make_stamp_of
+from zlmreport.web.bench import PLACE, Bench
+from zlmreport.web.watched import make_stamp_of
 
 _SCHEMA = re.compile(r"^schema:\s*[\"']?zlmreport/(job|machine)/", re.MULTILINE)
 _MACHINE = "machine"

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import hashlib
 from collections import OrderedDict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
-from threading import RLock
 
-from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.protocols import Renderer, needs_job
-from zlmreport.plugin.registry import Registry
 from zlmreport.verification.carrier import find_results_in
-from zlmreport.web.bench import make_stamp_of
+from zlmreport.web.watched import WatchedFile
 
 #: Studies that are kept: more than anybody tries in an hour.
 _KEPT = 32
@@ -56,15 +54,9 @@ class LoadedMachine:
 
 
 @dataclass(slots=True)
-class MachineBench:
+class MachineBench(WatchedFile[LoadedMachine]):
     """A machine file that is worked on."""
 
-    path: Path  #: The machine file.
-    registry: Registry  #: The installed plugins.
-    #: Held while the file is read or changed: pages ask from several threads.
-    lock: RLock = field(default_factory=RLock)
-    _loaded: LoadedMachine | None = None
-    _watched: tuple[Path, ...] = ()
     _studies: OrderedDict[tuple[str, ...], CircleStudy] = field(default_factory=OrderedDict)
 
     @property
@@ -72,30 +64,10 @@ class MachineBench:
         """Those that make a document on a machine."""
         return [each for each in self.registry.renderers if not needs_job(each)]
 
-    def make_stamp(self) -> str:
-        """Return the name of the state in which the files are now, without reading them."""
-        return make_stamp_of([self.path, *self._watched])
-
-    def load(self) -> LoadedMachine:
-        """Return the machine as its files are now.
-
-        Raises `InputError` or `AccessError` with every mistake that stands in them.
-        """
-        with self.lock:
-            if self._loaded is not None and self._loaded.stamp == self.make_stamp():
-                return self._loaded
-            self._loaded = None
-            try:
-                machine = read_machine(self.path, self.registry, find_results_in)
-            except ZlmreportError as error:
-                # Which of them will be mended nobody knows: those of before, and those that are named.
-                named = (Path(each.place.file) for each in error.problems)
-                self._watched = tuple(dict.fromkeys((*self._watched, *named)))
-                raise
-            paths = (each.path for each in machine.sources if each.path is not None)
-            self._watched = tuple(dict.fromkeys(paths))
-            self._loaded = LoadedMachine(machine, self.make_stamp())
-            return self._loaded
+    def read(self) -> tuple[Callable[[str], LoadedMachine], Iterable[Path | None]]:
+        """Read the machine with all its tests."""
+        machine = read_machine(self.path, self.registry, find_results_in)
+        return partial(LoadedMachine, machine), (each.path for each in machine.sources)
 
     def make_study(self, loaded: LoadedMachine, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
         """Return the study of the circles with the effects of the model, or with others: each made once.

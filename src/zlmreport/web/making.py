@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -21,6 +19,7 @@ from typing import Any
 import pypdfium2
 
 from zlmreport.errors import Place, Problem
+from zlmreport.web.processes import ENDED, start_command
 
 #: Pixels for each point of the page: 108 to the inch, for a screen.
 _SCALE = 1.5
@@ -29,7 +28,6 @@ _ONE_AT_A_TIME = Lock()
 _PDF = ".pdf"
 #: Under which name a sheet is asked for: no file has it, for files have suffixes.
 _SHEET = "sheet"
-_ENDED = "zlmreport ended unexpectedly"
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +76,7 @@ def make_values(output: str, complaints: str) -> CommandResult:
 
 
 def _list_lines(complaints: str) -> tuple[str, ...]:
-    return tuple(complaints.splitlines()) or (_ENDED,)
+    return tuple(complaints.splitlines()) or (ENDED,)
 
 
 @dataclass(slots=True)
@@ -104,15 +102,7 @@ class Making:
             if self._process is not None:
                 return
             self._stamp, self._began, self._made = stamp, time.monotonic(), None
-            plugins = (part for each in self.plugins for part in ("--plugin", str(each.resolve())))
-            self._process = subprocess.Popen(  # noqa: S603 - this program itself
-                [sys.executable, "-m", "zlmreport", *arguments, "--json", *plugins],
-                stdout=subprocess.PIPE,
-                stderr=subprocess.PIPE,
-                encoding="utf-8",
-                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
-                env={**os.environ, "PYTHONIOENCODING": "utf-8"},
-            )
+            self._process = start_command(*arguments, "--json", plugins=self.plugins)
             Thread(target=self._listen, args=(self._process,), daemon=True).start()
 
     def describe_state(self) -> dict[str, Any]:

@@ -17,7 +17,7 @@ from live.capture.operated import OperatedAxis
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.job.simulation import load_simulation
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Troubles
+from zlmreport.live.emulation.troubles import Troubles
 from zlmreport.model.simulation.files import read_description_of
 from zlmreport.plugin.instrument import (
     Emulator,

@@ -10,7 +10,7 @@ import pytest
 
 from processes import PATIENCE
 from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Planned, Troubles
+from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.instrument import Framing, Port, Trouble
 

@@ -6,7 +6,8 @@ import statistics
 
 import pytest
 
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin.instrument import Trouble
 
 #: 2 s at 0, 1 s to 0.1 m, 2 s there, 1 s back; over and over.

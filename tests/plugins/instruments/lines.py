@@ -11,7 +11,7 @@ from typing import Any
 
 from processes import PATIENCE
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.emulator import Troubles
+from zlmreport.live.emulation.troubles import Troubles
 from zlmreport.plugin.instrument import Emulator, LiveReading
 from zlmreport.plugin.protocols import Instrument
 

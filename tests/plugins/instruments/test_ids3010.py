@@ -9,7 +9,8 @@ import pytest
 from installed import registry
 from plugins.instruments.exchanges import questions_and_answers
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.instrument import Fault, Scene, Trouble
 from zlmreport_plugins.instruments.ids3010 import Ids3010Emulator, IdsAnswer, answer_to, question

@@ -7,7 +7,8 @@ import pytest
 from installed import registry
 from plugins.instruments.exchanges import dialogue
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin.instrument import Emulator, Fault, Scene, Trouble
 from zlmreport_plugins.instruments import nd28x as spoken
 

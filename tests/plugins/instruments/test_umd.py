@@ -10,7 +10,8 @@ import pytest
 
 from installed import registry
 from plugins.instruments.exchanges import DATA, lines
-from zlmreport.live.emulation.emulator import MovingAxis, Planned, Troubles
+from zlmreport.live.emulation.emulator import MovingAxis
+from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin.instrument import Fault, LiveReading, Scene, Trouble, WrongDeviceError, index_change
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, compute_cycle_length
 from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, find_frame_in

@@ -125,7 +125,7 @@ def _largest_of_all(values: FloatArray) -> FloatArray:
     return largest_over_positions(largest_over_positions(values))
 
 
-def _figure(evaluation: Evaluation, weight: float) -> Figure:
+def _draw_figure(evaluation: Evaluation, weight: float) -> Figure:
     """Return the graph: both means with their weighted ranges, D and T from zero, H at its target."""
     diagram = Diagram(evaluation)
     statistics = evaluation.statistics
@@ -229,7 +229,7 @@ class HouseAcceptance:
     def figures(self, evaluation: Evaluation, options: HouseAcceptanceOptions) -> Iterable[Figure]:
         """Return the acceptance graph, where there is anything to show."""
         if evaluation.parameters:
-            yield _figure(evaluation, options.weight)
+            yield _draw_figure(evaluation, options.weight)
 
 
 @hookimpl

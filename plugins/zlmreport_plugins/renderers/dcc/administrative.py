@@ -151,7 +151,7 @@ def _make_core_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("usedLangCodeISO639_1", language),
         dcc("mandatoryLangCodeISO639_1", language),
         dcc("uniqueIdentifier", certificate.number),
-        _compute_digest(certificate),
+        _make_digest(certificate),
         dcc("receiptDate", received.isoformat()) if received else None,
         dcc("beginPerformanceDate", min(days).isoformat()),
         dcc("endPerformanceDate", max(days).isoformat()),
@@ -167,7 +167,7 @@ def _make_core_data(certificate: Certificate, job: Job) -> ET.Element:
     )
 
 
-def _compute_digest(certificate: Certificate) -> ET.Element | None:
+def _make_digest(certificate: Certificate) -> ET.Element | None:
     """Return the digest of readings and results, by which paper and file are held together."""
     return group(
         "identifications",
@@ -269,7 +269,7 @@ def make_equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     )
 
 
-def find_state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Element | None:
+def make_state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Element | None:
     """Return whether the axis was measured before or after an adjustment or repair; None without one.
 
     `when`: ``before`` or ``after``.

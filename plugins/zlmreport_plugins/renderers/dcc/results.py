@@ -32,10 +32,10 @@ from zlmreport.plugin.renderer import (
 from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc.administrative import (
     AdministrativeWriter,
-    find_state,
     make_equipment,
     make_influences,
     make_software,
+    make_state,
 )
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
@@ -146,10 +146,10 @@ def _make_results_of_measurement(certificate: Certificate, job: Job, name: str) 
     """Yield the results of one measurement; `name` is what its document calls it."""
     writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
-    after = find_state("after", work, writer)
+    after = make_state("after", work, writer)
     tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, name)]
     if before:
-        state, budget = find_state("before", work, writer), certificate.budget_as_found
+        state, budget = make_state("before", work, writer), certificate.budget_as_found
         tests.insert(0, _Test(state, found, budget, before, name=name, identifier=TEST_AS_FOUND))
     tests += (
         _Test(

@@ -97,8 +97,8 @@ class Press:
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
-        head, graphs = certificate.letterhead, enumerate(certificate.figures)
-        logo: Contents = {LOGO_ADDRESS: (head.logo, head.logo_type)} if head and head.logo else {}
+        issuer, graphs = certificate.letterhead, enumerate(certificate.figures)
+        logo: Contents = {LOGO_ADDRESS: (issuer.logo, issuer.logo_type)} if issuer and issuer.logo else {}
         root = ET.fromstring(compose_html(certificate))  # noqa: S314 - set here
         document = _Document(root, Supply(logo), has_any_element=bool(certificate.look.templates))
         with self._lock:

@@ -104,7 +104,7 @@ def find_common_angles(turns: Sequence[CircleTurn], most: int) -> FloatArray | N
 
 
 def find_strays(turn: CircleTurn) -> Iterator[str]:
-    """Yield what is wrong with the angles of a turn: they go the other way, or to and fro."""
+    """Yield what is wrong with the angles of a turn: most of them go the other way."""
     steps = float(turn.sense) * np.diff(turn.angle)
     if not np.count_nonzero(steps):
         return

@@ -154,12 +154,12 @@ def _draft_value(draft: Draft) -> None:
     target = draft.find_column("target") or 0
     deviation, position = draft.find_column("deviation"), draft.find_column("position")
     if not draft.table.layout.header_rows and deviation is None and position is None:
-        other = 1
-        is_position = are_positions(draft.table.list_numbers(target), draft.table.list_numbers(other))
+        beside = 1
+        is_position = are_positions(draft.table.list_numbers(target), draft.table.list_numbers(beside))
         names = list(draft.table.header.cells)
         if not any(names):
             names = ["target", "position" if is_position else "deviation"]
-            deviation, position = (None, other) if is_position else (other, None)
+            deviation, position = (None, beside) if is_position else (beside, None)
             draft.keys["header"] = names
     elif not draft.table.layout.header_rows:
         draft.keys["header"] = list(draft.table.header.cells)

@@ -21,7 +21,6 @@ from zlmreport.plugin import (
     ErrorSymbol,
     Evaluation,
     Figure,
-    FloatArray,
     Measurand,
     MeasurementSet,
     Options,
@@ -45,16 +44,16 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_plugins.standards.iso230_1 import between, figures, quantities
 from zlmreport_plugins.standards.iso230_1.between import SquareKeys
-from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM
+from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM, find_measurand
 from zlmreport_plugins.standards.iso230_1.reference_lines import (
+    FEWEST_POSITIONS,
     LineName,
     local_straightness,
     residuals,
-    slope,
+    slope_of_several,
     straightness,
 )
 
-_FEWEST = 3
 _PER_METRE, _AT_LEAST = 5, 5
 _MILLIMETRE = 1e-3
 
@@ -93,7 +92,7 @@ class Iso230Part1:
 
     def __init__(self, what: ErrorSymbol | Measurand = STRAIGHTNESS) -> None:
         self.what = what
-        self.measurand = what if isinstance(what, Measurand) else what.measurand
+        self.measurand = find_measurand(what)
         self.quantities, self.position_quantities = quantities.define_of(what)
         self.notes = tuple(_list_notes(what))
 
@@ -106,7 +105,7 @@ class Iso230Part1:
         if measurements.tests:
             yield from between.check_requirements(self.what, measurements, options.square)
             return
-        yield positions_in_all(measurements, _FEWEST, Basis.APPLIED)
+        yield positions_in_all(measurements, FEWEST_POSITIONS, Basis.APPLIED)
         yield positions_per_metre(measurements, _PER_METRE, Basis.APPLIED, minimum=_AT_LEAST)
         yield both_directions(measurements, _ONE_DIRECTION, Basis.APPLIED)
         yield no_missing_readings(measurements)
@@ -133,7 +132,7 @@ class Iso230Part1:
             f"{symbol}_bwd": of_each[..., 1],
             f"{symbol}_run": np.fmax.reduce(of_runs, axis=(-2, -1), initial=np.nan),
             f"{symbol}_local": np.broadcast_to(local, mean.shape[:-1]),
-            "slope": _find_slope_where_a_line_is(x, mean, line),
+            "slope": slope_of_several(x, mean, line),
         }
         deviations = residuals(x, statistics.mean, line)
         columns = {
@@ -171,12 +170,6 @@ class Iso230Part1:
         return figures.draw_straightness(evaluation, self.quantities, options.reference_line)
 
 
-def _find_slope_where_a_line_is(x: FloatArray, mean: FloatArray, line: LineName) -> FloatArray:
-    """Return the slope of a line through three positions at least; two have always one."""
-    several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
-    return np.where(several, slope(x, mean, line), np.nan)
-
-
 _ONE_DIRECTION = Words("the error symbol then stands for this direction")
 _SPAN = Words(
     "Straightness errors are spans: the largest positive deviation from the reference line plus the amount "
@@ -195,7 +188,7 @@ _ONE_ARC_SECOND = Words("1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm.")
 
 
 def _list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
-    measurand = what if isinstance(what, Measurand) else what.measurand
+    measurand = find_measurand(what)
     if measurand.joins_tests:
         yield from between.list_notes(what)
     elif measurand.identifier == ANGLE.identifier:

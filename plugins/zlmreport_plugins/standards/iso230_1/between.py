@@ -53,12 +53,12 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_plugins.standards.iso230_1.figures import LINES
 from zlmreport_plugins.standards.iso230_1.reference_lines import (
+    FEWEST_POSITIONS,
     LineName,
     residuals,
-    slope,
+    slope_of_several,
 )
 
-_FEWEST = 3
 #: Of the turn of one axis against the other, by the sum of both slopes.
 _SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
 #: A lean that is seen in a sketch, of its height.
@@ -90,7 +90,9 @@ def compute_values(
 ) -> dict[str, FloatArray]:
     """Return the angle between two lines and their slopes, rad; NaN unless there are two."""
     batch = statistics.mean.shape[:-2]
-    slopes = [_compute_slope(each, line) for each in statistics.tests.values()]
+    slopes = [
+        slope_of_several(each.positions, each.mean_of_all_runs, line) for each in statistics.tests.values()
+    ]
     if len(slopes) != 2:
         slopes = [np.full(batch, np.nan)] * 2
     first, second = slopes
@@ -99,12 +101,6 @@ def compute_values(
     artefact = ARCSECOND.to_si(square.error) if square else 0.0
     turned = _SIGNS[what.symbol] * (first + second - artefact)
     return {what.symbol: turned, "slope_1": first, "slope_2": second}
-
-
-def _compute_slope(statistics: PositionStatistics, line: LineName) -> FloatArray:
-    mean = statistics.mean_of_all_runs
-    several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
-    return np.where(several, slope(statistics.positions, mean, line), np.nan)
 
 
 def list_contributions(
@@ -150,7 +146,7 @@ def check_requirements(
         )
     fewest = min((len(each.target_positions) for each in lines), default=0)
     number = Words("{number}").given(number=fewest)
-    yield Finding(_POSITIONS.given(number=_FEWEST), number, fewest >= _FEWEST)
+    yield Finding(_POSITIONS.given(number=FEWEST_POSITIONS), number, fewest >= FEWEST_POSITIONS)
     if not isinstance(what, Measurand):
         yield _check_meeting(lines)
         yield _check_square(square)

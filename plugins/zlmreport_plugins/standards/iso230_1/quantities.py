@@ -43,12 +43,17 @@ _OF_ONE_DIRECTION = Words("The same of runs in one direction only, each about it
 _TURN_IN_ONE_DIRECTION = Words("The same of runs in one direction only.")
 
 
+def find_measurand(what: ErrorSymbol | Measurand) -> Measurand:
+    """Return the quantity that an error is of; of a quantity, itself."""
+    return what if isinstance(what, Measurand) else what.measurand
+
+
 def define_of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tuple[PositionQuantity, ...]]:
     """Return the parameters and the columns by position of an error.
 
     Raises `ValueError` for a squareness error that has no symbol, and so no sign.
     """
-    measurand = what if isinstance(what, Measurand) else what.measurand
+    measurand = find_measurand(what)
     symbol = what.identifier if isinstance(what, Measurand) else what.symbol
     notation = symbol if isinstance(what, Measurand) else f"{symbol[0]}_{{{symbol[1:]}}}"
     if symbol == SQUARENESS.identifier:

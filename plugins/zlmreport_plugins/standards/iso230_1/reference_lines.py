@@ -19,8 +19,8 @@ from zlmreport.plugin.standard import span_over_positions
 
 #: How the reference line is laid.
 LineName: TypeAlias = Literal["least-squares", "end-points", "minimum-zone"]
-#: Positions of which any straight line leaves nothing, or almost nothing.
-_TOO_FEW = 2
+#: Positions that say how straight a line is: two always lie on one.
+FEWEST_POSITIONS = 3
 #: Of a value of the zone's width that went through a few operations, relative to the readings.
 _ROUNDING = 1e-13
 
@@ -51,8 +51,16 @@ def straightness(x: FloatArray, y: FloatArray, line: LineName) -> FloatArray:
 
     NaN where fewer than three positions have a value: two points always lie on a line.
     """
-    known = np.count_nonzero(~np.isnan(y), axis=-1) > _TOO_FEW
-    return np.where(known, span_over_positions(residuals(x, y, line)), np.nan)
+    return np.where(_has_enough(y), span_over_positions(residuals(x, y, line)), np.nan)
+
+
+def slope_of_several(x: FloatArray, y: FloatArray, line: LineName) -> FloatArray:
+    """Return the slope of the reference line, shape (...); NaN of fewer than three positions with a value."""
+    return np.where(_has_enough(y), slope(x, y, line), np.nan)
+
+
+def _has_enough(y: FloatArray) -> BoolArray:
+    return np.asarray(np.count_nonzero(~np.isnan(y), axis=-1) >= FEWEST_POSITIONS)
 
 
 def local_straightness(x: FloatArray, y: FloatArray, line: LineName, window: float) -> FloatArray:

@@ -181,7 +181,7 @@ EDITIONS = (
 )
 
 
-def list_parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quantity, ...]:
+def list_parameters(edition: Edition, *, of_angle: bool) -> tuple[Quantity, ...]:
     """Return the parameters of the axis in the order of the results table.
 
     `of_angle`: Whether they are those of an angular error, of which the standard has the formulas only.

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+import argparse
+import math
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from zlmreport.cli.arguments.parser import (
-    FAULTS,
     CommandParser,
     add_jobs,
     read_course,
-    read_fault,
     read_number,
     read_port,
     read_setting,
 )
+from zlmreport.errors import did_you_mean, quoted
+
+if TYPE_CHECKING:
+    from zlmreport.live.emulation.troubles import Planned
 
 
 def plan(command: str) -> CommandParser:
@@ -155,6 +160,8 @@ def emulate(command: str) -> CommandParser:
 
 def add_line(parser: CommandParser, *, with_link: bool = True) -> None:
     """Add the options of an emulated instrument's line; one without a link has a TCP port in any case."""
+    from zlmreport.live.emulation.troubles import Trouble  # noqa: PLC0415 - other commands need no live room
+
     if with_link:
         parser.add_argument(
             "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
@@ -166,12 +173,31 @@ def add_line(parser: CommandParser, *, with_link: bool = True) -> None:
     parser.add_argument(
         "--fault",
         metavar="KIND@S",
-        type=read_fault,
+        type=_read_fault,
         action="append",
         default=[],
-        help=f"what goes wrong, and how many seconds after the start: {', '.join(FAULTS)}; may be given "
+        help=f"what goes wrong, and how many seconds after the start: {', '.join(Trouble)}; may be given "
         "several times. An instrument shows only what its protocol can say",
     )
+
+
+def _read_fault(text: str) -> Planned:
+    """Read a fault and when it happens."""
+    from zlmreport.live.emulation.troubles import Planned, Trouble  # noqa: PLC0415 - likewise
+
+    known = tuple(map(str, Trouble))
+    kind, _, moment = text.partition("@")
+    if kind not in known:
+        raise argparse.ArgumentTypeError(f"{quoted(kind)} is no fault; {did_you_mean(kind, known)}")
+    try:
+        start = float(moment)
+    except ValueError:
+        start = math.nan
+    if not (math.isfinite(start) and start >= 0):
+        raise argparse.ArgumentTypeError(
+            f"{quoted(text)} does not say when; write seconds, such as {kind}@30"
+        )
+    return Planned(Trouble(kind), start)
 
 
 def simulate(command: str) -> CommandParser:

@@ -1,4 +1,4 @@
-"""The parser of every command; options that hold positions, faults or ports; and its messages."""
+"""The parser of every command; options that hold positions, settings or ports; and its messages."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from typing import Any, NoReturn
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
 
 JSON_HELP = "print a machine-readable summary (zlmreport/summary/1) instead of tables"
-#: As `zlmreport.live.emulation.emulator` knows them; a test holds the two together.
-FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
 #: Of a port, or of a count.
 WHOLE_NUMBER = re.compile("[0-9]{1,9}")
 
@@ -138,22 +136,6 @@ def _take_folder(text: str) -> Path:
     if not path.is_dir():
         raise argparse.ArgumentTypeError(f"{quoted(text)} is no folder")
     return path
-
-
-def read_fault(text: str) -> tuple[str, float]:
-    """Read a fault and when it happens."""
-    kind, _, moment = text.partition("@")
-    if kind not in FAULTS:
-        raise argparse.ArgumentTypeError(f"{quoted(kind)} is no fault; {did_you_mean(kind, FAULTS)}")
-    try:
-        start = float(moment)
-    except ValueError:
-        start = math.nan
-    if not (math.isfinite(start) and start >= 0):
-        raise argparse.ArgumentTypeError(
-            f"{quoted(text)} does not say when; write seconds, such as {kind}@30"
-        )
-    return kind, start
 
 
 def read_setting(text: str) -> tuple[str, str]:

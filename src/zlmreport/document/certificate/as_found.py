@@ -117,7 +117,7 @@ def lay_out_beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of eve
     state_before, state_after = NAMES[keys.work]
     yield _lay_out_comparison(keys, before, after, writer)
     yield from (_label_section(each, state_after, writer) for each in as_left)
-    own = _choose_scribe(before, writer)
+    own = _make_writer_as_found(before, writer)
     yield from (_lay_out_results(section, each, state_before, own) for each in before)
 
 
@@ -125,7 +125,7 @@ def lay_out_readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer
     """Return the section of the readings as found."""
     measurements = before[0].evaluation.measurements
     section = readings.lay_out_readings(
-        measurements, _choose_scribe(before, writer), "as_found.measurement.source"
+        measurements, _make_writer_as_found(before, writer), "as_found.measurement.source"
     )
     return _label_section(replace(section, key="as-found-readings"), NAMES[keys.work][0], writer)
 
@@ -153,7 +153,7 @@ def lay_out_uncertainty_beside_as_found(
     yield _label_section(replace(as_found, key="as-found-uncertainty"), state_before, writer)
 
 
-def _choose_scribe(before: Sequence[Evaluated], writer: Writer) -> Writer:
+def _make_writer_as_found(before: Sequence[Evaluated], writer: Writer) -> Writer:
     """Return a writer for readings that may have other decimals than those as left."""
     return Writer.of(before[0].evaluation.measurements, writer.language, writer.marks)
 
@@ -250,7 +250,7 @@ def _lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     )
     groups = tuple(
         RowGroup(
-            tuple(_change(each, writer, known=known, with_units=mixed) for each in of_pair),
+            tuple(_make_row_of_change(each, writer, known=known, with_units=mixed) for each in of_pair),
             pair[1].designation,
         )
         for pair, of_pair in zip(pairs, changed, strict=True)
@@ -265,7 +265,7 @@ def _both(change: Change) -> Iterator[EvaluatedParameter]:
     yield from filter(None, (change.before, change.after))
 
 
-def _change(change: Change, writer: Writer, *, known: bool, with_units: bool) -> tuple[Cell, ...]:
+def _make_row_of_change(change: Change, writer: Writer, *, known: bool, with_units: bool) -> tuple[Cell, ...]:
     quantity, parts = change.either.quantity, 2 if known else 1
     numbers = (
         *(write_with_uncertainty(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],

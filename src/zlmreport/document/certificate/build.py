@@ -137,7 +137,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         letterhead=letterhead,
         cover=laid_out.cover,
         sections=sections,
-        page_words=PageWords.said(
+        page_words=PageWords.in_language(
             certificate.language,
             writer.say(write_running_title(certificate)),
             head=fill_in(style.header, job, "certificate.style.header") if style.header else "",

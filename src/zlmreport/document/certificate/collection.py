@@ -45,7 +45,7 @@ def collect_certificates(
     plugins: Mapping[str, str],
     generator: str,
     *,
-    is_laid_out: bool = True,
+    is_laid_out: bool,
 ) -> Certificate:
     """Return one document of the certificates of several measurements, by what they are called.
 

@@ -79,7 +79,7 @@ class PageWords:
     foot: str = ""
 
     @classmethod
-    def said(cls, language: Language, number: str, *, head: str = "", foot: str = "") -> PageWords:
+    def in_language(cls, language: Language, number: str, *, head: str = "", foot: str = "") -> PageWords:
         """Return the words in a language; `number` is the running title with the document's number."""
         page, of, end, figure, table = (each.in_language(language) for each in _OF_PAGES)
         return cls(number, page, of, end, figure, table, head, foot)

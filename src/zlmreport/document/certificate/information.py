@@ -194,11 +194,10 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
                 ),
             ),
         ),
+        Information.STRAIGHTNESS_REFERENCE: (
+            (Words("reference of the straightness"), _has_straightness_reference(job, measurements)),
+        ),
     }
-    if asked is Information.STRAIGHTNESS_REFERENCE:
-        if not _has_straightness_reference(job, measurements):
-            yield Words("reference of the straightness")
-        return
     for name, value in stated[asked]:
         if not value or (isinstance(value, str) and is_placeholder(value)):
             yield name

@@ -162,7 +162,7 @@ def make_exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str
         yield Notice(marked, tuple(_write_item(each, writer) for each in exclusions))
 
 
-def _list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+def _list_exclusions(keys: JobKeys, writer: Writer, most: int | None) -> tuple[str, ...]:
     """Return what the first page says of readings that were set aside: they depart from the method.
 
     `most`: Of so many; all of them if it is None.

@@ -96,9 +96,7 @@ def _compute_time_of_turn(path: CirclePath) -> float:
     return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * _MINUTE
 
 
-def collect_circle_plan(
-    job: Job, paths: Sequence[CirclePath], written: Sequence[Path] = ()
-) -> dict[str, Any]:
+def collect_circle_plan(job: Job, paths: Sequence[CirclePath], written: Sequence[Path]) -> dict[str, Any]:
     """Return the path of a circular test as plain values for JSON; positions in mm, angles in degrees."""
     path = paths[0]
     return {

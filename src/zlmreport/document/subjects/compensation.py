@@ -116,7 +116,7 @@ def make_compensation_sheet(
         letterhead=None,
         cover=(
             Facts(tuple(_list_facts(job, made, writer))),
-            *forecast(made, writer, uncertainties).blocks,
+            *lay_out_forecast(made, writer, uncertainties).blocks,
             Graph(_draw_figure(made, writer)),
         ),
         sections=(
@@ -127,7 +127,7 @@ def make_compensation_sheet(
             ),
             conditions.lay_out_conditions(job, measurements, (), writer),
         ),
-        page_words=PageWords.said(keys.language, f"{title} {keys.number}"),
+        page_words=PageWords.in_language(keys.language, f"{title} {keys.number}"),
         description=f"{title}, {control}",
         measurements=measurements,
         evaluations=(),
@@ -149,7 +149,7 @@ def _list_facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str
     )
 
 
-def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Section:
+def lay_out_forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Section:
     """Return E, M, B and A before, with the table and in a second test, and what is to be known of it."""
     say, unit = writer.say, writer.deviation_unit
     factor = unit.from_si(1.0)
@@ -208,9 +208,9 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
         (
             Symbol(symbol),
             say(_FIGURES[symbol]),
-            _number(before[symbol], writer) if symbol in before else NOTHING,
+            _write_number(before[symbol], writer) if symbol in before else NOTHING,
             _write_expected(foretold.get(symbol), writer),
-            _number(value, writer),
+            _write_number(value, writer),
             where(symbol),
         )
         for symbol, value in after.items()
@@ -239,12 +239,12 @@ def _write_expected(expected: ExpectedFigure | None, writer: Writer) -> str:
     if expected is None:
         return NOTHING
     factor = writer.deviation_unit.from_si(1.0)
-    return " … ".join(_number(each * factor, writer) for each in (expected.low, expected.high))
+    return " … ".join(_write_number(each * factor, writer) for each in (expected.low, expected.high))
 
 
 def _write_with_u(value: float, expanded: float | None, writer: Writer) -> str:
-    text = _number(value, writer)
-    return text if expanded is None else f"{text} ± {_number(expanded, writer)}"
+    text = _write_number(value, writer)
+    return text if expanded is None else f"{text} ± {_write_number(expanded, writer)}"
 
 
 def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
@@ -252,7 +252,7 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
     found, unit = made.forecast, writer.deviation_unit
 
     def amount(value: float) -> str:
-        return with_unit(_number(unit.from_si(value), writer), unit.symbol)
+        return with_unit(_write_number(unit.from_si(value), writer), unit.symbol)
 
     yield _describe_grid(made, writer, amount)
     yield Words(
@@ -366,7 +366,7 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
     band = Band("±U", Role.NOISE, targets, read_only_floats(-beside), read_only_floats(beside))
     unit = writer.deviation_unit.symbol
     words = {
-        name: with_unit(_number(float(printed(value)), writer), unit)
+        name: with_unit(_write_number(float(printed(value)), writer), unit)
         for name, value in (
             ("low", means.min()),
             ("high", means.max()),
@@ -400,7 +400,7 @@ def _write_length(value: float, writer: Writer) -> str:
     return with_unit(writer.number(round(unit.from_si(value), 3)), unit.symbol)
 
 
-def _number(value: float, writer: Writer) -> str:
+def _write_number(value: float, writer: Writer) -> str:
     return write_fixed_number(value, 2, writer.language.decimal_sign)
 
 

@@ -312,7 +312,7 @@ _HELD_WORDS = re.compile(
 )
 
 
-def _set_held_words(markup: str, room: float = inf) -> str:
+def _set_held_words(markup: str, room: float) -> str:
     """Set words that no line parts as such, and take the signs out that joined their parts.
 
     Nothing but what is seen stands in the text then. A word that is wider than its place, of so many em, is

@@ -172,7 +172,7 @@ def estimate_scatter(readings: FloatArray, target_positions: FloatArray) -> Scat
 
 
 def _sample_pairs(
-    scatter: Scatter, there: BoolArray, count: int, generator: np.random.Generator, axes: Axes | None = None
+    scatter: Scatter, there: BoolArray, count: int, generator: np.random.Generator, axes: Axes | None
 ) -> tuple[FloatArray, FloatArray]:
     """Return two stacks of tests, (count, approach, position, run): of each axis one in each stack.
 

@@ -108,7 +108,7 @@ class _Draws:
 def propagate(
     budget: Budget,
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
-    trials: int = TRIALS,
+    trials: int,
 ) -> tuple[Mapping[str, Expanded], ...]:
     """Return the expanded uncertainty of each parameter by its symbol, for each evaluation of one test.
 

@@ -169,7 +169,7 @@ def name_contributors_of_length(job: Job) -> tuple[str, ...]:
     return UNCERTAIN_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
 
 
-def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
+def list_demanded(job: Job, of_silence: tuple[str, ...]) -> tuple[str, ...]:
     """Return the contributors that a job must state, by axis and set-up.
 
     `of_silence`: Those that may act, for all that the job says of its instrument.

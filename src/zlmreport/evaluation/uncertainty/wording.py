@@ -17,8 +17,6 @@ INSTRUMENT_IN_WORDS = Words(
 )
 
 DEVICE = Words("Measuring instrument")
-_ENVIRONMENTAL_VARIATION = Words("Variation of the environment during the test")
-_RESOLUTION = Words("Resolution of the readings")
 DEVICE_ALONG = Words("Measuring instrument, part that grows with the length")
 UNCORRECTED = Words("Thermal expansion, not corrected")
 UNCORRECTED_SOURCE = Words("of known size: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}")
@@ -35,8 +33,8 @@ USUAL: Mapping[str, Words] = MappingProxyType(
         "centring": Words("Centring of the instrument on the circle"),
         "square": Words("Square"),
         "foot_spacing": Words("Distance of the carriage's feet"),
-        "environmental_variation": _ENVIRONMENTAL_VARIATION,
-        "resolution": _RESOLUTION,
+        "environmental_variation": Words("Variation of the environment during the test"),
+        "resolution": Words("Resolution of the readings"),
     }
 )
 

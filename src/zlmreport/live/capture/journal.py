@@ -86,11 +86,6 @@ class History:
     file: SourceFile
 
     @property
-    def torn(self) -> int:
-        """How many bytes at the end are no whole record."""
-        return self.file.size - self.sound
-
-    @property
     def has_readings(self) -> bool:
         """Whether anything was read: also in a part of the test that is to be taken again."""
         return any(isinstance(entry.event, Recorded) for entry in self.entries)

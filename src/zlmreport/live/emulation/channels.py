@@ -14,7 +14,8 @@ from typing import Protocol
 
 from zlmreport.errors import AccessError, Place
 from zlmreport.files import Closable
-from zlmreport.live.emulation.emulator import Emulator, Trouble, Troubles
+from zlmreport.live.emulation.emulator import Emulator
+from zlmreport.live.emulation.troubles import Trouble, Troubles
 
 #: As much as a line holds at least.
 _CHUNK = 4096

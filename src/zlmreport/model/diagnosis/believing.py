@@ -36,7 +36,7 @@ _TOSS_UP = 1.0
 _REPLACED = ((3, TOLD_APART), (2, _TOSS_UP))
 
 
-def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str] = frozenset()) -> EffectSet:
+def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
     """Return a set without those that have no evidence of their own.
 
     `standing`: The effects of the model that may go.

@@ -55,7 +55,7 @@ def solve_blocks(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, Fl
     return np.einsum("gk,gkb->gb", inverse, turned**2), seen.sum(axis=1).astype(np.float64)
 
 
-def average_likelihoods(criteria: FloatArray, axis: int | None = None) -> FloatArray:
+def average_likelihoods(criteria: FloatArray, axis: int | None) -> FloatArray:
     """Return −2·ln of the sum of likelihoods along an axis, or over all."""
     least = criteria.min(axis=axis, keepdims=True)
     summed = np.exp(-0.5 * (criteria - least)).sum(axis=axis)

@@ -168,7 +168,7 @@ class Contest(Likelihood):
         """The installed effects in this order."""
         return tuple(self.families[forms[0]].identifier for forms in self.by_effect)
 
-    def group_by_width(self, numbers: tuple[int, ...] | None = None) -> tuple[Group, ...]:
+    def group_by_width(self, numbers: tuple[int, ...] | None) -> tuple[Group, ...]:
         """Return families by the width of their blocks; all of them, or some by their numbers."""
         if numbers not in self._groups:
             widths: dict[int, list[int]] = {}

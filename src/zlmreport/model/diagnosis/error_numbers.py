@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, compute_left_beside
 from zlmreport.model.fitting.fit import Fit, cross_validate
 from zlmreport.model.fitting.repeats import estimate_noise_floor
 
@@ -27,7 +27,7 @@ class ErrorNumbers:
 def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     """Return how far a fitted model is from the readings."""
     floor = estimate_noise_floor(fitted.design, choose_scattering(fitted))
-    rms = compute_least_rms(fitted)
+    rms = _compute_least_rms(fitted)
     return ErrorNumbers(
         rms,
         floor,
@@ -36,7 +36,7 @@ def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     )
 
 
-def compute_least_rms(fitted: Fit) -> float:
+def _compute_least_rms(fitted: Fit) -> float:
     """Return what a model leaves of a single reading, its searched parameters as fitted, m or rad.
 
     Beside a slow drift, readings hardly determine what is constant, and a fit that knows it may put that
@@ -44,10 +44,7 @@ def compute_least_rms(fitted: Fit) -> float:
     """
     solved = [own for own, _ in fitted.model.compute_columns(fitted.design, fitted.solution.thetas)]
     columns = np.concatenate([np.empty((len(fitted.deviation), 0)), *solved], axis=1)
-    lengths = np.linalg.norm(columns, axis=0)
-    columns = columns / np.where(lengths > 0, lengths, 1.0)
-    left = fitted.open_deviation
-    left = left - columns @ np.linalg.lstsq(columns, left, rcond=None)[0]
+    left = compute_left_beside(columns, fitted.open_deviation)
     return float(np.sqrt(np.sum(left**2) / fitted.degrees))
 
 

@@ -16,7 +16,13 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
-from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, estimate_robust_deviation
+from zlmreport.measurement.arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    compute_left_beside,
+    estimate_robust_deviation,
+)
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
@@ -205,13 +211,10 @@ def find_lagging_sensors(
         log, rate = design.conditions[name], _compute_rate(design, name)
         for effect in _list_followers(effects, design, name):
             # What follows the log as it stands, as it does one that stands still, tells of no lag.
-            as_logged = _compute_squares_left(
-                np.column_stack([base, effect.columns(design, effect.grid(design)[0])]), fitted.open_deviation
-            )
+            as_logged = _sum_squares_beside(base, effect, design, fitted.open_deviation)
             for lag in _LAGS:
                 corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
-                columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
-                left = _compute_squares_left(columns, fitted.open_deviation)
+                left = _sum_squares_beside(base, effect, corrected, fitted.open_deviation)
                 if left > enough or readings * np.log(as_logged / max(left, 1e-12 * as_logged)) < _LAGGING:
                     continue
                 found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
@@ -229,6 +232,12 @@ def find_lagging_sensors(
             kind, None, _compute_probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING
         ),
     )
+
+
+def _sum_squares_beside(base: FloatArray, effect: Effect, design: Design, deviation: FloatArray) -> float:
+    """Return the sum of squares that a model's columns leave of deviations with those of an effect beside."""
+    columns = np.column_stack([base, effect.columns(design, effect.grid(design)[0])])
+    return float(np.sum(compute_left_beside(columns, deviation) ** 2))
 
 
 def _compute_rate(design: Design, name: str) -> FloatArray:
@@ -293,12 +302,6 @@ def _list_followers(effects: Iterable[Effect], design: Design, log: str) -> Iter
             follows = form.untestable(design) is None and form.untestable(without) is not None
             if follows and len(form.grid(design)) == 1:
                 yield form
-
-
-def _compute_squares_left(columns: FloatArray, deviation: FloatArray) -> float:
-    lengths = np.linalg.norm(columns, axis=0)
-    scaled = columns / np.where(lengths > 0, lengths, 1.0)
-    return float(np.sum((deviation - scaled @ np.linalg.lstsq(scaled, deviation, rcond=None)[0]) ** 2))
 
 
 def _find_against_the_order(design: Design) -> Iterator[DataFault]:

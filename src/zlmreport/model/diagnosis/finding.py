@@ -70,9 +70,8 @@ class NamedEffect:
     """An effect that belongs in."""
 
     leading: StandIn
-    equals: tuple[
-        StandIn, ...
-    ]  #: Effects that the readings do not tell from it, beside the others of the set.
+    #: Effects that the readings do not tell from it, beside the others of the set.
+    equals: tuple[StandIn, ...]
     behind: tuple[StandIn, ...]  #: Effects that might stand there as well, but are told from it; best first.
 
     @property

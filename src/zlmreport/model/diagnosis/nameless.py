@@ -64,7 +64,7 @@ def list_parts_of(
     noise: tuple[NoisePart, ...],
     expected: PriorExpectation,
     *,
-    with_nameless: bool = True,
+    with_nameless: bool,
 ) -> tuple[CovariancePart, ...]:
     """Return the parts of the covariance that the plan can see beside the model; their columns are added.
 

@@ -6,14 +6,14 @@ allow. The form that follows it best is proposed as a formula that a job can try
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, make_orthonormal
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.believing import TOLD_APART
 from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
@@ -177,17 +177,8 @@ def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArra
     """Return what leaves of a curve only that which neither the model nor a set can do as well."""
     design = fitted.design
     columns = [each.effect.columns(design, each.theta) for each in found.named]
-    basis, strengths, _ = np.linalg.svd(
-        _scale_to_one_length([fitted.compute_base(), *columns]), full_matrices=False
-    )
-    known = basis[:, strengths > _DEPENDENT * strengths.max(initial=0.0)]
+    known = make_orthonormal(np.concatenate([fitted.compute_base(), *columns], axis=1), _DEPENDENT)
     return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
-
-
-def _scale_to_one_length(columns: Sequence[FloatArray]) -> FloatArray:
-    together = np.concatenate(columns, axis=1)
-    lengths = np.linalg.norm(together, axis=0)
-    return np.asarray(together / np.where(lengths > 0, lengths, 1.0), dtype=np.float64)
 
 
 def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:

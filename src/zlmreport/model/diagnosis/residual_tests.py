@@ -15,7 +15,7 @@ from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.blunders import Outliers
 from zlmreport.model.fitting.distributions import f_tail
-from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, find_repeats, spread_tests
+from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, find_repeats, list_spread_tests
 
 _LACK_OF_FIT = Words(
     "the means of the positions deviate from the model by up to {size}, more than their repeats allow"
@@ -151,7 +151,7 @@ def examine_conditions(residuals: Residuals) -> Failure | None:
 def spread(residuals: Residuals) -> Iterator[Failure]:
     """Yield the tests of equal scatter by position, direction and run."""
     design = residuals.design
-    for test in spread_tests(design, residuals.fit.deviation):
+    for test in list_spread_tests(design, residuals.fit.deviation):
         statement = _UNEQUAL.given(factor=test.factor.words)
         where, readings = _find_widest(design, test)
         yield Failure(ResidualTest.SPREAD, test.p_value, where, statement, readings)

@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.by_target import FactorsByTarget, ProductsByTarget, RootByTarget
 from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
@@ -88,7 +88,7 @@ class SingleReadings:
         return np.asarray((found.T / self.scale).T)
 
 
-def describe_single_readings(design: Design, weights: FloatArray, memory: float = 0.0) -> SingleReadings:
+def describe_single_readings(design: Design, weights: FloatArray, memory: float) -> SingleReadings:
     """Return how readings scatter singly.
 
     `weights`, (N,): w, the variance of each reading over the mean one.
@@ -133,15 +133,12 @@ class Contrasts:
         flat = flat - self.base @ (self.base.T @ flat)
         return flat.reshape(columns.shape)
 
-    def make_criterion(
-        self, contrast: FloatArray, known: float = 0.0
-    ) -> Callable[[FloatArray], tuple[float, float]]:
+    def make_criterion(self, contrast: FloatArray) -> Callable[[FloatArray], tuple[float, float]]:
         """Return what gives −2 ln(restricted likelihood) and the residual sum of squares for one φ, (parts,).
 
         σ is profiled out.
 
         `contrast`, (N,): Of the deviations.
-        `known`: Residual sum of squares of a noise of known size that stands beside σ.
         """
         total = float(contrast @ contrast)
         is_by_target = np.array([self._is_by_target(part) for part in self.parts], dtype=np.bool_)
@@ -164,7 +161,7 @@ class Contrasts:
             bordered[-1, -1] += _ROUNDING
             # The last pivot of the root is what all else leaves of the readings.
             pivots = np.diagonal(np.linalg.cholesky(bordered))
-            squares = total * float(pivots[-1]) ** 2 + known
+            squares = total * float(pivots[-1]) ** 2
             logarithm += self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
             return float(logarithm), squares
 
@@ -194,24 +191,19 @@ def make_contrasts_of(
     `weights`: w, the variance of each reading over the mean one, shape (N,); or how readings scatter singly.
     """
     single = weights if isinstance(weights, SingleReadings) else SingleReadings(1.0 / np.sqrt(weights))
-    weighted = single.whiten(base)
-    lengths = np.linalg.norm(weighted, axis=0)
-    left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
-    orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
-    return Contrasts(orthonormal, single, tuple(parts))
+    return Contrasts(make_orthonormal(single.whiten(base), _DEPENDENT), single, tuple(parts))
 
 
 def estimate_restricted(
-    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray, known: float = 0.0
+    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray
 ) -> tuple[FloatArray, float]:
     """Return φ̂ and σ̂² by restricted maximum likelihood.
 
     `contrasts`, (N,): Of the deviations.
     `grid`, (f, parts): Ratios that the search begins with.
     `largest`, (parts,): Ratios that it does not exceed.
-    `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
     """
-    criterion = space.make_criterion(contrasts, known)
+    criterion = space.make_criterion(contrasts)
     tried = [criterion(ratios)[0] for ratios in grid]
     best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
     for step in _REFINEMENTS:

@@ -44,7 +44,7 @@ def lay_curve_positions(
     return _lay_positions(pairs, at, span or design.span, fitted.compute_value_at)
 
 
-def shows_reach_only(fitted: Fit, span: tuple[float, float] | None = None) -> bool:
+def shows_reach_only(fitted: Fit, span: tuple[float, float] | None) -> bool:
     """Return whether the travel holds more waves than a page can part: a curve then shows how far they reach.
 
     `span`: As of `lay_curve_positions`.
@@ -75,7 +75,7 @@ def _lay_positions(
 ) -> FloatArray:
     first, last = span
     along = at(np.linspace(first, last, _MOST))
-    shortest = min((_scale(term, theta, along) for term, theta in pairs), default=np.inf)
+    shortest = min((_find_shortest_length(term, theta, along) for term, theta in pairs), default=np.inf)
     joints = [
         place for term, theta in pairs for place in _list_joints(term, theta, along) if first <= place <= last
     ]
@@ -109,7 +109,7 @@ def _find_extremes(
     return np.unique(np.concatenate([[first, last], *chosen]))
 
 
-def _scale(term: Term, theta: FloatArray, along: Design) -> float:
+def _find_shortest_length(term: Term, theta: FloatArray, along: Design) -> float:
     """Return the shortest length over which an effect repeats or fades, m or rad; infinite if over none."""
     if isinstance(term.effect, FormulaEffect):
         fading = [term.effect.find_shortest_fading(along, theta)]

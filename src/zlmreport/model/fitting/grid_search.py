@@ -13,7 +13,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, make_orthonormal
 from zlmreport.model.fitting.search import FitProblem, Solution, Thetas, refine
 
 _SWEEPS = 4
@@ -111,7 +111,7 @@ def _list_left(deviation: FloatArray, beside: Sequence[tuple[_Grid, int]], grid:
     """
     empty = np.empty((len(deviation), 0))
     others = np.concatenate([empty, *(each.columns[row] for each, row in beside)], axis=1)
-    basis = _make_orthonormal(others)
+    basis = make_orthonormal(others, _IMITATED**0.5)
     left = deviation - sum(each.given[row] for each, row in beside) - grid.given
     left = left - (left @ basis) @ basis.T
     with np.errstate(over="ignore", invalid="ignore"):  # a row without a finite value is never the best
@@ -124,13 +124,6 @@ def _list_left(deviation: FloatArray, beside: Sequence[tuple[_Grid, int]], grid:
     explained = np.sum(np.where(seen, products**2 / np.where(seen, values, 1.0), 0.0), axis=1)
     found = np.sum(left**2, axis=1) - explained
     return np.asarray(np.where(np.isfinite(found), found, np.inf))
-
-
-def _make_orthonormal(columns: FloatArray) -> FloatArray:
-    """Return orthonormal columns of the same span."""
-    lengths = np.linalg.norm(columns, axis=0)
-    left, singular, _ = np.linalg.svd(columns / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
-    return np.asarray(left[:, singular**2 > _IMITATED * singular.max(initial=0.0) ** 2])
 
 
 def _find_first_best(left: FloatArray) -> int:

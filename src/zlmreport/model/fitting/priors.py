@@ -17,7 +17,8 @@ import numpy as np
 
 from zlmreport.errors import count_in_words
 from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, SourceName
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.job.yaml_text import write_in_a_line
+from zlmreport.measurement.arrays import FloatArray, compute_left_beside
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit
@@ -203,12 +204,11 @@ def _write_lines(found: PriorsKeys, origin: str) -> Iterator[str]:
     yield f"tests: {found.tests}"
     yield "noise: # how probable each ratio of a shared variance to that of a single reading is"
     for source, keys in found.noise.items():
-        ratios = ", ".join(f"{each:g}" for each in keys.ratios)
-        probabilities = ", ".join(f"{each:.3f}" for each in keys.probabilities)
-        yield f"  {source}: {{ratios: [{ratios}], probabilities: [{probabilities}]}}"
+        probabilities = [round(each, 3) for each in keys.probabilities]
+        yield f"  {source}: {write_in_a_line({'ratios': keys.ratios, 'probabilities': probabilities})}"
     yield f"effects: # what the rest of the model cannot imitate of each, root mean square, {unit}"
     for name, size in found.effects.items():
-        yield f"  {name}: {{rms: {size.rms:.4g}, tests: {size.tests}}}"
+        yield f"  {name}: {write_in_a_line({'rms': float(f'{size.rms:.4g}'), 'tests': size.tests})}"
 
 
 def _list_sizes(fitted: Fit) -> Iterable[tuple[str, float]]:
@@ -221,7 +221,5 @@ def _list_sizes(fitted: Fit) -> Iterable[tuple[str, float]]:
             other.effect.columns(fitted.design, values) for other, values, _ in triples if other is not term
         ]
         rest = np.concatenate([np.zeros((len(own), 1)), *others], axis=1)
-        lengths = np.linalg.norm(rest, axis=0)
-        scaled = rest / np.where(lengths > 0, lengths, 1.0)
-        left = own - scaled @ np.linalg.lstsq(scaled, own, rcond=None)[0]
+        left = compute_left_beside(rest, own)
         yield term.effect.identifier, float(np.sqrt(np.mean(left**2)))

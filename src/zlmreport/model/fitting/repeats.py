@@ -186,7 +186,7 @@ class SpreadTest:
         return self.p_value < (_LEVEL if self.factor is SpreadFactor.GROWTH else _LEVEL / others)
 
 
-def spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...]:
+def list_spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...]:
     """Return the tests of equal scatter that the design allows; of growth first, the others beside it.
 
     Few repeats in many cells make any such statistic larger than tables have it; so it is held against

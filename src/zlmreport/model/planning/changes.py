@@ -93,7 +93,7 @@ def list_changes(axis: Axis, plan: AxisPlan, seed: int) -> Iterator[PlanChange]:
 
 
 def list_further_changes(
-    axis: Axis, plan: AxisPlan, seed: int, period: float | None, *, goes_on: bool = False
+    axis: Axis, plan: AxisPlan, seed: int, period: float | None, *, goes_on: bool
 ) -> Iterator[PlanChange]:
     """Yield each change that may tell effects apart, or show one.
 

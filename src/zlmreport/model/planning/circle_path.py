@@ -188,7 +188,7 @@ class CirclePath:
         return x, y
 
 
-def plan_circle_path(job: Job, place: Place, feed: float | None = None) -> CirclePath:
+def plan_circle_path(job: Job, place: Place, feed: float | None) -> CirclePath:
     """Return the path of a job's circular test.
 
     `feed`: Of the path, mm/min; that of the circle if it is not given.

@@ -248,7 +248,11 @@ def make_deciding_number(job: Job) -> str:
 
 
 def write_deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
-    """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``."""
+    """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``.
+
+    `job`: The one that left the question open.
+    `extends`: Its file, as the new one names it.
+    """
     statement = experiment.statement.in_language(Language.ENGLISH)
     lines = [f"# {sentence.strip()}." for sentence in statement.rstrip(".").split(". ")]
     return "\n".join([*lines, *write_group(make_deciding_job(experiment, job, extends))]) + "\n"
