@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from zlmreport.cli.model_lines import find_next_step, measure_lines
 from zlmreport.cli.terminal import lay_out_heading, wrap
@@ -15,15 +15,14 @@ from zlmreport.model.diagnosis.building import Built, ModelStep, name_steps
 from zlmreport.model.diagnosis.report import list_chances, write_statement_after_build
 
 _ENGLISH = Language.ENGLISH
-_PLUS = "+\u00a0"  #: At the end of no line.
+_PLUS, _MINUS = "+\u00a0", "−\u00a0"  #: At the end of no line.
 
 
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
-    for line in wrap(_write_staircase(built).replace("+ ", _PLUS), ""):
-        yield line.replace(_PLUS, "+ ")
+    yield from _wrap_steps(_write_staircase(built))
     yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
     if built.exchange is not None:
         coming, going = map(" and ".join, (built.exchange.coming, built.exchange.going))
@@ -44,14 +43,24 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
     if edit is None:
         yield f"{path}: nothing to change"
     elif is_tried:
-        yield f"{path}: left as it is; without --dry-run: {', '.join(names)}"
+        yield from _list_changes(f"{path}: left as it is; without --dry-run:", names)
     else:
-        yield f"{path}: {', '.join(names)}"
+        yield from _list_changes(f"{path}:", names)
     if is_tried and edit is not None:
         yield f"next: zlmreport model build {path}"
     else:
         yield from measure_lines(last)
         yield f"next: {find_next_step(last, path)}"
+
+
+def _list_changes(lead: str, names: Iterable[str]) -> Iterator[str]:
+    return _wrap_steps(f"{lead} {', '.join(names)}")
+
+
+def _wrap_steps(text: str) -> Iterator[str]:
+    """Yield a text in lines that fit, none of which ends between a sign and the effect that comes or goes."""
+    for line in wrap(text.replace("+ ", _PLUS).replace("− ", _MINUS), ""):
+        yield line.replace(_PLUS, "+ ").replace(_MINUS, "− ")
 
 
 def _write_staircase(built: Built) -> str:

@@ -53,7 +53,12 @@ def say(words: Words | str, language: Language = Language.ENGLISH) -> str:
 
 def wrap(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; no line ends within a value."""
-    return [line.replace(HELD, " ") for line in fill(_WITHIN_A_VALUE.sub(HELD, text), indent)]
+    return [line.replace(HELD, " ") for line in fill(hold_values(text), indent)]
+
+
+def hold_values(text: str) -> str:
+    """Return a text whose values are held together: no line ends within one."""
+    return _WITHIN_A_VALUE.sub(HELD, text)
 
 
 def fill(text: str, indent: str = "  ") -> list[str]:
