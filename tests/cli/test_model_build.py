@@ -11,7 +11,7 @@ import zlmreport as z
 from cli.commands import Shop, told
 from cli.model_jobs import change, opened
 from model.hidden_effect import LAST
-from zlmreport.cli.model_build import _list_changes
+from zlmreport.cli.terminal import lay_out_changes
 
 
 @pytest.fixture
@@ -61,11 +61,10 @@ def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     assert (shop.folder / "job.yaml").read_bytes() == before
 
 
-def test_no_line_of_a_build_is_wider_than_a_terminal() -> None:
+def test_no_line_of_a_build_is_wider_than_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
     names = ["+ backlash", "− compensation-shift", "+ scale-expansion or material-expansion"]
-    lines = list(
-        _list_changes("a-folder/with-a-long-name/job.yaml: left as it is; without --dry-run:", names)
-    )
+    lines = list(lay_out_changes("a-folder/with-a-long-name/job.yaml", names, is_tried=True))
     assert max(map(len, lines)) <= 80
     assert not any(line.endswith(("+", "−")) for line in lines)
     assert " ".join(line.strip() for line in lines).endswith(", ".join(names))

@@ -69,6 +69,20 @@ def fill(text: str, indent: str = "  ") -> list[str]:
     )
 
 
+def wrap_steps(text: str) -> Iterator[str]:
+    """Yield a text in lines that fit, none of which ends between a sign and the effect that comes or goes."""
+    yield from wrap(text.replace("+ ", f"+{HELD}").replace("− ", f"−{HELD}"), "")
+
+
+def lay_out_changes(path: str, names: Sequence[str], *, is_tried: bool) -> Iterator[str]:
+    """Yield what a build writes into a file, or would: the effects that come, and that go."""
+    if not names:
+        yield f"{path}: nothing to change"
+    else:
+        lead = f"{path}: left as it is; without --dry-run:" if is_tried else f"{path}:"
+        yield from wrap_steps(f"{lead} {', '.join(names)}")
+
+
 def lay_out_heading(name: str, rest: str) -> Iterator[str]:
     """Yield a name in bold and what is said of it, in lines that fit."""
     first, *further = wrap(f"{name}  {rest}", "")

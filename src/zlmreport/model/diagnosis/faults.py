@@ -391,7 +391,7 @@ def _find_misplaced_target(design: Design, deviation: FloatArray) -> Iterator[Da
 
 
 def _compute_distances_from_neighbours(targets: FloatArray, means: FloatArray) -> FloatArray:
-    """Return how far each mean but the first and the last is off the line between those beside it, m or rad."""
+    """Return how far each mean but those at the ends is off the line between its neighbours, m or rad."""
     shares = (targets[1:-1] - targets[:-2]) / (targets[2:] - targets[:-2])
     return np.asarray(np.abs(means[1:-1] - (1 - shares) * means[:-2] - shares * means[2:]), dtype=np.float64)
 
@@ -492,8 +492,8 @@ _DUPLICATED = Words("run {run} has the same readings as run {first}, digit for d
 _WRONG_TARGET = Words("the reading at {reading} looks as if it had been taken at {target}")
 _CORRECT_TARGET = Words("correct the target in the file, or leave the reading empty")
 _MISPLACED_TARGET = Words(
-    "all readings at {target} stand {size} off the line from one target beside it to the other, as if another "
-    "target had been approached"
+    "all readings at {target} stand {size} off the line from one target beside it to the other, as if "
+    "another target had been approached"
 )
 _STUCK_READINGS = Words(
     "{count} readings one after another are the same, digit for digit, from that at {reading} on: "

@@ -210,7 +210,7 @@ class Study:
 
 
 def _observe(measurements: MeasurementSet, job: Job) -> Observations:
-    """Return what the model of a job is held against: its readings, with what it says of how they were taken."""
+    """Return what the model of a job is held against: its readings, and what it says of their course."""
     stated = job.keys.plan.overrun
     overrun = None if stated is None else job.axis.position_unit.to_si(stated)
     return _add_feed(make_observations_of(measurements, overrun=overrun), job)
