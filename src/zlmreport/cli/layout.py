@@ -84,8 +84,8 @@ def _hold_fact(text: str) -> str:
 
 
 def write_in_a_line(facts: Facts) -> str:
-    """Return names and values one after the other."""
-    return "   ".join(f"{name} {say(value)}" for name, value in facts.pairs)
+    """Return names and values one after the other, each held together where lines are made of it."""
+    return "   ".join(_hold_fact(f"{name} {say(value)}") for name, value in facts.pairs)
 
 
 def _lay_out_table(block: Table) -> Iterator[str]:
