@@ -18,6 +18,7 @@ from zlmreport.model.diagnosis.faults import (
 )
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
 from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
@@ -110,6 +111,12 @@ def test_target_that_was_written_wrongly_is_told_by_those_beside_it() -> None:
     (fault,) = find_recorded_faults(_DESIGN, _TRUE + off)
     assert (fault.kind, fault.run) == (FaultKind.WRONG_TARGET, None)
     assert "stand 1002 µm off" in fault.statement.in_language(Language.ENGLISH)
+
+
+def test_target_that_was_written_wrongly_is_told_beside_one_that_was_never_read() -> None:
+    read = np.flatnonzero(_DESIGN.target != 2)
+    deviation = _TRUE + np.where(_DESIGN.target == 6, 1e-3, 0.0)
+    assert _kinds(select_readings(_DESIGN, read), deviation[read]) == [(FaultKind.WRONG_TARGET, None)]
 
 
 def test_step_of_a_millimetre_between_two_targets_is_no_wrong_target() -> None:

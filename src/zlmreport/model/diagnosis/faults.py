@@ -370,18 +370,19 @@ def _find_misplaced_target(design: Design, deviation: FloatArray) -> Iterator[Da
     No worn place is a tenth of a millimetre deep and ends before the next target. A step, or a bump, is there
     without any one of the targets as well.
     """
-    targets = design.target_positions
+    # At some targets there may be no reading, or one of another session alone.
+    targets, number = np.unique(design.position, return_inverse=True)
     if len(targets) < _FEWEST_TARGETS or not design.axis.measurand.is_position:
         return
     level = deviation.copy()
     for sign in np.unique(design.direction):
         level[design.direction == sign] -= np.median(deviation[design.direction == sign])
-    means = np.array([np.median(level[design.target == each]) for each in range(len(targets))])
+    means = np.array([np.median(level[number == each]) for each in range(len(targets))])
     off = _compute_distances_from_neighbours(targets, means)
     place = int(np.argmax(off)) + 1
     size = float(off[place - 1])
     others = _compute_distances_from_neighbours(np.delete(targets, place), np.delete(means, place))
-    scatter = max(float(others.max()), float(np.std(level[design.target == place])))
+    scatter = max(float(others.max()), float(np.std(level[number == place])))
     if size > max(_MISPLACED_BY, _MISPLACED * scatter):
         statement = _MISPLACED_TARGET.given(
             target=wording.position(design.axis, float(targets[place])),
