@@ -57,6 +57,14 @@ def test_a_name_is_not_parted_from_its_value() -> None:
     assert _lines(facts) == ["  Root mean square error 5.59 µm", "    Runs predicted from the others 5.5 µm"]
 
 
+def test_a_fact_that_is_longer_than_a_line_is_broken_between_words() -> None:
+    said = "a stretch displaced as a whole, 93.2 mm long, alike in both directions, around 238 mm"
+    lines = _lines(Facts((("Place", "239 mm"), ("Beside it", said))))
+    assert max(map(len, lines)) <= 60
+    assert lines == [line.rstrip() for line in lines]
+    assert " ".join(line.strip() for line in lines) == f"Place 239 mm   Beside it {said}"
+
+
 def test_a_name_that_is_longer_than_a_line_keeps_both_ends() -> None:
     table = _table(Column("Test"), Column("RMS"), rows=((f"ballbar-{'x' * 100}-cw", "4.7"),))
     *_, line = _lines(table)

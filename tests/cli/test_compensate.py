@@ -47,3 +47,19 @@ def test_readings_that_were_set_aside_stay_aside_in_the_job_of_both_tests(
     assert together["as_found"]["evaluations"][0]["parameters"] == alone["evaluations"][0]["parameters"]
     job = Path("both/LOOP-1-as-left.yaml").read_text(encoding="utf-8")
     assert all(each in job for each in ('end: "2026-03-03"', "feed: 1000"))
+
+
+@pytest.mark.parametrize(("model", "times"), [("", 1), ("model: {effects: [offset, backlash]}\n", 0)])
+def test_between_targets_lines_are_said_to_be_taken_where_no_model_says_what_is_there(
+    model: str,
+    times: int,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    text = _JOB.format(stated="date: 2026-03-02", file=_READINGS / "captured_without.csv") + model
+    Path("job.yaml").write_text(text, encoding="utf-8")
+    assert main(["compensate", "job.yaml", "-o", "table"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert said.count("Between the targets nothing was measured") == times

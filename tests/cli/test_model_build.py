@@ -11,6 +11,7 @@ import zlmreport as z
 from cli.commands import Shop, told
 from cli.model_jobs import change, opened
 from model.hidden_effect import LAST
+from zlmreport.cli.terminal import lay_out_changes
 
 
 @pytest.fixture
@@ -58,6 +59,15 @@ def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     line = " ".join(run.output.split())
     assert re.search(r"→ \+ screw-pitch [\d.]+ µm; noise [\d.]+ µm ", line)
     assert (shop.folder / "job.yaml").read_bytes() == before
+
+
+def test_no_line_of_a_build_is_wider_than_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    names = ["+ backlash", "− compensation-shift", "+ scale-expansion or material-expansion"]
+    lines = list(lay_out_changes("a-folder/with-a-long-name/job.yaml", names, is_tried=True))
+    assert max(map(len, lines)) <= 80
+    assert not any(line.endswith(("+", "−")) for line in lines)
+    assert " ".join(line.strip() for line in lines).endswith(", ".join(names))
 
 
 def test_a_model_that_lacks_nothing_is_left_as_it_is(shop: Shop) -> None:

@@ -33,6 +33,19 @@ def test_a_job_without_effects_is_told_how_to_begin(shop: Shop, action: str) -> 
     assert refused(shop, action, "job.yaml").endswith("begin with: zlmreport model add job.yaml offset")
 
 
+def test_where_no_effect_acts_on_what_was_measured_none_is_proposed_to_begin_with(shop: Shop) -> None:
+    change(
+        shop,
+        (f"    - offset\n    - scale-error\n{LAST}", ""),
+        ("effects:", "effects: []"),
+        ("measurement:\n", "measurement:\n  error: EAX\n"),
+        ("iso230-2:2014", "iso230-1:2012"),
+    )
+    message = refused(shop, "fit", "job.yaml")
+    assert message == refused(shop, "diagnose", "job.yaml")
+    assert message.endswith("no installed effect acts on that; a formula of your own does: model.candidates")
+
+
 def test_a_circle_is_sent_to_the_model_of_its_machine(shop: Shop) -> None:
     run = shop.run("model", "diagnose", str(ROOT / "configs/circle/certificate.yaml"))
     assert (run.code, run.output) == (2, "")

@@ -57,6 +57,18 @@ def test_the_readings_name_the_description_and_its_digest(folder: Path) -> None:
     assert second.endswith("…, seed 5)")
 
 
+def test_the_job_says_how_far_the_axis_ran_over_where_it_is_unusual(folder: Path) -> None:
+    jobs = []
+    for overrun in ("4", "5"):
+        (folder / "spec.yaml").write_text(
+            SOUND.replace("overrun: 4", f"overrun: {overrun}"), encoding="utf-8"
+        )
+        main(["simulate", "spec.yaml", "--output", overrun])
+        jobs.append((folder / overrun / "job.yaml").read_text(encoding="utf-8"))
+    assert ["plan: {overrun: 4} # mm" in each for each in jobs] == [True, False]
+    assert "overrun" not in jobs[1]
+
+
 def test_the_same_description_gives_the_same_bytes(folder: Path) -> None:
     contents = []
     for output in ("one", "other"):

@@ -51,6 +51,24 @@ def test_build_writes_what_it_found(folder, capsys):
     assert built["verdict"] == "adequate"
 
 
+@pytest.mark.long
+def test_build_says_what_it_wrote_what_is_left_and_what_to_do_next(folder, capsys, monkeypatch):
+    monkeypatch.chdir(folder)
+    said = []
+    for more in (["--dry-run"], [], []):
+        assert main(["machine", "build", "machine.yaml", *more]) == 0
+        said.append(capsys.readouterr().out)
+    assert all("Missing" not in each and "nothing is left that the scatter" in each for each in said)
+    assert [each.splitlines()[-2:] for each in said] == [
+        [
+            "machine.yaml: left as it is; without --dry-run: + servo-mismatch",
+            "next: zlmreport machine build machine.yaml",
+        ],
+        ["machine.yaml: + servo-mismatch", "next: zlmreport machine certificate machine.yaml"],
+        ["machine.yaml: nothing to change", "next: zlmreport machine certificate machine.yaml"],
+    ]
+
+
 def test_predict_states_bands_bounds_and_what_lies_outside(folder, capsys):
     found = values(capsys, "machine", "predict", folder / "machine.yaml")
     assert found["schema"] == "zlmreport/prediction/1"

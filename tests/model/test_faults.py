@@ -18,6 +18,7 @@ from zlmreport.model.diagnosis.faults import (
 )
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
 from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
@@ -103,6 +104,48 @@ def test_reading_of_another_target_is_told_by_the_distance() -> None:
     place = int(np.flatnonzero(_THIRD & (_DESIGN.target == 4))[0])
     deviation[place] += targets[6] - targets[4]
     assert _kinds(_DESIGN, deviation) == [(FaultKind.WRONG_TARGET, 3)]
+
+
+def test_target_that_was_written_wrongly_is_told_by_those_beside_it() -> None:
+    off = np.where(_DESIGN.target == 4, 1e-3, 0.0)
+    (fault,) = find_recorded_faults(_DESIGN, _TRUE + off)
+    assert (fault.kind, fault.run) == (FaultKind.WRONG_TARGET, None)
+    assert "stand 1002 µm off" in fault.statement.in_language(Language.ENGLISH)
+
+
+def test_target_that_was_written_wrongly_is_told_beside_one_that_was_never_read() -> None:
+    read = np.flatnonzero(_DESIGN.target != 2)
+    deviation = _TRUE + np.where(_DESIGN.target == 6, 1e-3, 0.0)
+    assert _kinds(select_readings(_DESIGN, read), deviation[read]) == [(FaultKind.WRONG_TARGET, None)]
+
+
+def test_step_of_a_millimetre_between_two_targets_is_no_wrong_target() -> None:
+    assert _kinds(_DESIGN, _TRUE + np.where(_DESIGN.target >= 4, 1e-3, 0.0)) == []
+
+
+def test_bump_of_a_few_targets_is_no_wrong_target() -> None:
+    bump = 4e-4 * np.exp(-(((_DESIGN.position - 0.25) / 0.08) ** 2))
+    assert _kinds(_DESIGN, _TRUE + bump) == []
+
+
+def test_readings_that_stay_the_same_from_target_to_target_are_of_an_instrument_that_stood_still() -> None:
+    still = _TRUE.copy()
+    still[40:52] = still[40]
+    (fault,) = find_recorded_faults(_DESIGN, still)
+    assert (fault.kind, fault.run) == (FaultKind.STUCK_SENSOR, int(_DESIGN.run[40]))
+    assert fault.comes_first
+    assert fault.statement.in_language(Language.ENGLISH).startswith(
+        "12 readings one after another are the same"
+    )
+
+
+def test_coarse_instrument_repeats_itself_and_has_not_stood_still() -> None:
+    assert _kinds(_DESIGN, np.round(noise(_DESIGN, sigma=4e-7), 6)) == []
+
+
+def test_run_in_another_unit_is_not_told_as_scatter_of_the_whole_too() -> None:
+    (fault,) = find_recorded_faults(_DESIGN, np.where(_THIRD, 1e3 * _TRUE, _TRUE))
+    assert (fault.kind, fault.run) == (FaultKind.WRONG_UNIT, 3)
 
 
 def test_time_that_falls_is_a_jump_of_the_clock() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from model.axis_tests import linear_test, observations
+from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import MOST_TARGETS, make_observations_of, thin
 from zlmreport.plugin import Language, MeasurementSet
@@ -58,6 +59,12 @@ def test_an_assumed_overrun_is_said_and_a_known_one_is_not() -> None:
     assert not [
         each for each in make_observations_of(TEST, overrun=0.003).remarks if "overrun" in each.values
     ]
+
+
+def test_on_a_short_axis_no_more_is_assumed_than_its_plan_takes() -> None:
+    short = replace(TEST, axis=replace(TEST.axis, travel=(0.0, 0.02)))
+    assert "0.4 mm" in _said(short)
+    assert make_observations_of(short).design.since_reversal[0] == find_usual_overrun(short.axis)
 
 
 def test_gap_of_a_log_is_interpolated_in_time_and_said_where() -> None:

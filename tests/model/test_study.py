@@ -31,6 +31,13 @@ def test_values_of_the_job_are_held_fixed_in_si(tmp_path: Path) -> None:
     assert (estimate.value, estimate.is_given) == (pytest.approx(-4.5e-6), True)
 
 
+def test_an_overrun_that_the_job_states_is_where_the_distance_since_a_reversal_begins(tmp_path: Path) -> None:
+    found = study(written(tmp_path, ("model:\n", "plan: {overrun: 2}\nmodel:\n")))
+    assert found.observed.design.since_reversal.min() == pytest.approx(2e-3)
+    assert example().observed.design.since_reversal.min() == pytest.approx(5e-3)
+    assert not [each for each in found.observed.remarks if "overrun" in each.values]
+
+
 def test_the_instrument_errs_in_the_model_as_in_the_budget(tmp_path: Path) -> None:
     """U = 3 µm + 2 µm/m · L with k = 2 is 1.5 µm at each position and 1 µm/m along the length."""
     instrument = "instrument: {name: Laser, expanded_uncertainty: 3 + 2*L}\nmodel:\n"

@@ -158,6 +158,13 @@ class LateralPlay(CircleEffect):
             for axis in design.axes
         ]  # fmt: skip
 
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say which axis shifts sideways, and how far."""
+        for each in estimates:
+            if abs(each.value) > each.expanded_uncertainty:
+                value, u = _write_pair(each)
+                yield _SHIFTS.given(axis=each.name, value=value, u=u)
+
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much play there might be."""
         for each in estimates:
@@ -165,6 +172,7 @@ class LateralPlay(CircleEffect):
             yield _NO_PLAY.given(axis=each.name, value=value, u=u)
 
 
+_SHIFTS = Words("{axis} shifts sideways by {value} ± {u} µm where it turns")
 _NO_PLAY = Words("no lateral play of {axis}: {value} ± {u} µm")
 
 

@@ -6,7 +6,16 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 
-from zlmreport.cli.terminal import Colour, fill, lay_out_table, measure_line, measure_width, say, wrap
+from zlmreport.cli.terminal import (
+    Colour,
+    fill,
+    hold_values,
+    lay_out_table,
+    measure_line,
+    measure_width,
+    say,
+    wrap,
+)
 from zlmreport.document.blocks import (
     Align,
     Block,
@@ -54,7 +63,7 @@ def lay_out_blocks(block: Block, title: str) -> Iterator[str]:
             indent = _INDENT if is_titled else _FURTHER_IN
             yield from (line for item in items for line in wrap(say(item), indent))
         case Facts(pairs):
-            held = (f"{name} {say(value)}".replace(" ", HELD) for name, value in pairs)
+            held = (_hold_fact(f"{name} {say(value)}") for name, value in pairs)
             yield from (line.replace(HELD, " ") for line in fill("   ".join(held)))
         case Table():
             yield from _lay_out_table(block)
@@ -68,9 +77,15 @@ def lay_out_blocks(block: Block, title: str) -> Iterator[str]:
             pass
 
 
+def _hold_fact(text: str) -> str:
+    """Return a name with its value held together, as far as a line has room for both."""
+    has_room = measure_width(text) <= measure_line() - len(_FURTHER_IN)
+    return text.replace(" ", HELD) if has_room else hold_values(text)
+
+
 def write_in_a_line(facts: Facts) -> str:
-    """Return names and values one after the other."""
-    return "   ".join(f"{name} {say(value)}" for name, value in facts.pairs)
+    """Return names and values one after the other, each held together where lines are made of it."""
+    return "   ".join(_hold_fact(f"{name} {say(value)}") for name, value in facts.pairs)
 
 
 def _lay_out_table(block: Table) -> Iterator[str]:

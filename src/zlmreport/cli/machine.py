@@ -8,13 +8,13 @@ from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.machine_compensate import compensate, find_exit_code
-from zlmreport.cli.terminal import lay_out_heading, print_json, show_path
+from zlmreport.cli.terminal import lay_out_changes, lay_out_heading, print_json, show_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document, write
 from zlmreport.language import Language
 from zlmreport.machines.comparison import compare_circles, compare_line
-from zlmreport.machines.diagnosis import diagnose
+from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
 from zlmreport.machines.document import make_machine_document
 from zlmreport.machines.editing import edit_effects, list_effects_with, list_effects_without
@@ -146,11 +146,24 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
     if found.found and not options.dry_run:
         edit_effects(machine, (*machine.effect_names, *found.found))
     sections = [
-        findings.lay_out_verdict(found, _SAY),
+        findings.lay_out_verdict_after_build(found, _SAY),
         findings.lay_out_steps(found, _SAY),
         findings.lay_out_model(found.complete, _SAY),
     ]
-    return _lay_out(machine, sections), build_values(found)
+    path = show_path(machine.path)
+    changes = lay_out_changes(path, [f"+ {each}" for each in found.found], is_tried=options.dry_run)
+    following = _find_next_after_build(found, is_tried=options.dry_run)
+    further = ["", *changes, f"next: zlmreport machine {following} {path}"]
+    return _lay_out(machine, sections, *further), build_values(found)
+
+
+def _find_next_after_build(found: MachineDiagnosis, *, is_tried: bool) -> str:
+    """Return the action that follows a build."""
+    if found.found and is_tried:
+        return "build"
+    if found.is_tied:
+        return "plan"
+    return "diagnose" if found.remainder else "certificate"
 
 
 def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:

@@ -51,6 +51,8 @@ from zlmreport.pipeline import choose_standards, read as read_readings, read_ses
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _KEY = "model.effects"
+#: The effect that a model begins with, where it acts on what was measured.
+_FIRST = "offset"
 #: Lines for a terminal, and what gives the same as JSON: one of the two is asked for.
 _Answer: TypeAlias = tuple[Iterable[str], Callable[[], Any]]
 
@@ -234,10 +236,11 @@ def _say_next(session: _Session) -> str:
 
 def _demand_effects(session: _Session) -> None:
     if not session.job.effects:
+        tried = [each.identifier for each in session.make_study().list_tried(session.registry.effects)]
         raise InputError.at(
             session.job.place_of(_KEY),
             "the job names no effect in model.effects; begin with: zlmreport model add "
-            f"{session.shown_path} offset",
+            f"{session.shown_path} {_FIRST if _FIRST in tried else tried[0]}",
         )
 
 

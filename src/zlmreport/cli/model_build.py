@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from zlmreport.cli.model_lines import find_next_step, measure_lines
-from zlmreport.cli.terminal import lay_out_heading, wrap
+from zlmreport.cli.terminal import lay_out_changes, lay_out_heading, wrap, wrap_steps
 from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
@@ -15,15 +15,13 @@ from zlmreport.model.diagnosis.building import Built, ModelStep, name_steps
 from zlmreport.model.diagnosis.report import list_chances, write_statement_after_build
 
 _ENGLISH = Language.ENGLISH
-_PLUS = "+\u00a0"  #: At the end of no line.
 
 
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
-    for line in wrap(_write_staircase(built).replace("+ ", _PLUS), ""):
-        yield line.replace(_PLUS, "+ ")
+    yield from wrap_steps(_write_staircase(built))
     yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
     if built.exchange is not None:
         coming, going = map(" and ".join, (built.exchange.coming, built.exchange.going))
@@ -41,12 +39,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
             f"zlmreport model remove {path} {each}",
             "",
         )
-    if edit is None:
-        yield f"{path}: nothing to change"
-    elif is_tried:
-        yield f"{path}: left as it is; without --dry-run: {', '.join(names)}"
-    else:
-        yield f"{path}: {', '.join(names)}"
+    yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
     if is_tried and edit is not None:
         yield f"next: zlmreport model build {path}"
     else:

@@ -88,7 +88,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     for surface in plane.surfaces:
         yield ""
         error = list_error_facts(surface.error, plane.axis, Language.ENGLISH)
-        yield f"{surface.approach.arrow} {write_in_a_line(error)}"
+        yield from wrap(f"{surface.approach.arrow} {write_in_a_line(error)}", "")
         yield from wrap(_write_equation(surface))
         yield from wrap(_tell_interaction(surface))
     yield ""

@@ -53,7 +53,12 @@ def say(words: Words | str, language: Language = Language.ENGLISH) -> str:
 
 def wrap(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; no line ends within a value."""
-    return [line.replace(HELD, " ") for line in fill(_WITHIN_A_VALUE.sub(HELD, text), indent)]
+    return [line.replace(HELD, " ") for line in fill(hold_values(text), indent)]
+
+
+def hold_values(text: str) -> str:
+    """Return a text whose values are held together: no line ends within one."""
+    return _WITHIN_A_VALUE.sub(HELD, text)
 
 
 def fill(text: str, indent: str = "  ") -> list[str]:
@@ -62,6 +67,20 @@ def fill(text: str, indent: str = "  ") -> list[str]:
     return textwrap.wrap(
         text, measure_line(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
     )
+
+
+def wrap_steps(text: str) -> Iterator[str]:
+    """Yield a text in lines that fit, none of which ends between a sign and the effect that comes or goes."""
+    yield from wrap(text.replace("+ ", f"+{HELD}").replace("− ", f"−{HELD}"), "")
+
+
+def lay_out_changes(path: str, names: Sequence[str], *, is_tried: bool) -> Iterator[str]:
+    """Yield what a build writes into a file, or would: the effects that come, and that go."""
+    if not names:
+        yield f"{path}: nothing to change"
+    else:
+        lead = f"{path}: left as it is; without --dry-run:" if is_tried else f"{path}:"
+        yield from wrap_steps(f"{lead} {', '.join(names)}")
 
 
 def lay_out_heading(name: str, rest: str) -> Iterator[str]:

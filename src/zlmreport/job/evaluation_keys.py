@@ -420,7 +420,7 @@ class PlanKeys(JobPart):
         None,
         ge=0.001,
         description="How far beyond a target the axis turns round, mm or degrees, at least 0.001. Without it "
-        "5, or a fiftieth of a short travel.",
+        "5, or a fiftieth of a short travel; the error model takes it so of the readings, too.",
     )
     seed: int | None = Field(
         None,

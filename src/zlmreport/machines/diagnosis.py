@@ -94,6 +94,13 @@ class MachineDiagnosis:
     noise_of_readings: float  #: The same of single readings, before they are thinned.
 
 
+def find_verdict_after_build(diagnosis: MachineDiagnosis) -> DiagnosisVerdict:
+    """Return the verdict on the model as built: effects that cannot be told apart are still missing."""
+    if diagnosis.remainder:
+        return DiagnosisVerdict.UNEXPLAINED
+    return DiagnosisVerdict.MISSING if diagnosis.is_tied else DiagnosisVerdict.ADEQUATE
+
+
 @dataclass(frozen=True, slots=True)
 class _Stage:
     """The model with some effects more, and what the contest says of it."""

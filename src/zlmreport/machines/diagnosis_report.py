@@ -8,12 +8,11 @@ from typing import Any
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
 from zlmreport.machines.report import collect_compared_sizes, collect_stretch
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.findings import list_absent, list_findings, say_how_told, say_verdict
 from zlmreport.machines.subjects.tests import describe_stretch
-from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 
 SCHEMA, BUILD, CHANGE = "zlmreport/diagnosis/1", "zlmreport/build/1", "zlmreport/machine-change/1"
 _MICRO = 1e6
@@ -86,17 +85,11 @@ def build_values(diagnosis: MachineDiagnosis, language: Language = Language.ENGL
             }
             for each in diagnosis.steps
         ],
-        "verdict": DiagnosisVerdict.UNEXPLAINED.value if diagnosis.remainder else _say_after(diagnosis),
+        "verdict": find_verdict_after_build(diagnosis).value,
         "remainder": collect_remainder(diagnosis, language),
         "model": collect_model(diagnosis.complete),
         "error": collect_study(diagnosis.complete, diagnosis.noise),
     }
-
-
-def _say_after(diagnosis: MachineDiagnosis) -> str:
-    """Return the verdict on the model as built: effects that cannot be told apart are still missing."""
-    is_tied = diagnosis.verdict is DiagnosisVerdict.MISSING and diagnosis.is_tied
-    return DiagnosisVerdict.MISSING.value if is_tied else DiagnosisVerdict.ADEQUATE.value
 
 
 def change_values(

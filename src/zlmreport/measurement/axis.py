@@ -18,6 +18,9 @@ from zlmreport.measurement.measurand import POSITIONING, ROTARY_POSITIONING, Coo
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.units import ANGLE_UNITS, LENGTH_UNITS, Unit
 
+#: In mm or °, and as a share of a short travel.
+_USUAL_OVERRUN, _LARGEST_SHARE = 5.0, 1 / 50
+
 
 class AxisKind(StrEnum):
     """Whether positions along the axis are lengths or angles."""
@@ -172,6 +175,14 @@ class Axis:
         15 digits undo the rounding of the way to SI and back.
         """
         return float(f"{self.position_unit.from_si(position):.15g}")
+
+
+def find_usual_overrun(axis: Axis) -> float:
+    """Return how far beyond a target an axis turns round where the job does not say it, m or rad."""
+    usual = axis.position_unit.to_si(_USUAL_OVERRUN)
+    if axis.travel is None:
+        return usual
+    return min(usual, _LARGEST_SHARE * (axis.travel[1] - axis.travel[0]))
 
 
 def refuse_other_than_positions(axis: Axis, place: Place, reason: str) -> None:

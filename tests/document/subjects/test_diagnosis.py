@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from model.hidden_effect import example_diagnosis, example_history
+from zlmreport.document.blocks import Paragraph
 from zlmreport.document.subjects.diagnosis import (
     DiagnosisRows,
+    lay_out_diagnosis,
     lay_out_unseen,
     list_hidden,
     list_not_tested,
     make_failure_row,
 )
 from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
+from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.plugin import Language, Words
@@ -27,6 +30,22 @@ def test_rows_say_the_verdict_and_name_the_candidates_best_first() -> None:
     assert [row.effect for row in rows.candidates] == [each.identifier for each in diagnosis.candidates]
     assert (rows.candidates[0].title, rows.candidates[0].probability) == ("Pitch", "100")
     assert rows.candidates[0].is_serious
+
+
+def test_remedies_of_positions_are_not_left_to_be_taken_for_those_of_a_straightness() -> None:
+    positions = example_diagnosis()
+    design = positions.fit.design
+    across = replace(design, axis=replace(design.axis, error="EYX", quantity=STRAIGHTNESS))
+    for diagnosis, times in (
+        (positions, 0),
+        (replace(positions, fit=replace(positions.fit, design=across)), 1),
+    ):
+        (remedy,) = [each for each in lay_out_diagnosis(diagnosis, ENGLISH, {}) if each.key == "remedy"]
+        said = [each.text for each in remedy.blocks if isinstance(each, Paragraph)]
+        assert len(said) == times
+        assert all(
+            "no backlash value and no pitch table of this axis removes either" in each for each in said
+        )
 
 
 def test_what_is_extrapolated_says_so_in_the_language_asked_for() -> None:

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, strategies as st
 
 from model.planning.planned import WHOLE_PITCHES, plan_of_test
+from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.model.planning.targets import (
     compute_target_positions,
     count_phases,
     find_periods_at_phases,
-    find_usual_overrun,
     makes_whole_turns,
     sample_targets,
 )

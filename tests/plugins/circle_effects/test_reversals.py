@@ -10,9 +10,9 @@ from zlmreport.plugin.circle_effect import Estimate
 from zlmreport.plugin.registry import find_plugins
 
 
-def said(*estimates: tuple[str, float, float]) -> list[str]:
-    """Return the sentences on lost motion, of values with their U in µm."""
-    effect = next(each for each in find_plugins().circle_effects if each.identifier == "circle-backlash")
+def said(*estimates: tuple[str, float, float], of: str = "circle-backlash") -> list[str]:
+    """Return the sentences on what an effect found, of values with their U in µm."""
+    effect = next(each for each in find_plugins().circle_effects if each.identifier == of)
     found = [Estimate(name, MICROMETRE, value * 1e-6, u * 1e-6) for name, value, u in estimates]
     return [each.in_language(Language.ENGLISH) for each in effect.findings(found)]
 
@@ -36,6 +36,11 @@ def test_ends_that_agree_within_their_uncertainties_are_not_said_to_differ() -> 
 @pytest.mark.parametrize("value", [0.3, -3.0])
 def test_what_lies_within_its_uncertainty_or_is_over_compensated_is_no_lost_motion(value: float) -> None:
     assert said(("X", value, 0.4)) == []
+
+
+def test_lateral_play_is_said_with_its_axis_whichever_way_it_shifts() -> None:
+    play = said(("X", -3.1, 0.4), ("Y", 0.1, 0.4), of="lateral-play")
+    assert play == ["X shifts sideways by −3.10 ± 0.40 µm where it turns"]
 
 
 @pytest.mark.parametrize("first", [0.0, 0.03])

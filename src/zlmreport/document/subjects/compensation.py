@@ -65,6 +65,10 @@ _BOTH_SET_UPS = Words(
 _SCATTER_ALONE = Words(
     "A second test shows the scatter of both tests; of the set-up's errors the job states no budget."
 )
+_UNKNOWN_BETWEEN = Words(
+    "Between the targets nothing was measured, and no model says what is there: straight lines from one to "
+    "the next are taken."
+)
 _ALTERNATIVE = Words(
     "The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
     "{least} to {most}."
@@ -255,6 +259,8 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         return with_unit(_write_number(unit.from_si(value), writer), unit.symbol)
 
     yield _describe_grid(made, writer, amount)
+    if not made.basis.is_known_between:
+        yield _UNKNOWN_BETWEEN
     yield Words(
         "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
     ).given(

@@ -35,6 +35,7 @@ from zlmreport.document.writer import NOTHING
 from zlmreport.job.effect_choices import part_number
 from zlmreport.language import Language, Words, join_parts, named, same
 from zlmreport.language.formatting import write_p_value, write_percentage
+from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
@@ -54,6 +55,11 @@ HIDDEN = Words("What this test cannot see")
 _CAN_SEE = Words("What this test can see")
 LEFT = Words("What is left without a name")
 REMEDY = Words("What to do if this is the cause")
+_ACROSS_THE_MOTION = Words(
+    "What is said below is on positions, and this test is on the displacement across the motion. There a gap "
+    "between the directions is play of the guide, and a slope is how the reference was aligned: no backlash "
+    "value and no pitch table of this axis removes either."
+)
 EXPERIMENT = Words("The next experiment")
 NOT_TRIED = Words("Effects that this test could not try")
 _ASSUMED = Words("Taken for granted")
@@ -204,6 +210,7 @@ def lay_out_diagnosis(
     others = [each for each in rows.candidates if not each.is_serious]
     excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
     leads = bool(rows.candidates) and diagnosis.verdict is not DiagnosisVerdict.ADEQUATE
+    is_across = any(each.remedy for each in rows.leading) and fit.design.axis.measurand == STRAIGHTNESS
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
@@ -231,6 +238,7 @@ def lay_out_diagnosis(
         section(
             "remedy",
             REMEDY,
+            Paragraph(_ACROSS_THE_MOTION.in_language(language)) if is_across else None,
             notice(
                 REMEDY,
                 (

@@ -12,7 +12,7 @@ from zlmreport.document.subjects.diagnosis import CANDIDATES, MARKS, VERDICT
 from zlmreport.language import Words, list_alternatives, list_in_words, named
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
 from zlmreport.machines.forms import make_plain_form
 from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
@@ -49,6 +49,16 @@ def say_verdict(diagnosis: MachineDiagnosis) -> Words:
         return named
     beside = _BESIDE.given(shape=left.shape, size=_write_size(left.rms))
     return _TWO.given(one=named, other=beside)
+
+
+def say_verdict_after_build(diagnosis: MachineDiagnosis) -> Words:
+    """Return the verdict on the model as built: what was found is in it, what is tied is still missing."""
+    if diagnosis.remainder:
+        left = diagnosis.remainder
+        return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
+    if diagnosis.is_tied and diagnosis.found:
+        return _STILL_TIED
+    return say_verdict(diagnosis) if diagnosis.is_tied else _ADEQUATE
 
 
 def _write_size(rms: float) -> Words:
@@ -116,7 +126,19 @@ def list_findings(study: CircleStudy) -> list[Words]:
 
 def lay_out_verdict(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
     """Return the verdict, and what was found, in sentences."""
-    blocks: list[Block] = [Paragraph(say(say_verdict(diagnosis)), MARKS[diagnosis.verdict])]
+    return _lay_out_sentences(say_verdict(diagnosis), diagnosis.verdict, diagnosis, say)
+
+
+def lay_out_verdict_after_build(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
+    """Return the verdict on the model as built, and what was found, in sentences."""
+    verdict = find_verdict_after_build(diagnosis)
+    return _lay_out_sentences(say_verdict_after_build(diagnosis), verdict, diagnosis, say)
+
+
+def _lay_out_sentences(
+    verdict: Words, kind: DiagnosisVerdict, diagnosis: MachineDiagnosis, say: Sayer
+) -> Section:
+    blocks: list[Block] = [Paragraph(say(verdict), MARKS[kind])]
     blocks += [Paragraph(_write_sentence(say(each))) for each in list_findings(diagnosis.complete)]
     return Section("verdict", say(VERDICT), tuple(blocks))
 
@@ -278,6 +300,7 @@ _NEXT_LOOK = Words(
 _ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
 _MISSING = Words("Missing: {effects}.")
 _TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.")
+_STILL_TIED = Words("Something is still missing: this plan cannot tell what, so nothing more is named.")
 _UNEXPLAINED = Words("Something is left that no effect explains: {shape}, root mean square {size} µm.")
 _BESIDE = Words("Beside it something without a name is left: {shape}, root mean square {size} µm.")
 _TWO = Words("{one} {other}")

@@ -69,6 +69,8 @@ class TableBasis:
     without: Callable[[frozenset[str]], Function]
     #: The periodic effects of the model, each with the length of its shortest wave, m or rad.
     waves: Mapping[str, float] = field(default_factory=dict)
+    #: Whether a model says what is between the targets; else lines are drawn from one to the next.
+    is_known_between: bool = True
 
     def list_left_out(self, rows: FloatArray) -> dict[str, float]:
         """Return the waves that a table with these rows cannot carry, by name with their lengths."""
@@ -166,7 +168,9 @@ def make_basis_of_means(
     part = DeviationPart(np.eye(targets), 1.0)
     scatter = _estimate_scatter(measurements.deviations())
     parts = (part,) * (1 + curve.is_bidirectional)
-    return TableBasis(curve, known, means, parts, scatter, lambda _: alone)
+    return TableBasis(
+        curve, known, means, parts, scatter, lambda _: alone, is_known_between=fitted is not None
+    )
 
 
 def make_basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:

@@ -45,6 +45,9 @@ _ANOTHER_UNIT = 100.0
 _TINY = 1e-7
 #: m or rad: repeats scatter by more on every machine whose deviations are not small as well, and by less.
 _STILL, _SMALL, _WILD = 5e-9, 2e-6, 3e-4
+#: Fewest targets among which one that is written wrongly is seen; m or rad by which it is off at least, and
+#: how many times as far as any other without it, and as its readings scatter.
+_FEWEST_TARGETS, _MISPLACED_BY, _MISPLACED = 8, 1e-4, 10.0
 #: Of the distance between two targets, how far a reading of the wrong one may be off; and how many times the
 #: scatter of all deviations it must stand off from them.
 _NEAR, _STANDS_OFF = 0.1, 6.0
@@ -53,6 +56,8 @@ _LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
 #: Squares that may be left, over those of the noise floor.
 _NEARLY_NOISE = 1.3
 _FEWEST_STUCK, _FEWEST_EQUAL = 20, 6
+#: Tests in which readings may stay the same so long, if each repeats the one before as often as elsewhere.
+_BY_CHANCE = 1e-3
 #: Agreement of rows with their directions, or of runs with each other, that is clear.
 _CLEAR = 0.5
 _LIKELY, _ALMOST, _ALMOST_SURE, _EXACT = 0.9, 0.99, 50.0, 1e-6
@@ -136,6 +141,8 @@ def find_recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFau
         *_find_against_the_order(design),
         *_find_duplicated(design, deviation),
         *_find_wrong_targets(design, deviation),
+        *_find_misplaced_target(design, deviation),
+        *_find_stuck_readings(design, deviation),
         *_find_faults_of_the_clock(design),
         *_find_faults_of_sensors(design),
         *find_faults_of_units(design, deviation),
@@ -360,8 +367,62 @@ def _find_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataF
             yield DataFault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
 
 
+def _find_misplaced_target(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+    """Yield the target that was written wrongly: all its readings are off by a distance, those beside it not.
+
+    No worn place is a tenth of a millimetre deep and ends before the next target. A step, or a bump, is there
+    without any one of the targets as well.
+    """
+    # At some targets there may be no reading, or one of another session alone.
+    targets, number = np.unique(design.position, return_inverse=True)
+    if len(targets) < _FEWEST_TARGETS or not design.axis.measurand.is_position:
+        return
+    level = deviation.copy()
+    for sign in np.unique(design.direction):
+        level[design.direction == sign] -= np.median(deviation[design.direction == sign])
+    means = np.array([np.median(level[number == each]) for each in range(len(targets))])
+    off = _compute_distances_from_neighbours(targets, means)
+    place = int(np.argmax(off)) + 1
+    size = float(off[place - 1])
+    others = _compute_distances_from_neighbours(np.delete(targets, place), np.delete(means, place))
+    scatter = max(float(others.max()), float(np.std(level[number == place])))
+    if size > max(_MISPLACED_BY, _MISPLACED * scatter):
+        statement = _MISPLACED_TARGET.given(
+            target=wording.position(design.axis, float(targets[place])),
+            size=wording.deviation(design.axis, size),
+        )
+        yield DataFault(FaultKind.WRONG_TARGET, None, _ALMOST, statement, _CORRECT_TARGET)
+
+
+def _compute_distances_from_neighbours(targets: FloatArray, means: FloatArray) -> FloatArray:
+    """Return how far each mean but those at the ends is off the line between its neighbours, m or rad."""
+    shares = (targets[1:-1] - targets[:-2]) / (targets[2:] - targets[:-2])
+    return np.asarray(np.abs(means[1:-1] - (1 - shares) * means[:-2] - shares * means[2:]), dtype=np.float64)
+
+
+def _find_stuck_readings(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+    """Yield where readings stay the same, digit for digit, while the axis goes from target to target.
+
+    A coarse instrument repeats itself as well: how often it does elsewhere says how long it may by chance.
+    """
+    has_moved = np.diff(design.target) != 0
+    stretch = np.concatenate([[0], np.cumsum(np.diff(deviation) != 0)])
+    repeats = np.bincount(stretch[1:], weights=has_moved & (np.diff(stretch) == 0))
+    longest, count = int(np.argmax(repeats)), int(repeats.max(initial=0))
+    elsewhere = int(has_moved.sum()) - count
+    share = min(1.0, max(int(repeats.sum()) - count, 1) / max(elsewhere, 1))
+    if count < _FEWEST_EQUAL or len(deviation) * share**count > _BY_CHANCE:
+        return
+    readings = np.flatnonzero(stretch == longest)
+    first = int(readings[0])
+    statement = _STUCK_READINGS.given(count=len(readings), reading=wording.reading_at(design, first))
+    yield DataFault(
+        FaultKind.STUCK_SENSOR, int(design.cycle[first]), 1.0, statement, _LEAVE_EMPTY, explains=True
+    )
+
+
 def _find_faults_of_the_clock(design: Design) -> Iterator[DataFault]:
-    """Yield where the time falls, or jumps within a run."""
+    """Yield where the time falls: what it leaps on within a run may be a pause."""
     if design.time_is_counted:
         return
     steps = np.diff(design.time)
@@ -390,7 +451,7 @@ def _find_faults_of_sensors(design: Design) -> Iterator[DataFault]:
 
 
 def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
-    """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
+    """Yield a run of another size than all others, or a test that is hardly any deviation at all."""
     sizes = {
         run: float(np.median(np.abs(deviation[design.cycle == run])))
         for run in np.unique(design.cycle).tolist()
@@ -401,6 +462,7 @@ def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[Data
         if high < _ANOTHER_UNIT * low and (size > _ANOTHER_UNIT * high or size * _ANOTHER_UNIT < low):
             statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
             yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
+            return  # how far the whole scatters is that run's doing
     # A single reading at another target is no scatter.
     floor = estimate_robust_deviation(find_repeats(design, deviation).centred)
     largest = float(np.abs(deviation).max())
@@ -433,6 +495,15 @@ _GAP = Words(
 _DUPLICATED = Words("run {run} has the same readings as run {first}, digit for digit")
 _WRONG_TARGET = Words("the reading at {reading} looks as if it had been taken at {target}")
 _CORRECT_TARGET = Words("correct the target in the file, or leave the reading empty")
+_MISPLACED_TARGET = Words(
+    "all readings at {target} stand {size} off the line from one target beside it to the other, as if "
+    "another target had been approached"
+)
+_STUCK_READINGS = Words(
+    "{count} readings one after another are the same, digit for digit, from that at {reading} on: "
+    "the instrument stood still"
+)
+_LEAVE_EMPTY = Words("leave these readings empty in the file, or measure them again")
 _CLOCK_FALLS = Words("the time falls at {reading}")
 _CORRECT_CLOCK = Words("correct the times in the file, or leave their column out")
 _SWAPPED_COLUMNS = Words("columns look exchanged: {columns} hold what they cannot")

@@ -114,12 +114,9 @@ class Study:
         """
         demand_effects_for(job, effects)
         find = {effect.identifier: effect for effect in effects}.__getitem__
-        own = _add_feed(make_observations_of(measurements), job)
+        own = _observe(measurements, job)
         names = [each.files[0].name for each in job.sessions]
-        others = [
-            _add_feed(make_observations_of(each), other)
-            for each, other in zip(sessions, job.sessions, strict=True)
-        ]
+        others = [_observe(each, other) for each, other in zip(sessions, job.sessions, strict=True)]
         try:
             together = hold_together(own, list(zip(names, others, strict=True)))
         except ModelError as error:
@@ -210,6 +207,13 @@ class Study:
             if choice.identifier == identifier:
                 return choice.place
         return self.job.place_of(_KEY)
+
+
+def _observe(measurements: MeasurementSet, job: Job) -> Observations:
+    """Return what the model of a job is held against: its readings, and what it says of their course."""
+    stated = job.keys.plan.overrun
+    overrun = None if stated is None else job.axis.position_unit.to_si(stated)
+    return _add_feed(make_observations_of(measurements, overrun=overrun), job)
 
 
 def _add_feed(observed: Observations, job: Job) -> Observations:

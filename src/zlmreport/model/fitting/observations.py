@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import radians
 
 import numpy as np
 
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
-from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.model_error import ModelError
-
-#: How far the axis is taken to travel beyond a target before it returns to it, m or rad.
-OVERRUN = {AxisKind.LINEAR: 5e-3, AxisKind.ROTARY: radians(1.0)}
 
 #: Noise of a log, as a share of its variation, from which on effects cannot be told by it.
 _NOISY = 0.2
@@ -95,13 +91,13 @@ def make_observations_of(measurements: MeasurementSet, *, overrun: float | None 
     """Return what the error model works on; missing readings are dropped, the order is kept.
 
     `measurements`: The readings, in the order in which they were taken.
-    `overrun`: How far the axis runs over a target before it returns to it, m or rad; `OVERRUN` where it is
-        not known.
+    `overrun`: How far the axis runs over a target before it returns to it, m or rad; what is usual where it
+        is not known.
 
     Raises `ModelError` if every reading is missing.
     """
     axis = measurements.axis
-    beyond = OVERRUN[axis.kind] if overrun is None else overrun
+    beyond = find_usual_overrun(axis) if overrun is None else overrun
     position = measurements.target_positions[measurements.target]
     direction = measurements.approach.astype(np.float64)
     present = np.flatnonzero(~np.isnan(measurements.deviation))

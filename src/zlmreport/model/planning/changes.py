@@ -10,12 +10,11 @@ import numpy as np
 
 from zlmreport.language import Words, list_in_words
 from zlmreport.measurement.arrays import read_only_floats
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, find_usual_overrun
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method
 from zlmreport.model.planning.plan import AxisPlan, Pause
 from zlmreport.model.planning.targets import (
     find_periods_at_phases,
-    find_usual_overrun,
     makes_whole_turns,
     sample_targets,
 )

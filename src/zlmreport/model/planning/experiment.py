@@ -18,7 +18,7 @@ import numpy as np
 from zlmreport.language import Words, list_in_words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, find_usual_overrun
 from zlmreport.model.diagnosis.believing import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
@@ -38,7 +38,7 @@ from zlmreport.model.planning.changes import (
 from zlmreport.model.planning.methods import RUN_BY_RUN
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, find_beyond_travel
 from zlmreport.model.planning.rivals import Question
-from zlmreport.model.planning.targets import find_usual_overrun, makes_whole_turns
+from zlmreport.model.planning.targets import makes_whole_turns
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
 _ENOUGH, _NOT_WORTH_IT = 0.95, 0.5

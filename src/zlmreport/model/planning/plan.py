@@ -22,12 +22,12 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
-from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.axis import Axis, AxisKind, find_usual_overrun
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.measurement.units import REFERENCE_TEMPERATURE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, plan_path
-from zlmreport.model.planning.targets import find_usual_overrun, makes_whole_turns, sample_targets
+from zlmreport.model.planning.targets import makes_whole_turns, sample_targets
 
 _SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0

@@ -1,4 +1,4 @@
-"""Chooses target positions: random fractions, digits to type, usual overrun, phases of periods."""
+"""Chooses target positions: random fractions, digits to type, phases of periods."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from zlmreport.measurement.axis import Axis, AxisKind
 
 #: Number of the targets among the random parts of a test: theirs for ever, or old seeds would give others.
 _STREAM = 10
-#: In mm or °, and as a share of a short travel.
-_USUAL_OVERRUN, _LARGEST_SHARE = 5.0, 1 / 50
 #: Digits after the decimal point that controls take, of mm or °; phases of a period that they must part.
 _USUAL_DIGITS, _LEAST_PHASES = 3, 20
 #: Without a known pitch: share of the interval that the fractions cover.
@@ -67,14 +65,6 @@ def makes_whole_turns(axis: Axis) -> bool:
     if axis.kind is not AxisKind.ROTARY or axis.travel is None:
         return False
     return axis.travel[1] - axis.travel[0] >= 2 * math.pi * (1 - _ROUNDING)
-
-
-def find_usual_overrun(axis: Axis) -> float:
-    """Return how far beyond a target an axis turns round where the job does not say it, m or rad."""
-    usual = axis.position_unit.to_si(_USUAL_OVERRUN)
-    if axis.travel is None:
-        return usual
-    return min(usual, _LARGEST_SHARE * (axis.travel[1] - axis.travel[0]))
 
 
 def sample_targets(axis: Axis, count: int, overrun: float, period: float | None, seed: int) -> FloatArray:

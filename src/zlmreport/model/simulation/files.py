@@ -15,6 +15,7 @@ from zlmreport.job.yaml_text import write_in_a_line
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import Scale, Unit
 from zlmreport.model.effects.axis_model import Term, choose_terms
@@ -221,7 +222,14 @@ def write_job_text(file: SimulationFile, folder: Path, readings: str) -> str:
     `readings`: Name of the file with the readings, beside the job.
     """
     source = {"plugin": "laser-csv", "file": readings}
-    return "\n".join([*_write_job_lines(file, folder, source), _OUTPUT]) + "\n"
+    return "\n".join([*_write_job_lines(file, folder, source), *_write_overrun(file), _OUTPUT]) + "\n"
+
+
+def _write_overrun(file: SimulationFile) -> Iterator[str]:
+    """Yield how far the axis ran over the targets, where it is not what is taken of a job that is silent."""
+    unit, overrun = file.axis.position_unit, file.keys.overrun
+    if unit.to_si(overrun) != find_usual_overrun(file.axis):
+        yield f"plan: {{overrun: {write_in_a_line(overrun)}}} # {unit.symbol}"
 
 
 def write_live_job_text(file: SimulationFile, folder: Path, plan: AxisPlan, source: Mapping[str, Any]) -> str:
