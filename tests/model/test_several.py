@@ -43,6 +43,19 @@ def test_the_next_joint_is_tried_beside_the_first() -> None:
     assert "scale-joint" not in tried
 
 
+@pytest.mark.parametrize(("runs", "size"), [(6, 20.0), (7, 100.0)])
+def test_two_displaced_runs_are_found_together_where_a_curve_that_displaces_all_does_more_than_one(
+    runs: int, size: float
+) -> None:
+    random, gap = np.random.default_rng(runs), 2.0
+    displaced = np.zeros((runs, 1))
+    displaced[1], displaced[runs - 2] = size, -0.8 * size
+    up, down = (random.normal(half, 1.0, (runs, 11)) + displaced for half in (-gap, gap))
+    diagnosis = z.fit(z.test(np.linspace(0, 500, 11), up, down), ["offset", "backlash"]).diagnose().to_dict()
+    assert (diagnosis["set"], diagnosis["remainder"]) == (["run-displaced", "run-displaced-2"], None)
+    assert not [each for each in diagnosis["visibility"] if each["effect"].endswith("-2")]
+
+
 def test_search_for_the_second_begins_at_another_place() -> None:
     first, second = _JOINT.grid(_DESIGN), _JOINT.repeated(2).grid(_DESIGN)
     assert first[0] != second[0]  # else nothing would tell the two apart where a model is checked

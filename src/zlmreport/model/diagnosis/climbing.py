@@ -15,6 +15,7 @@ from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
     MemberKey,
     find_installed_name,
+    find_one_before,
     find_score,
     list_beside,
     make_member,
@@ -77,6 +78,10 @@ class Climb:
         self._ends: dict[_State, EffectSet] = {}
         # What was tried already: sets with one effect more.
         self._more: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
+        # Of an effect that may be there several times, the one before each.
+        names = {each.identifier for each in self._contest.families}
+        before = {each.identifier: find_one_before(each.effect) for each in self._contest.families}
+        self._before = {name: one for name, one in before.items() if one in names}
 
     def climb(self, start: EffectSet, scope: Scope, *, is_thorough: bool = False) -> EffectSet:
         """Return the best set that moves lead to, one after another.
@@ -138,6 +143,7 @@ class Climb:
     def _list_leading(self, now: EffectSet, scope: Scope, listed: int) -> Iterator[tuple[Family, int, float]]:
         """Yield the families that would add most, with and without the nameless parts."""
         contest, seen = self._contest, set()
+        present = {each.identifier for each in now.members}
         for amplitudes in dict.fromkeys((now.amplitudes, contest.as_noise(now.amplitudes))):
             scan = contest.scan(amplitudes, now.columns_with_tangents)
             names: set[str] = set()
@@ -146,6 +152,8 @@ class Climb:
                 if not np.isfinite(scan.criterion[number]) or len(names) == listed:
                     break
                 if family.identifier in names or not scope.is_open_to(family):
+                    continue
+                if self._before.get(family.identifier, "") not in {"", *present}:  # no second without a first
                     continue
                 names.add(family.identifier)
                 if choice not in seen:

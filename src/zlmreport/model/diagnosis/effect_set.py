@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from zlmreport.job.effect_choices import part_number
+from zlmreport.job.effect_choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes
@@ -92,6 +92,12 @@ def make_member(family: Family, block: int, spread: float) -> SetMember:
 def find_installed_name(effect: Effect) -> str:
     """Return the name of an effect by which it is installed, whichever time it stands in a model."""
     return part_number(effect.identifier)[0] if effect.several else effect.identifier
+
+
+def find_one_before(effect: Effect) -> str:
+    """Return the name of the first, for an effect that is there for the second time; empty for the first."""
+    name, number = part_number(effect.identifier) if effect.several else (effect.identifier, 1)
+    return number_effect(name, number - 1) if number > 1 else ""
 
 
 def list_names(members: Sequence[SetMember]) -> frozenset[str]:

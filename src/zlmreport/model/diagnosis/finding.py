@@ -7,7 +7,7 @@ it where the odds between them are less than twenty to one.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Set as AbstractSet
+from collections.abc import Iterable, Iterator, Sequence, Set as AbstractSet
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -130,6 +130,9 @@ class _Stated:
 
     fitted: Fit
     forms: tuple[Effect, ...]
+    seconds: tuple[
+        Effect, ...
+    ]  #: Of what is looked for run by run: it may be there twice from the beginning.
     expected: PriorExpectation | None
     may_go: frozenset[str]
     is_left: bool
@@ -157,10 +160,12 @@ class _Stated:
             *(form for each in going if each.several for form in each.forms()),
             *(list_effects_to_try(fitted.model, fitted.design, several).forms if going else ()),
         ]
+        forms = (*entered, *(each for each in further if each.identifier not in names))
         is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
         return cls(
             fitted,
-            (*entered, *(each for each in further if each.identifier not in names)),
+            forms,
+            tuple(_list_seconds(AxisModel(own), forms, fitted.design)),
             expected.in_units_of(fitted.noise.sigma) if expected else None,
             may_go,
             is_left,
@@ -177,7 +182,7 @@ class _Stated:
         return Contest.of(
             self.fitted.design,
             self.base,
-            self.forms,
+            (*self.forms, *self.seconds),
             self.fitted.open_deviation,
             weights=self.fitted.noise.weights,
             memory=memory,
@@ -200,6 +205,21 @@ class _Stated:
             expected=self.expected,
         )
         return SetSearch(contest).make_bare_set().score
+
+
+def _list_seconds(model: AxisModel, forms: Sequence[Effect], design: Design) -> list[Effect]:
+    """Return a second form of each effect that is looked for run by run, and may be there several times.
+
+    Of two displaced runs neither explains as much by itself as a curve that displaces all, so that a second
+    which is looked for once the first is known comes too late. There are few runs: this costs little.
+    """
+    runs, names = len(np.unique(design.run)), {each.identifier for each in forms}
+    seconds = [
+        model.with_effect(each).take_next_of(each)
+        for each in forms
+        if each.several and len(each.searched) == 1 and len(each.grid(design)) <= runs
+    ]
+    return [each for each in seconds if each.identifier not in names]
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +247,10 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     reduced = contest.reduce_set(start.amplitudes, start.columns)
     sigma = float(np.sqrt(reduced.squares / contest.space.degrees))
     noise = Noise(sigma, contest.list_noise_ratios(start.amplitudes), fitted.noise.weights)
-    visible = judge_visibility(contest, null, reduced, sigma)
+    seconds = {each.identifier for each in stated.seconds}  # seen as well as the first
+    visible = tuple(
+        each for each in judge_visibility(contest, null, reduced, sigma) if each.effect not in seconds
+    )
     told(0.2)
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):

@@ -82,7 +82,11 @@ def list_parts_of(
         may_be_more = with_nameless and each.source is not NoiseSource.TIME
         further = tuple(level for level in _IRREGULAR if may_be_more and level > each.ratios[-1])
         free = _compute_noise_costs(each, expected)
-        price = _PRICE_OF_GEOMETRY if is_irregular else PRICE
+        prices = tuple(
+            # Large geometry is the rule; runs that are all displaced by much are as rare as a large effect.
+            _PRICE_OF_GEOMETRY if is_irregular else PRICE + _compute_cost_of_size(level)
+            for level in further
+        )
         found.append(
             CovariancePart(
                 _WORDS[each.source],
@@ -90,7 +94,7 @@ def list_parts_of(
                 places,
                 irregular if is_irregular else None,
                 (*each.ratios, *further),
-                (*free, *(price + free[-1] for _ in further)),
+                (*free, *(price + free[-1] for price in prices)),
                 len(each.ratios),
                 each.source,
             )

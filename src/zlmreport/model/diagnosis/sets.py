@@ -492,7 +492,8 @@ class SetSearch:
             for start in (rest, beside)
             for each in self._climbs.look_ahead(start, others, BROAD, found.score + within + PROMISING)
         ]
-        near = sorted((*tried, *self._list_seen_instead(found, rest)), key=find_score, reverse=True)
+        seen = map(self.renumber, self._list_seen_instead(found, rest))
+        near = sorted((*tried, *seen), key=find_score, reverse=True)
         best = {each.members[-1].identifier: each for each in near if each.score < found.score + within}
         return sorted(best.values(), key=find_score)
 
