@@ -139,8 +139,20 @@ def test_readings_that_stay_the_same_from_target_to_target_are_of_an_instrument_
     )
 
 
+@pytest.mark.parametrize("count", [1, 2, 7])
+def test_few_readings_show_no_fault_though_all_are_the_same(count: int) -> None:
+    few = np.arange(count)
+    assert _kinds(select_readings(_DESIGN, few), np.full(count, 1e-6)) == []
+
+
 def test_coarse_instrument_repeats_itself_and_has_not_stood_still() -> None:
     assert _kinds(_DESIGN, np.round(noise(_DESIGN, sigma=4e-7), 6)) == []
+
+
+def test_coarse_instrument_reads_the_same_along_a_stretch_without_error_and_has_not_stood_still() -> None:
+    design = linear_test(41, 5)
+    worn = np.maximum(design.position - 0.5, 0.0) * 1e-4 + noise(design, sigma=5e-8)
+    assert _kinds(design, np.round(worn, 6)) == []
 
 
 def test_run_in_another_unit_is_not_told_as_scatter_of_the_whole_too() -> None:

@@ -403,18 +403,23 @@ def _compute_distances_from_neighbours(targets: FloatArray, means: FloatArray) -
 def _find_stuck_readings(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield where readings stay the same, digit for digit, while the axis goes from target to target.
 
-    A coarse instrument repeats itself as well: how often it does elsewhere says how long it may by chance.
+    A coarse instrument repeats itself as well: how often it does elsewhere says how long it may by chance,
+    and where the axis has no error it reads the same in most other runs, too.
     """
     has_moved = np.diff(design.target) != 0
     stretch = np.concatenate([[0], np.cumsum(np.diff(deviation) != 0)])
     repeats = np.bincount(stretch[1:], weights=has_moved & (np.diff(stretch) == 0))
-    longest, count = int(np.argmax(repeats)), int(repeats.max(initial=0))
+    count = int(repeats.max(initial=0))
     elsewhere = int(has_moved.sum()) - count
     share = min(1.0, max(int(repeats.sum()) - count, 1) / max(elsewhere, 1))
     if count < _FEWEST_EQUAL or len(deviation) * share**count > _BY_CHANCE:
         return
-    readings = np.flatnonzero(stretch == longest)
+    stands = stretch == np.argmax(repeats)
+    readings = np.flatnonzero(stands)
     first = int(readings[0])
+    beside = deviation[np.isin(design.target, design.target[readings]) & ~stands]
+    if np.count_nonzero(beside == deviation[first]) > _CLEAR * len(beside):
+        return
     statement = _STUCK_READINGS.given(count=len(readings), reading=wording.reading_at(design, first))
     yield DataFault(
         FaultKind.STUCK_SENSOR, int(design.cycle[first]), 1.0, statement, _LEAVE_EMPTY, explains=True
