@@ -36,6 +36,7 @@ _NEVER_OF_ONE = (
     "{name}: not logged at the",  # six at least
     "{name}: the same in every digit over {hours} h, at {count} readings",
     "{column} stands still during the last {count} readings",
+    "{count} readings one after another are the same, digit for digit",  # seven at least
     "{gone} of {before} jobs are gone since the last night; look whether that is meant",
     "{missing} of {all} visits of the plan",
     "{readings} readings were averaged",

@@ -162,7 +162,7 @@ class LateralPlay(CircleEffect):
         """Say which axis shifts sideways, and how far."""
         for each in estimates:
             if abs(each.value) > each.expanded_uncertainty:
-                value, u = write_pair(each)
+                value, u = write_pair(each, each.value)
                 yield _SHIFTS.given(axis=each.name, value=value, u=u)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
