@@ -56,6 +56,16 @@ def test_two_displaced_runs_are_found_together_where_a_curve_that_displaces_all_
     assert not [each for each in diagnosis["visibility"] if each["effect"].endswith("-2")]
 
 
+def test_of_two_displaced_runs_that_are_not_sure_each_goes_by_itself() -> None:
+    """Both have one name: a set with both was taken for the set with one, without end."""
+    random, displaced = np.random.default_rng([10, 7, 1, 5]), np.zeros((7, 1))
+    displaced[1], displaced[5] = 10.0, -8.0
+    up, down = random.normal(0, 1, (7, 11)) - 2, random.normal(0, 1, (7, 11)) + 2
+    test = z.test(np.linspace(0, 500, 11), up + displaced, down + displaced)
+    diagnosis = z.fit(test, ["offset", "backlash"]).diagnose().to_dict()
+    assert diagnosis["remainder"]["shape"] == "every run displaced as a whole"
+
+
 def test_search_for_the_second_begins_at_another_place() -> None:
     first, second = _JOINT.grid(_DESIGN), _JOINT.repeated(2).grid(_DESIGN)
     assert first[0] != second[0]  # else nothing would tell the two apart where a model is checked

@@ -169,7 +169,8 @@ def _find_names_instead(search: SetSearch, found: EffectSet) -> NamesInstead | N
     if instead is None:
         return None
     (alone, lacking), own = instead, list_names(found.named)
-    further = tuple(each.effect for each in alone.named if find_installed_name(each.effect) not in own)
+    named = search.renumber(alone).named
+    further = tuple(each.effect for each in named if find_installed_name(each.effect) not in own)
     return NamesInstead(further, float(np.exp(-0.5 * lacking)))
 
 

@@ -399,7 +399,12 @@ class SetSearch:
     def find_best_holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
         """Return the best set with these named members alone; what has no name as it then is."""
         names = list_names(kept)
-        known = [each for (own, _), each in self._sets.best.items() if own == names]
+        # Two displaced runs have one name: a set with both is no set with one.
+        known = [
+            each
+            for (own, _), each in self._sets.best.items()
+            if own == names and len(each.named) == len(kept)
+        ]
         return min(
             (self._sets.score_near((*kept, *found.unnamed), found.amplitudes, self._whole.levels), *known),
             key=find_score,
