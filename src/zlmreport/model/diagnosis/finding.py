@@ -130,9 +130,8 @@ class _Stated:
 
     fitted: Fit
     forms: tuple[Effect, ...]
-    seconds: tuple[
-        Effect, ...
-    ]  #: Of what is looked for run by run: it may be there twice from the beginning.
+    #: Second forms of effects that are looked for run by run: they may be there twice from the beginning.
+    seconds: tuple[Effect, ...]
     expected: PriorExpectation | None
     may_go: frozenset[str]
     is_left: bool
