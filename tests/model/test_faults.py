@@ -149,8 +149,13 @@ def test_coarse_instrument_repeats_itself_and_has_not_stood_still() -> None:
     assert _kinds(_DESIGN, np.round(noise(_DESIGN, sigma=4e-7), 6)) == []
 
 
-def test_coarse_instrument_reads_the_same_along_a_stretch_without_error_and_has_not_stood_still() -> None:
-    design = linear_test(41, 5)
+@pytest.mark.parametrize("directions", [(1.0, -1.0), (1.0,)])
+@pytest.mark.parametrize("runs", [1, 5])
+def test_coarse_instrument_reads_the_same_along_a_stretch_without_error_and_has_not_stood_still(
+    runs: int, directions: tuple[float, ...]
+) -> None:
+    whole = linear_test(41, runs)
+    design = select_readings(whole, np.flatnonzero(np.isin(whole.direction, directions)))
     worn = np.maximum(design.position - 0.5, 0.0) * 1e-4 + noise(design, sigma=5e-8)
     assert _kinds(design, np.round(worn, 6)) == []
 

@@ -95,7 +95,7 @@ def find_installed_name(effect: Effect) -> str:
 
 
 def find_one_before(effect: Effect) -> str:
-    """Return the name of the first, for an effect that is there for the second time; empty for the first."""
+    """Return the name of the one before an effect that is there again; empty for the first."""
     name, number = part_number(effect.identifier) if effect.several else (effect.identifier, 1)
     return number_effect(name, number - 1) if number > 1 else ""
 

@@ -404,7 +404,7 @@ def _find_stuck_readings(design: Design, deviation: FloatArray) -> Iterator[Data
     """Yield where readings stay the same, digit for digit, while the axis goes from target to target.
 
     A coarse instrument repeats itself as well: how often it does elsewhere says how long it may by chance,
-    and where the axis has no error it reads the same in most other runs, too.
+    and where the axis has no error it reads the same in most other runs, too; without any nobody can say.
     """
     has_moved = np.diff(design.target) != 0
     stretch = np.concatenate([[0], np.cumsum(np.diff(deviation) != 0)])
@@ -418,7 +418,7 @@ def _find_stuck_readings(design: Design, deviation: FloatArray) -> Iterator[Data
     readings = np.flatnonzero(stands)
     first = int(readings[0])
     beside = deviation[np.isin(design.target, design.target[readings]) & ~stands]
-    if np.count_nonzero(beside == deviation[first]) > _CLEAR * len(beside):
+    if not len(beside) or np.count_nonzero(beside == deviation[first]) > _CLEAR * len(beside):
         return
     statement = _STUCK_READINGS.given(count=len(readings), reading=wording.reading_at(design, first))
     yield DataFault(
