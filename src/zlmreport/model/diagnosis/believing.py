@@ -87,13 +87,27 @@ def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
     Where several could stand in a place, it is their evidence together that something stands there.
     """
     while found.members:
-        without = [search.without(found, number) for number in range(len(found.members))]
+        without = [_leave_out(search, found, number) for number in range(len(found.members))]
         order = sorted(range(len(without)), key=lambda each: without[each].score)
         needless = next((each for each in order if not _is_needed(search, found, each, without[each])), None)
         if needless is None:
             break
         found = without[needless]
     return found
+
+
+def _leave_out(search: SetSearch, found: EffectSet, number: int) -> EffectSet:
+    """Return a set without one of its members, beside a curve only where noise alone does not do.
+
+    Where names explain all, a curve in the place of one of them may gain next to nothing. That none is better
+    than the other says little for the name: the readings ask for neither.
+    """
+    rest = search.without(found, number)
+    if search.has_nameless(rest) and not search.has_nameless(found):
+        quiet = search.settle_beside_noise(rest)
+        if quiet.score < found.score + NAMED_BESIDE:
+            return quiet
+    return rest
 
 
 def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:

@@ -206,19 +206,24 @@ class Climb:
             larger = self._find_larger(each, scope, _SECOND)
             if larger is not None and larger.score < now.score - _CLEAR_GAIN:
                 return larger
-        for each in self._list_pairs(now):
+        for each in self.look_ahead_by_pairs(now, len(self._contest.families)):
             larger = self._sets.settle(self._try_out(each, scope), scope.levels)
             if larger.score < now.score - _CLEAR_GAIN:
                 return larger
         return None
 
-    def _list_pairs(self, now: EffectSet) -> list[EffectSet]:
-        """Return the most promising sets with two more installed effects, the best first."""
+    def look_ahead_by_pairs(self, now: EffectSet, firsts: int, limit: float = np.inf) -> list[EffectSet]:
+        """Return the most promising sets with two more installed effects, the best first.
+
+        `firsts`: How many of those that explain most by themselves are one of the two at most.
+        `limit`: The score before any refinement beyond which none is promising.
+        """
         listed, tried = BROAD
-        best = list_pairs(self._contest, now)[:listed]
-        return sorted((self._sets.glance_at(each.members, each.amplitudes) for each in best), key=find_score)[
-            :tried
+        glanced = [
+            self._sets.glance_at(each.members, each.amplitudes)
+            for each in list_pairs(self._contest, now, firsts)[:listed]
         ]
+        return sorted((each for each in glanced if each.score < limit), key=find_score)[:tried]
 
 
 def _make_state(now: EffectSet, scope: Scope, *, is_thorough: bool) -> _State:

@@ -188,6 +188,9 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     run = find_single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
     is_left = run is not None or not _is_perhaps_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
+    if finding.makeshift and not finding.named:
+        # What only a curve without a name would replace stays: asked is what is left beside it.
+        finding = find(fitted, asked.effects, asked.expected, is_left=is_left)
     complete, named = _complete(fitted, finding.named, finding.makeshift)
     finding = replace(finding, named=named)
     after = error if complete is fitted else compute_error_numbers(complete)

@@ -13,17 +13,22 @@ from zlmreport.model.diagnosis.effect_set import EffectSet, find_score, list_bes
 from zlmreport.model.diagnosis.families import Family
 
 
-def list_pairs(contest: Contest, now: EffectSet) -> list[EffectSet]:
+def list_pairs(contest: Contest, now: EffectSet, firsts: int) -> list[EffectSet]:
     """Return sets with two more installed effects, the best first; their scores are those of the scans alone.
 
-    Every effect is tried beside every other, at the values that are best for the first by itself.
+    Every effect is tried beside others, at the values that are best for the first by itself.
+
+    `firsts`: How many of those that explain most by themselves are the first at most.
     """
     found: dict[frozenset[str], EffectSet] = {}
+    named = np.array([each.is_named for each in contest.families])
     for amplitudes in dict.fromkeys((contest.as_noise(now.amplitudes), contest.quiet)):
         first = contest.scan(amplitudes, now.columns)
-        for number, family in enumerate(contest.families):
-            if not family.is_named or not np.isfinite(first.criterion[number]):
-                continue
+        criterion = np.where(named, first.criterion, np.inf)
+        for number in np.argsort(criterion, kind="stable")[:firsts].tolist():
+            family = contest.families[number]
+            if not np.isfinite(criterion[number]):
+                break
             member = make_member(family, int(first.best[number]), float(first.spread[number]))
             members = (*list_beside(now.members, member.effect), member)
             second = contest.scan(amplitudes, [each.columns for each in members])

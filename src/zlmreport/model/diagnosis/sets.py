@@ -41,6 +41,8 @@ from zlmreport.model.effects.effect import Effect
 _MOST_ALONE, _NEAR = 5, 40.0
 #: Of forms that may stand for two names how many a scan brings, and how many of these are tried.
 _FOR_TWO: Breadth = (3, 1)
+#: How many of those that explain most are tried with another in the place of one.
+_FIRSTS = 12
 #: How many of the sets of names alone that were passed are looked at so.
 _MOST_PASSED = 3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
@@ -86,7 +88,8 @@ class SetSearch:
         released = self._begin_with_forms(start, released, beside)
         if not self._list_loud(released):
             released = self._climb(released, self._whole, is_thorough=True)
-            released = self._put_forms_for_two(self._do_without_each(released, self._whole))
+            released = self._put_pairs_for_one(self._do_without_each(released, self._whole))
+            released = self._put_forms_for_two(released)
             is_whole = 0 < len(released.named) <= _FEW and not self._climbs.is_coloured(released)
             if is_whole and min(self.compute_own_evidence(released)) > _SURE:
                 return released
@@ -155,7 +158,25 @@ class SetSearch:
                 if each.score < best.score + within:
                     end = self._release(self._do_without_each(each, scope))
                     best = min(best, self._climb(end, self._whole), key=find_score)
-        return self._do_without_each(best, self._whole)
+        return self._put_pairs_for_one(self._do_without_each(best, self._whole))
+
+    def _put_pairs_for_one(self, now: EffectSet) -> EffectSet:
+        """Return where climbs lead in which two names have the place of one, as long as one ends higher.
+
+        Lost motion that settles after each reversal, and a constant one, are much like a bow of it: beside
+        that bow neither is needed, and neither by itself takes its place.
+        """
+        while True:
+            tried = (
+                self._climbs.look_ahead_by_pairs(now.without(number), _FIRSTS, now.score + PROMISING)
+                for number, each in enumerate(now.members)
+                if each.family.is_named
+            )
+            settled = (self._sets.settle(each, self._whole.levels) for each in chain.from_iterable(tried))
+            better = next((each for each in settled if each.score < now.score - GAIN), None)
+            if better is None:
+                return now
+            now = min(better, self._climb(better, self._whole), key=find_score)
 
     def _begin_anew(self, best: EffectSet, scopes: Sequence[Scope]) -> EffectSet:
         """Return the best of a set and of where climbs lead that begin with nothing.
@@ -421,6 +442,10 @@ class SetSearch:
         if key not in self._fewer:
             self._fewer[key] = self._find_best_values(self._release(fewer))
         return self._fewer[key]
+
+    def settle_beside_noise(self, found: EffectSet) -> EffectSet:
+        """Return a set at its best values beside nothing but noise."""
+        return self._sets.settle(self._begin(found.members, self._names), self._names.levels)
 
     def _find_best_values(self, found: EffectSet) -> EffectSet:
         """Return the best of a set as it is, as it becomes once it is settled, and as it was met before."""
