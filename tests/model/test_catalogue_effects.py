@@ -131,7 +131,7 @@ def test_what_states_a_parameter_must_be_made_of_keys(stated: str, sentence: str
             {"axis": replace(AXIS, compensation_table=None)},
             "does not state axis.compensation_table",
         ),
-        ("a*air_index", {"conditions": {}}, "air_temperature, air_pressure, relative_humidity"),
+        ("a*air_index", {"conditions": {}}, "no columns air_temperature, air_pressure were"),
         ("a*oil", {}, "no column oil was logged"),
         ("a*t/(100*t + t^2/t)", {"time": np.zeros(len(_DESIGN.time))}, "no time passes"),
         ("a*wave(P/turn)", {}, "it belongs to rotary axes"),

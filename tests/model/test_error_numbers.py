@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from model.axis_tests import linear_test, model_of, noise
+from model.worlds import with_night
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.fitting.fit import Fit, fit
 
@@ -36,3 +37,10 @@ def test_an_effect_that_is_added_leaves_no_larger_sum_of_squares(effect: str) ->
 def test_independent_readings_leave_what_the_fit_leaves() -> None:
     fitted = fit(model_of("offset", "scale-error"), _DESIGN, noise(_DESIGN))
     assert compute_error_numbers(fitted).rms == pytest.approx(fitted.rms, rel=0.01)
+
+
+def test_a_run_is_predicted_by_others_among_which_there_is_no_pause() -> None:
+    design = with_night(linear_test(9, 3), run=2)
+    grown = 3e-6 * design.position * (design.run == 3)
+    fitted = fit(model_of("offset", "growth-after-pause"), design, grown + noise(design, sigma=3e-7))
+    assert compute_error_numbers(fitted).cross_validated_rms > fitted.rms

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import linear_test, observations
+from model.axis_tests import EFFECTS, linear_test, observations
 from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import MOST_TARGETS, make_observations_of, thin
@@ -139,3 +139,18 @@ def test_readings_that_are_set_aside_leave_the_span_as_it_is() -> None:
     left = found.without(first_target)
     assert left.design.span == found.design.span
     assert len(left.deviation) == len(found.deviation) - len(first_target)
+
+
+def test_a_humidity_that_was_not_logged_is_taken_to_stay_and_this_is_said() -> None:
+    air = {
+        "air_temperature": np.full(len(TEST.deviation), 293.15),
+        "air_pressure": np.linspace(1e5, 1.003e5, len(TEST.deviation)),
+    }
+    dry = replace(TEST, conditions=air)
+    assert "No relative humidity was logged" in _said(dry)
+    assert "No relative humidity" not in _said(TEST)
+    humid = replace(dry, conditions={**air, "relative_humidity": np.full(len(TEST.deviation), 0.5)})
+    effect, theta = EFFECTS["air-index"], np.empty(0)
+    columns, same = (effect.columns(make_observations_of(each).design, theta) for each in (dry, humid))
+    assert effect.untestable(make_observations_of(dry).design) is None
+    assert columns == pytest.approx(same, rel=1e-12)

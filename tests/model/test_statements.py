@@ -13,6 +13,7 @@ from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder
 from zlmreport.model.diagnosis.report import write_statement_after_build, write_verdict_statement
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.plugin import MILLIMETRE, Language, same_in_all_languages as same
 
 LEFT = Remainder(
@@ -143,9 +144,25 @@ def test_what_is_large_is_asked_after_its_name() -> None:
 
 
 def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
-    assert said(verdict=DiagnosisVerdict.ADEQUATE).startswith(
+    assert said(verdict=DiagnosisVerdict.ADEQUATE, failures=()).startswith(
         "The model describes the readings: nothing is left"
     )
+
+
+def test_an_order_that_no_cause_has_is_told_with_the_error_that_it_leaves() -> None:
+    example = example_diagnosis()
+    error = replace(example.error, rms=5.54e-7, noise_rms=4.5e-7, chi2_per_dof=1.2)
+    order = Failure(ResidualTest.TIME_ORDER, 0.002, same("by the end"), same("something moves with time"))
+    assert said(verdict=DiagnosisVerdict.ADEQUATE, error=error, error_after=error, failures=(order,)) == (
+        "The model describes the readings as far as their scatter lets it be seen: the error is 0.55 µm, "
+        "over a noise of 0.45 µm. Yet something moves with time."
+    )
+
+
+@pytest.mark.parametrize("test", [ResidualTest.SPREAD, ResidualTest.OUTLIERS])
+def test_unequal_scatter_makes_a_model_no_less_adequate(test: ResidualTest) -> None:
+    scatter = Failure(test, 0.002, same("run 2"), same("the readings scatter unequally"))
+    assert "Yet" not in said(verdict=DiagnosisVerdict.ADEQUATE, failures=(scatter,))
 
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
@@ -191,7 +208,8 @@ def test_parts_at_one_place_are_told_with_it_once() -> None:
 def test_a_model_of_which_few_readings_tell_no_more_is_not_said_to_leave_nothing() -> None:
     example = example_diagnosis()
     error = replace(example.error, rms=3.83e-6, noise_rms=3.08e-6, chi2_per_dof=1.58)
-    assert said(verdict=DiagnosisVerdict.ADEQUATE, error=error, error_after=error, lasting_noise=None) == (
+    few = {"error": error, "error_after": error, "lasting_noise": None, "failures": ()}
+    assert said(verdict=DiagnosisVerdict.ADEQUATE, **few) == (
         "The model describes the readings as far as their scatter lets it be seen: the error is 3.8 µm, over "
         "a noise of 3.1 µm."
     )

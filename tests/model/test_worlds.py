@@ -150,3 +150,13 @@ def test_values_of_a_set_are_those_beside_the_others_of_it() -> None:
     values = {each.identifier: each.estimates[0] for each in found.candidates}
     for name, true in (("scale-error", slope), ("scale-kink", kink)):
         assert abs(values[name].value - true) < values[name].expanded_uncertainty
+
+
+@pytest.mark.parametrize("seed", [1, 6])
+def test_a_steady_drift_is_a_drift_whose_end_nobody_saw(seed: int) -> None:
+    design = linear_test(21, 5)
+    drift = 4e-6 * design.time / design.duration
+    scatter = np.random.default_rng(seed).normal(0.0, 2.5e-7, len(design.time))
+    found = diagnosed(model_of("offset"), design, drift - 1e-6 * design.direction + scatter)
+    assert {each.identifier for each in found.together} == {"thermal-drift", "backlash"}
+    assert found.remainder is None

@@ -84,6 +84,7 @@ class Search(StrEnum):
 
     FADING_LENGTH = "fading-length"  #: Shares of the travel, from a hundredth to a fifth.
     TIME_CONSTANT = "time-constant"  #: Shares of the test's time, from a twentieth to one and a half.
+    DRIFT_TIME = "drift-time"  #: The same, and so long a one that what drifts does so steadily.
     WAVE_LENGTH = "wave-length"  #: From one wave in the travel to half as many as there are targets.
     WAVE_TIME = "wave-time"  #: From one wave in the test to nine.
     JOINT = "joint"  #: Between any two targets but the outermost.

@@ -20,7 +20,7 @@ from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder, RemainderPart
-from zlmreport.model.diagnosis.residuals import Failure
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
@@ -56,6 +56,7 @@ _ADEQUATE_SO_FAR = Words(
     "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
     "noise of {noise}."
 )
+_YET = Words("{statement} Yet {failure}.")
 _UNEXPLAINED = Words("Something is left that no installed effect explains.")
 _SHAPE = Words(
     "Something is left that no installed effect explains: {shape}, {where}; root mean square {size}."
@@ -71,6 +72,8 @@ _LESS_LIKELY = Words("{statement} Less likely, at odds of {odds}, it is {effects
 _ODDS = Words("{those} to {this}")
 _IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
 _TWO = Words("{one} {other}")
+#: Tests of how readings scatter: what they find is no part of the model.
+_OF_SCATTER = {ResidualTest.SPREAD, ResidualTest.OUTLIERS}
 _NOT_SURE = Words("{statement} Not sure: {chances}; else another effect, or something without a name.")
 _CHANCE = Words("{effects} {share} %")
 
@@ -371,13 +374,18 @@ def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Word
 
 
 def _say_adequate(diagnosis: AxisDiagnosis) -> Words:
-    """Return that nothing is missing; where few readings leave that open, with the error beside noise."""
+    """Return that nothing is missing; where that is open, with the error beside noise.
+
+    It is open where readings are few, and where the residuals have an order that is too small for a cause.
+    """
     floor, axis = diagnosis.error.noise_rms, diagnosis.fit.design.axis
-    if diagnosis.leaves_noise or floor is None:
+    order = next((each for each in diagnosis.failures if each.test not in _OF_SCATTER), None)
+    if floor is None or (diagnosis.leaves_noise and order is None):
         return _ADEQUATE
-    return _ADEQUATE_SO_FAR.given(
+    statement = _ADEQUATE_SO_FAR.given(
         error=wording.deviation(axis, diagnosis.error.rms), noise=wording.deviation(axis, floor)
     )
+    return statement if order is None else _YET.given(statement=statement, failure=order.statement)
 
 
 def list_chances(doubts: Iterable[Doubt]) -> Words:

@@ -15,7 +15,6 @@ from zlmreport.job.types import Options
 from zlmreport.language import Words, named, same
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurement_set import STATE_OF_AIR
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import (
     CHOSEN_RANGES,
@@ -40,7 +39,7 @@ from zlmreport.model.effects.effect import (
 )
 from zlmreport.model.effects.formula_settings import OTHER, list_tried_settings, make_options_of
 from zlmreport.model.effects.harmonic import make_harmonic_parameters
-from zlmreport.model.effects.readings import collect_readings_of, find_logged_rise
+from zlmreport.model.effects.readings import LOGS_OF_AIR, collect_readings_of, find_logged_rise
 from zlmreport.model.effects.searching import COUNTED, NOT_REFINED, choose_values_of, search_grid
 
 #: Steps that find a joint between two positions, each to half the distance.
@@ -215,7 +214,7 @@ class FormulaEffect(Effect):
         needs, names = self.keys.needs, self.formula.names
         logs = (
             *self.formula.columns,
-            *(STATE_OF_AIR if "air_index" in names else ()),
+            *(LOGS_OF_AIR if "air_index" in names else ()),
             *(("v",) if "v" in names else ()),
         )
         return (

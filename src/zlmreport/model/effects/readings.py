@@ -12,10 +12,13 @@ from zlmreport.job.formula import UnitOf, find_column_of
 from zlmreport.job.formula_parts import AXIS_KEYS
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import PositionTable
-from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR
-from zlmreport.measurement.refractive_index import index_change
+from zlmreport.measurement.measurement_set import CONDITIONS
+from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, index_change
 from zlmreport.model.effects.design import Design
 
+#: Logs by which the refractive index of air is known: 30 % of relative humidity change it by 0.26 µm/m, as
+#: much as 1 hPa, so that it may stay where none was logged.
+LOGS_OF_AIR = ("air_temperature", "air_pressure")
 #: Logged temperatures of what carries the position.
 _TEMPERATURES = ("axis_temperature", "screw_temperature", "material_temperature")
 
@@ -57,6 +60,13 @@ def _read_compensation(design: Design, rows: int) -> FloatArray:
     return table.at(places, design.direction)
 
 
+def _compute_index_change(design: Design) -> FloatArray:
+    """Return the change of the air's index, with a humidity that stays where none was logged."""
+    temperature, pressure = (design.conditions[name] for name in LOGS_OF_AIR)
+    humidity = design.conditions.get("relative_humidity", np.full_like(temperature, STANDARD_HUMIDITY))
+    return index_change(temperature, pressure, humidity)
+
+
 _OF_DESIGN: Mapping[str, Callable[[Design], FloatArray | float]] = MappingProxyType(
     {
         "P": lambda design: design.position,
@@ -69,7 +79,7 @@ _OF_DESIGN: Mapping[str, Callable[[Design], FloatArray | float]] = MappingProxyT
         "travel_first": lambda design: (design.axis.travel or design.span)[0],
         "travel_last": lambda design: (design.axis.travel or design.span)[1],
         "turn": lambda _: 2 * np.pi,
-        "air_index": lambda design: index_change(*(design.conditions[name] for name in STATE_OF_AIR)),
+        "air_index": _compute_index_change,
         "compensation": lambda design: _read_compensation(design, 0),
         "compensation_next": lambda design: _read_compensation(design, 1),
         "compensation_before": lambda design: _read_compensation(design, -1),

@@ -301,7 +301,8 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
     What depends on position alone is repeated in every run, so this number is too kind to it. It is one to
     watch, not one to rank by.
 
-    `thetas`: Searched parameters of the whole test; refined anew without each run.
+    `thetas`: Searched parameters of the whole test; refined anew without each run, as far as
+        the others tell them.
     """
     cycle = design.cycle
     runs = np.unique(cycle)
@@ -313,8 +314,10 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
         kept = np.flatnonzero(cycle != run)
         independent = make_root((), Noise(1.0, {}, np.ones(len(kept))))
         problem = FitProblem(model, select_readings(design, kept), deviation[kept], independent)
-        start = problem.solve_at(thetas)
-        found = refine(problem, start, _SETTLED * start.squares)
+        found = problem.solve_at(thetas)
+        # Without the run after a pause there is no pause, and nothing is known of what happens in it.
+        if all(each.effect.untestable(problem.design) is None for each in model.terms):
+            found = refine(problem, found, _SETTLED * found.squares)
         predicted = _compute_value(model, select_readings(design, left_out), found)
         squares += float(np.sum((deviation[left_out] - predicted) ** 2))
     return float(np.sqrt(squares / len(deviation)))

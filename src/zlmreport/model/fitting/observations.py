@@ -14,6 +14,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.model_error import ModelError
+from zlmreport.model.effects.readings import LOGS_OF_AIR
 
 #: Noise of a log, as a share of its variation, from which on effects cannot be told by it.
 _NOISY = 0.2
@@ -37,6 +38,9 @@ _NOISE = Words(
     "be taken for others."
 )
 _RESOLUTION = Words("The log of {condition} is coarse: its resolution is {share} of its range.")
+_DRY = Words(
+    "No relative humidity was logged: where an effect follows the air's index, it is taken to stay as it is."
+)
 _DEGREE = 3
 _MOST_INTERVALS = 40
 _READINGS_PER_INTERVAL = 4
@@ -131,6 +135,8 @@ def make_observations_of(measurements: MeasurementSet, *, overrun: float | None 
             remarks.extend(_find_doubts(name, values, smooth.noise, smooth.variation))
             values = smooth.values
         conditions[name] = read_only_floats(values)
+    if "relative_humidity" not in conditions and conditions.keys() >= {*LOGS_OF_AIR}:
+        remarks.append(_DRY)
     design = Design(
         axis=axis,
         position=read_only_floats(position[present]),
