@@ -367,13 +367,13 @@ def test_two_of_which_neither_explains_anything_alone_are_a_pair() -> None:
     readings = SIGMA * bent / bent.std() + noise(design)
     names = ("backlash", "abbe", "first-run", "scale-error", "thermal-drift")
     contest = _contest(readings, design, tuple(EFFECTS[name] for name in names))
-    best = list_pairs(contest, SetSearch(contest).make_bare_set())[0]
+    best = list_pairs(contest, SetSearch(contest).make_bare_set(), len(contest.families))[0]
     assert _names(best) == {"abbe", "scale-error"}
 
 
 def test_a_single_effect_makes_no_pair() -> None:
     contest = _contest(_hiding(("backlash", [])), effects=(EFFECTS["backlash"],))
-    assert list_pairs(contest, SetSearch(contest).make_bare_set()) == []
+    assert list_pairs(contest, SetSearch(contest).make_bare_set(), len(contest.families)) == []
 
 
 def test_what_a_polynomial_shares_with_the_model_is_no_column_of_a_set() -> None:

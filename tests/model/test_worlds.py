@@ -160,3 +160,36 @@ def test_a_steady_drift_is_a_drift_whose_end_nobody_saw(seed: int) -> None:
     found = diagnosed(model_of("offset"), design, drift - 1e-6 * design.direction + scatter)
     assert {each.identifier for each in found.together} == {"thermal-drift", "backlash"}
     assert found.remainder is None
+
+
+def test_a_name_that_noise_does_without_is_no_cause_because_a_curve_would_do_as_well() -> None:
+    """Beside four causes a kink gained as little as a curve in its place, and led the stairs of a build."""
+    random = np.random.default_rng(7)
+    for targets, readings in ((21, 210), (31, 310)):  # of the tests before it
+        random.uniform(size=targets)
+        random.standard_normal(readings)
+    places = np.round(np.clip(np.linspace(10, 990, 25) + random.uniform(-3.3, 3.3, 25), 10, 990), 3) / 1e3
+    passes = np.arange(25) * 6.0 + np.arange(10)[:, np.newaxis] * (25 * 6 + 12)
+    design = replace(linear_test(25, 5, places=places), conditions={}, time=passes.ravel())
+    place, time = design.position, design.time
+    pitch = 2e-6 * np.sin(2 * np.pi * place / 0.01 + 1)
+    growth = 12e-6 * place * (1 - np.exp(-time / 2400))
+    sound = pitch + growth + 8e-6 * place - 2e-6 * design.direction
+    found = diagnosed(model_of("offset"), design, sound + 4e-7 * random.standard_normal(len(place)))
+    names = {"scale-error", "backlash", "screw-pitch", "thermal-growth"}
+    assert {each.identifier for each in found.together} == names
+
+
+@pytest.mark.parametrize("seed", [6, 15])
+def test_lost_motion_that_settles_after_each_reversal_is_no_bow_of_it(seed: int) -> None:
+    """Neither of the two by itself takes the place of the bow, and beside it neither is needed."""
+    shifts = np.random.default_rng(5).uniform(-5e-3, 5e-3, 26)
+    places = np.clip(np.linspace(0, 0.5, 26) + shifts, 0, 0.5)
+    design = replace(linear_test(26, 5, places=places), conditions={})
+    place, up = design.position, design.direction
+    way = np.where(up > 0, place + 5e-3, 0.505 - place)
+    bow = 2e-6 * (1 - ((place - 0.25) / 0.25) ** 2)
+    scatter = np.random.default_rng(seed).normal(0, 3.5e-7, len(place))
+    found = diagnosed(model_of("offset"), design, up * (3e-6 * np.exp(-way / 0.06) - 1e-6) + bow + scatter)
+    names = {"polynomial", "backlash", "reversal-relaxation"}
+    assert {each.identifier for each in found.together} == names
