@@ -91,5 +91,10 @@ class Settings:
 
     @property
     def largest_gap(self) -> float:
-        """How far apart readings may be that count as without a gap, s."""
-        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn)
+        """How far apart readings may be that count as without a gap, s.
+
+        One of them at least must see the axis where it turns round, and that is beyond the tolerance: inside
+        it the axis is still at its target.
+        """
+        inside = 2 * self.tolerance / (FASTEST * self.feed) if self.feed else SHARE_OF_OVERRUN * self.turn
+        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn - inside)
