@@ -127,8 +127,8 @@ def list_remarks(
         yield Words(
             "The beam was broken for a moment once while the axis stood still; the display showed afterwards "
             "what it had shown before.",
-            plural="The beam was broken for a moment {number} times while the axis stood still; each time the "
-            "display showed afterwards what it had shown before.",
+            plural="The beam was broken for a moment {number} times while the axis stood still; each time "
+            "the display showed afterwards what it had shown before.",
         ).given(number=held)
     yield from _say_failed_displays(history)
     yield from _say_interruptions(history, axis)

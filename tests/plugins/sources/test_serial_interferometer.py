@@ -11,7 +11,7 @@ import pytest
 
 from installed import registry
 from live.capture.moves import MM, UM, Axis, listed, planned
-from live.capture.recording import header, recorded, written
+from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
 from zlmreport.live.capture.journal import Journal
 from zlmreport.measurement.measurement_set import MissingReading
