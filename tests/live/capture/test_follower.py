@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from live.capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed, planned
+from zlmreport.live.capture.display import DEGREES
 from zlmreport.live.capture.events import (
     Closed,
     Elsewhere,
@@ -229,7 +230,7 @@ def test_a_program_that_ends_where_it_stands_is_not_waited_for() -> None:
     assert kinds(events)[-2:] == ["visit 3", "Finished"]
 
 
-@pytest.mark.parametrize("factor", [-1.0, 25.4, 1000.0, 0.5])
+@pytest.mark.parametrize("factor", [-1.0, 25.4, 1000.0, DEGREES, 0.5])
 def test_a_display_that_reads_wrong_by_a_factor_is_known_by_it(factor: float) -> None:
     axis, follower = Axis(), following(listed(targets=(50, 100, 150)), datum=-5 * MM)
     wrong = (
