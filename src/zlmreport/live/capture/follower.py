@@ -292,12 +292,13 @@ class Follower:
     def _follow_turns(self, before: LiveReading, reading: LiveReading, zero: float, seen: float) -> None:
         """Follow where the axis turns round.
 
-        Where readings come seldom, one alone may have seen it beyond its target. That is too little to say
+        Where readings come so seldom that one alone may see it beyond its target, that is too little to say
         from which side it came back, and too much to hold a stop there for the one before.
         """
         turns = len(self._route.turns)
         self._route.follow(before, reading, zero, seen, self._settings)
-        if self._stay is not None and len(self._route.turns) > turns:
+        is_seldom = 2 * (reading.time - before.time) > self._settings.beyond
+        if is_seldom and self._stay is not None and len(self._route.turns) > turns:
             self._stay = self._stood_at = None
             self._track.forget()
             self._ahead.forget()

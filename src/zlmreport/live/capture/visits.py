@@ -91,10 +91,14 @@ class Settings:
 
     @property
     def largest_gap(self) -> float:
-        """How far apart readings may be that count as without a gap, s.
+        """How far apart readings may be that count as without a gap, s: one at least sees the axis turn."""
+        return min(_LARGEST_GAP * min(self.dwell, self.still), self.beyond)
 
-        One of them at least must see the axis where it turns round, and that is beyond the tolerance: inside
-        it the axis is still at its target.
+    @property
+    def beyond(self) -> float:
+        """How long the axis is beyond the tolerance where it turns round, at least, s.
+
+        Inside it the axis is still at its target.
         """
         inside = 2 * self.tolerance / (FASTEST * self.feed) if self.feed else SHARE_OF_OVERRUN * self.turn
-        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn - inside)
+        return self.turn - inside
