@@ -1,9 +1,22 @@
-"""Names of columns that loggers write, in English and German: times, days, air and machine."""
+"""Names of columns that loggers write, in five languages and without accents: times, air and machine."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import unicodedata
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
+
+
+def list_spellings(names: str) -> Iterator[str]:
+    """Yield names that stand in a row, each as it is written with accents and as keyboards without them do.
+
+    >>> list(list_spellings("écart run"))
+    ['écart', 'ecart', 'run']
+    """
+    for name in names.split():
+        parted = unicodedata.normalize("NFD", name)
+        yield from dict.fromkeys((name, "".join(each for each in parted if not unicodedata.combining(each))))
+
 
 #: Names as files write them, folded, by what they are.
 LOGGED: Mapping[str, str] = MappingProxyType(
@@ -11,19 +24,33 @@ LOGGED: Mapping[str, str] = MappingProxyType(
         name: column
         for column, names in {
             "time": "zeit timestamp uhrzeit zeitstempel t messzeit clock date_time datum_zeit datum/zeit "
-            "datum_uhrzeit datum/uhrzeit datum_und_uhrzeit datetime date/time zeitpunkt",
+            "datum_uhrzeit datum/uhrzeit datum_und_uhrzeit datetime date/time zeitpunkt "
+            "temps heure horodatage date_heure date/heure tempo ora orario data_ora data/ora "
+            "tiempo hora fecha_hora fecha/hora",
             "air_temperature": "lufttemperatur air_temp air_temp. t_luft t_air luft_temp raumtemperatur "
-            "hallentemperatur umgebungstemperatur room_temperature ambient_temperature",
+            "hallentemperatur umgebungstemperatur room_temperature ambient_temperature "
+            "température_de_l'air température_air température_ambiante temp_air "
+            "temperatura_dell'aria temperatura_aria temperatura_ambiente temp_aria t_aria "
+            "temperatura_del_aire temperatura_aire temp_aire t_aire",
             "material_temperature": "materialtemperatur material_temp t_mat werkstofftemperatur mat_temp "
-            "t_material werkstücktemperatur",
-            "axis_temperature": "maßstabstemperatur scale_temperature t_achse scale_temp",
-            "screw_temperature": "spindeltemperatur screw_temp t_spindel",
-            "air_pressure": "luftdruck pressure druck p_luft air_press",
+            "t_material werkstücktemperatur température_du_matériau température_matériau température_matière "
+            "température_de_la_pièce temperatura_del_materiale temperatura_materiale temperatura_del_pezzo "
+            "temperatura_pezzo temperatura_del_material temperatura_material temperatura_de_la_pieza",
+            "axis_temperature": "maßstabstemperatur scale_temperature t_achse scale_temp "
+            "température_de_la_règle température_règle temperatura_della_riga temperatura_riga "
+            "temperatura_de_la_regla temperatura_regla",
+            "screw_temperature": "spindeltemperatur screw_temp t_spindel température_de_la_vis "
+            "température_vis temperatura_della_vite temperatura_vite temperatura_del_husillo "
+            "temperatura_husillo",
+            "air_pressure": "luftdruck pressure druck p_luft air_press pression pression_de_l'air "
+            "pression_air pression_atmosphérique pressione pressione_dell'aria pressione_aria "
+            "pressione_atmosferica presión presión_del_aire presión_atmosférica",
             "relative_humidity": "luftfeuchte luftfeuchtigkeit humidity feuchte rel._feuchte rh "
-            "rel._humidity relative_luftfeuchte rel._luftfeuchte",
+            "rel._humidity relative_luftfeuchte rel._luftfeuchte humidité humidité_relative hygrométrie "
+            "umidità umidità_relativa humedad humedad_relativa",
         }.items()
-        for name in names.split()
+        for name in list_spellings(names)
     }
 )
 #: A temperature of which its name does not tell whose it is, folded.
-SOME_TEMPERATURE = frozenset({"temperatur", "temperature", "temp", "temp."})
+SOME_TEMPERATURE = frozenset(list_spellings("temperatur température temperatura temp temp."))

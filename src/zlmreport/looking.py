@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -21,6 +21,8 @@ from zlmreport.plugin.registry import Registry
 _TURNING = frozenset("ABC")
 #: How an axis is called that the file does not name.
 _UNNAMED = {AxisKind.LINEAR: "X", AxisKind.ROTARY: "C"}
+#: How the name of a table ends.
+_OF_TABLES = ".csv"
 #: By which standard a job that is begun evaluates an axis, and a circle.
 _OF_AXES, _OF_CIRCLES = "iso230-2:2014", "iso230-4:2005"
 
@@ -51,8 +53,7 @@ def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     Raises `ZlmreportError` if no data source reads it: what the likeliest of them says; or no job names it.
     """
     _refuse_unwritable(path.name, path)
-    suffix = path.suffix.casefold()
-    sources = sorted(registry.sources, key=lambda each: suffix not in getattr(each, "suffixes", ()))
+    sources = _sort_by_suffix(registry.sources, path.suffix.casefold())
     ways: list[tuple[DataSource, SourceProposal]] = []
     errors: list[ZlmreportError] = []
     for source in sources:
@@ -77,6 +78,14 @@ def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
                     raise
                 errors.append(error)
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
+
+
+def _sort_by_suffix(sources: Iterable[DataSource], suffix: str) -> list[DataSource]:
+    """Return data sources, first those that a suffix is of; one that none knows is taken for a table's."""
+    sources = list(sources)
+    is_known = any(suffix in getattr(each, "suffixes", ()) for each in sources)
+    wanted = suffix if is_known else _OF_TABLES
+    return sorted(sources, key=lambda each: wanted not in getattr(each, "suffixes", ()))
 
 
 def _refuse_unwritable(name: str, path: Path) -> None:

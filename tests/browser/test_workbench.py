@@ -473,6 +473,24 @@ def test_nothing_moves_when_one_points_and_every_control_is_large_enough(
     assert standards["y"] + standards["height"] < 450
 
 
+def test_words_of_german_are_whole_and_titles_of_a_graph_do_not_meet(address: str, window: Window) -> None:
+    page = window(address, locale="de-DE", viewport={"width": 1000, "height": 900})
+    expect(page.locator(".candidates .wave .curve").first).to_be_visible()
+    lines = """e => {
+        const text = document.createTreeWalker(e, NodeFilter.SHOW_TEXT).nextNode();
+        const range = document.createRange();
+        range.setStart(text, text.data.indexOf("Umkehrspanne"));
+        range.setEnd(text, text.data.length);
+        return range.getClientRects().length;
+    }"""
+    assert page.get_by_role("button", name="+ Umkehrspanne").evaluate(lines) == 1
+    for graph in page.locator(".plot").all():
+        x, y = (title.bounding_box() for title in graph.locator(".title").all())
+        assert x
+        assert y
+        assert x["x"] > y["x"] + y["width"] or x["y"] + x["height"] <= y["y"]
+
+
 def test_a_model_is_built_step_by_step_and_a_step_taken_back(address: str, job: Path, window: Window) -> None:
     page = window(address)
     page.get_by_role("button", name="Build the model").click()

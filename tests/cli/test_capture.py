@@ -419,7 +419,7 @@ def test_what_was_ordered_stands_with_the_results(bench: Bench) -> None:
         "The operator left out visit 2.",
         "The operator after visit 3: coolant on",
         "Taken again as the operator ordered: visits 3; of each the last reading counts",
-        "1 of 4 visits of the plan have no reading",
+        "1 of 4 visits of the plan has no reading",
     ):
         assert sentence in page
 

@@ -26,6 +26,15 @@ GERMAN = (
     "0,0;auf;1;0,0015;kalt\n100,0;auf;1;0,0025;\n100,0;ab;1;0,0005;warm\n0,0;ab;1;-0,0005;\n"
     "Ende des Protokolls\n"
 )
+FRENCH = (
+    "Position cible (mm);Sens;Passe;Écart (µm);Température de l'air (°C)\n"
+    "0,0;aller;1;1,5;20,1\n100,0;aller;1;2,5;20,1\n100,0;retour;1;0,5;20,2\n0,0;retour;1;-0,5;20,2\n"
+)
+ITALIAN = "Posizione nominale [mm];Passata 1 andata;Passata 1 ritorno;Media\n0;1,5;-0,5;0\n100;2,5;0,5;0\n"
+SPANISH = (
+    "Posicion objetivo,Posicion real,Sentido,Ciclo\n"
+    "0,0.0015,ida,1\n100,100.0025,ida,1\n100,100.0005,vuelta,1\n0,-0.0005,vuelta,1\n"
+)
 WIDE = "Target\tRun 1 fwd\tRun 1 bwd\tMean\n0\t1.5\t-0.5\t0.5\n100\t2.5\t0.5\t1.5\n"
 POSITIONS = "Soll;1+;1-\n0;0,0015;-0,0005\n100;100,0025;100,0005\n"
 ACTUAL = "nominal,actual,dir,cycle\n0,0.0015,up,1\n100,100.0025,up,1\n100,100.0005,down,1\n0,-0.0005,down,1\n"
@@ -55,6 +64,33 @@ TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
             "skip_rows": 3,
             "ends_before": "Ende des Protokolls",
             "ignore": ["Bemerkung"],
+        },
+    ),
+    "a French protocol": (
+        FRENCH.encode(),
+        {
+            "columns": {
+                "target": "Position cible",
+                "direction": "Sens",
+                "run": "Passe",
+                "deviation": "Écart",
+                "air_temperature": "Température de l'air",
+            },
+        },
+    ),
+    "an Italian wide table": (
+        ITALIAN.encode(),
+        {"layout": "wide", "columns": {"target": "Posizione nominale"}, "ignore": ["Media"]},
+    ),
+    "a Spanish table without accents": (
+        SPANISH.encode(),
+        {
+            "columns": {
+                "target": "Posicion objetivo",
+                "direction": "Sentido",
+                "run": "Ciclo",
+                "position": "Posicion real",
+            },
         },
     ),
     "UTF-16": (LONG.replace(",", "\t").encode("utf-16"), {"encoding": "utf-16"}),
@@ -137,6 +173,25 @@ def test_what_nobody_can_see_in_a_file_is_asked(table: Any, capsys: pytest.Captu
     for part in ("sign: nominal-actual", "units: {deviation: mm}", "Were all readings taken upwards?"):
         assert part in " ".join(printed.split())
     assert printed.endswith('source:\n  plugin: laser-csv\n  file: x-axis.csv\n  direction: "+"\n')
+
+
+def test_whether_values_are_averages_is_asked_where_they_are_called_so(table: Any) -> None:
+    of_a_laser = "Position\tBidirectional Avg Error\n0\t0.0001\n100\t0.0011\n200\t0.0021\n"
+    asked = look_at(table(of_a_laser.encode()), REGISTRY).proposal.asks
+    assert any(
+        "average of several readings, as 'Position Bidirectional Avg Error' says" in each for each in asked
+    )
+
+
+def test_a_mean_beside_the_readings_is_asked_about_nothing(table: Any) -> None:
+    assert not any("average" in each for each in look_at(table(WIDE.encode()), REGISTRY).proposal.asks)
+
+
+def test_of_a_file_whose_suffix_nobody_knows_it_is_told_what_a_table_of_readings_needs(table: Any) -> None:
+    path = table(b"No.\tAxis position\tCombined\n1\t0\t0.1\n2\t100\t1.1\n")
+    path = path.rename(path.with_suffix(".ren"))
+    with pytest.raises(InputError, match="there is no column 'target'"):
+        look_at(path, REGISTRY)
 
 
 def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:

@@ -38,7 +38,6 @@ _NEVER_OF_ONE = (
     "{column} stands still during the last {count} readings",
     "{count} readings one after another are the same, digit for digit",  # seven at least
     "{gone} of {before} jobs are gone since the last night; look whether that is meant",
-    "{missing} of {all} visits of the plan",
     "{readings} readings were averaged",
     "it needs at least {least} target positions; there are {found}",
     "it needs at least {least} runs; there are {found}",

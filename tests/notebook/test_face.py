@@ -386,6 +386,18 @@ def test_nothing_is_said_beyond_what_was_measured() -> None:
         z.fit(simulated(), ["offset"]).at([2000])
 
 
+@pytest.mark.parametrize("positions", [["x"], [], [[1.0, 2.0]]])
+def test_a_model_is_asked_at_positions_that_are_numbers(positions: Any) -> None:
+    with pytest.raises(z.InputError, match=r"^at: positions are"):
+        z.fit(data(), ["offset"]).at(positions)
+
+
+@pytest.mark.parametrize("effects", ["offset", {"offset": {}}])
+def test_a_single_effect_is_told_to_be_a_list(effects: Any) -> None:
+    with pytest.raises(z.InputError, match=r"effects are a list; for a single one write \["):
+        z.fit(data(), effects)
+
+
 def test_an_unknown_effect_is_answered_with_the_nearest() -> None:
     with pytest.raises(z.InputError, match="did you mean 'backlash'"):
         z.fit(data(), ["backlsh"])

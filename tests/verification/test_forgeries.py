@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import pytest
+from pikepdf import Pdf
 
 from verification import carried_forgeries, raw_forgeries  # noqa: F401 - what they forge joins the others
-from verification.altering import Forgery, rewritten
+from verification.altering import Forgery, draw, page_of, rewritten
 from verification.forgeries import FORGERIES, plain
 from verification.test_trust import signed
 from zlmreport.plugin import InputError
@@ -80,6 +82,64 @@ def test_what_another_program_saved_again_and_did_not_change_holds(
     pdf: bytes = request.getfixturevalue(printed)
     assert verified(pdf).holds
     assert verified(saved(pdf)).holds
+
+
+def saved_by_pikepdf(pdf: bytes, change: Callable[[Pdf], None] = lambda _: None, **how: Any) -> bytes:
+    """Return a PDF as pikepdf saves it by itself: it writes the XML of the metadata anew, too."""
+    saved = BytesIO()
+    with Pdf.open(BytesIO(pdf)) as opened:
+        change(opened)
+        opened.save(saved, **how)
+    return saved.getvalue()
+
+
+def test_metadata_whose_xml_was_written_anew_hold(issued: bytes, verified: Verify) -> None:
+    found = verified(saved_by_pikepdf(issued))
+    assert found.holds
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (b"Measuring Report", b"Calibration Certificate"),
+        (b"</rdf:RDF>", b"<rdf:Description/></rdf:RDF>"),
+        (b"</rdf:RDF>", b"<!-- accredited --></rdf:RDF>"),
+        (b"</rdf:RDF>", b"<?accredited?></rdf:RDF>"),
+        (b"<x:xmpmeta", b"<!DOCTYPE x><x:xmpmeta"),
+        (b'rdf:about=""', b'rdf:about="a"'),
+    ],
+)
+def test_metadata_that_say_something_else_do_not_hold(
+    old: bytes, new: bytes, issued: bytes, verified: Verify
+) -> None:
+    def change(opened: Pdf) -> None:
+        content = opened.Root.Metadata.read_bytes()
+        assert old in content
+        opened.Root.Metadata.write(content.replace(old, new, 1))
+
+    found = verified(saved_by_pikepdf(issued, change, fix_metadata_version=False))
+    assert found.outcome is VerificationOutcome.DOES_NOT_HOLD
+    differing = [each.subject for each in found.document if each.verdict is VerificationVerdict.DIFFERS]
+    assert differing == ["metadata (XMP)"]
+
+
+def test_a_file_arranged_for_fast_web_view_is_not_decided_and_says_what_to_do(
+    issued: bytes, verified: Verify
+) -> None:
+    found = verified(saved_by_pikepdf(issued, linearize=True))
+    assert found.outcome is VerificationOutcome.UNDECIDED
+    (open_,) = (each for each in found.document if each.verdict is VerificationVerdict.OPEN)
+    assert "qpdf FILE NEW" in str(open_.detail)
+
+
+def test_what_is_forged_in_a_file_arranged_for_fast_web_view_does_not_hold(
+    issued: bytes, verified: Verify
+) -> None:
+    def change(opened: Pdf) -> None:
+        draw(opened, page_of(opened), b"0 0 m 100 100 l S")
+
+    found = verified(saved_by_pikepdf(issued, change, linearize=True))
+    assert found.outcome is VerificationOutcome.DOES_NOT_HOLD
 
 
 def is_found(forgery: Forgery, pdf: bytes, verified: Verify) -> None:

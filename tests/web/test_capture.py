@@ -15,9 +15,11 @@ from cli.test_capture import JOB, PLUGIN, WHOLE
 from environments import ROOT
 from processes import PATIENCE
 from web.browsers import enter
+from zlmreport.plugin import Language
 from zlmreport.plugin.instrument import read_journal
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.web.app import Workbench
+from zlmreport.web.capture_page import CapturePage
 
 
 class Desk:
@@ -132,6 +134,31 @@ def test_a_capture_is_closed_as_it_is(desk: Desk) -> None:
     desk.do("close")
     first, *_ = desk.until(isOver=True)["visits"]
     assert first["state"] == "taken"
+
+
+class _Shown:
+    """A capture under way, of which the present moment alone is of interest."""
+
+    def __init__(self, **now: Any) -> None:
+        self._state = {"runs": True, "now": now, "asked": None, "events": [], "problems": []}
+
+    def describe_state(self) -> dict[str, Any]:
+        return self._state
+
+
+@pytest.mark.parametrize(
+    ("message", "expected"),
+    [("", ["15.000 mm", "0.20 µm", 0.5]), ("the beam is broken", [None, None, 0.0])],
+)
+def test_beside_a_fault_no_way_to_go_and_no_standstill_is_shown(
+    message: str, expected: list[object], tmp_path: Path
+) -> None:
+    path = tmp_path / "job.yaml"
+    path.write_text(JOB.replace("MOVES", WHOLE), encoding="utf-8")
+    shown = _Shown(position=-0.015, still=0.5, range=2e-7, message=message)
+    page = CapturePage(path, find_plugins(files=[PLUGIN]), shown)  # type: ignore[arg-type]
+    moment = page.list_values(Language.ENGLISH)["moment"]
+    assert [moment[key] for key in ("toGo", "range", "still")] == expected
 
 
 def test_an_order_without_a_capture_is_refused(desk: Desk) -> None:

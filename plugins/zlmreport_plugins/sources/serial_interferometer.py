@@ -8,12 +8,15 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from zlmreport.plugin import (
+    ARCSECOND,
+    DEGREE,
     AccessError,
     Axis,
     InputError,
     MeasurementSet,
     Options,
     Place,
+    Unit,
     Words,
     counted,
     hookimpl,
@@ -47,10 +50,10 @@ from zlmreport.plugin.source import (
     collect_readings,
 )
 
-_HELD = Words("At the end the axis came back to the datum; closure: {difference} {unit}.")
+_HELD = Words("At the end the axis came back to the datum; closure: {difference}.")
 _SLIPPED = Words(
-    "The datum slipped: at the end the axis read {difference} {unit} there. This marks the readings of "
-    "the runs since it was taken: {runs}."
+    "The datum slipped: at the end the axis read {difference} there. This marks the readings of the "
+    "runs since it was taken: {runs}."
 )
 
 
@@ -104,16 +107,15 @@ def list_remarks(
     """Yield what a reader of the results must know of a capture."""
     header = history.header
     yield Words(
-        "Captured live with {instrument} ({tool}). A reading is the mean over {dwell} s in which the axis "
-        "stood still within {stability} {fine}, at most {tolerance} {unit} from the target."
+        "Captured live with {instrument} ({tool}). A reading is the mean over the last {averaged} s of a "
+        "standstill of {still} s within {stability}, at most {tolerance} from the target."
     ).given(
         instrument=str(header.instrument.get("plugin", "")),
         tool=header.tool,
-        dwell=header.settings.dwell,
-        stability=axis.deviation_unit.from_si(header.settings.stability),
-        fine=axis.deviation_unit.symbol,
-        tolerance=axis.position_unit.from_si(header.settings.tolerance),
-        unit=axis.position_unit.symbol,
+        averaged=header.settings.averaged,
+        still=header.settings.still,
+        stability=_say_in(axis.deviation_unit, header.settings.stability),
+        tolerance=_say_in(axis.position_unit, header.settings.tolerance),
     )
     if header.settings.settle:
         yield Words(
@@ -123,9 +125,11 @@ def list_remarks(
     held = sum(isinstance(entry.event, BeamHeld) for entry in history.entries)
     if held:
         yield Words(
-            "The beam was broken for a moment {held} times while the axis stood still; each time the "
-            "display showed afterwards what it had shown before."
-        ).given(held=held)
+            "The beam was broken for a moment once while the axis stood still; the display showed afterwards "
+            "what it had shown before.",
+            plural="The beam was broken for a moment {number} times while the axis stood still; each time "
+            "the display showed afterwards what it had shown before.",
+        ).given(number=held)
     yield from _say_failed_displays(history)
     yield from _say_interruptions(history, axis)
     yield from _say_closure(history, axis)
@@ -133,11 +137,18 @@ def list_remarks(
     yield from _say_orders(history)
     missing = len(header.visits) - len(taken)
     if missing:
-        yield Words("{missing} of {all} visits of the plan have no reading.").given(
-            missing=missing, all=len(header.visits)
-        )
+        yield Words(
+            "{number} of {all} visits of the plan has no reading.",
+            plural="{number} of {all} visits of the plan have no reading.",
+        ).given(number=missing, all=len(header.visits))
     if missing and any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
         yield Words("The operator closed the test before the plan was done.")
+
+
+def _say_in(unit: Unit, value: float) -> Words:
+    """Return a value in its unit; the signs of angles touch their number."""
+    blank = "" if unit in (DEGREE, ARCSECOND) else " "
+    return Words(f"{{value}}{blank}{{unit}}").given(value=unit.from_si(value), unit=unit.symbol)
 
 
 def _say_failed_displays(history: JournalHistory) -> Iterator[Words]:
@@ -160,8 +171,8 @@ def _say_datum(datum: float | None, axis: Axis) -> Words:
     if datum is None:
         return Words("Positions are counted from the instrument's own zero.")
     return Words(
-        "The reading at {position} {unit} was taken for that position: deviations are relative to it."
-    ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
+        "The reading at {position} was taken for that position: deviations are relative to it."
+    ).given(position=_say_in(axis.position_unit, datum))
 
 
 def _say_closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
@@ -176,8 +187,7 @@ def _say_closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
         elif isinstance(event, DatumClosed):
             said = _HELD if event.holds else _SLIPPED
             yield said.given(
-                difference=axis.deviation_unit.from_si(event.difference),
-                unit=axis.deviation_unit.symbol,
+                difference=_say_in(axis.deviation_unit, event.difference),
                 runs=", ".join(str(run) for run in sorted(set(since))),
             )
 
@@ -194,8 +204,8 @@ def _say_interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
     if held:
         yield Words(
             "After an interruption the datum was held against an earlier reading; largest difference: "
-            "{difference} {unit}."
-        ).given(difference=axis.deviation_unit.from_si(max(held)), unit=axis.deviation_unit.symbol)
+            "{difference}."
+        ).given(difference=_say_in(axis.deviation_unit, max(held)))
     if lost:
         yield Words(
             "The instrument's zero was lost (times: {count}). What it showed from then on, until the "

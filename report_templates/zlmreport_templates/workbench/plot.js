@@ -7,6 +7,9 @@ import { pointing } from "./pointing.js";
 import { extent, scale, ticks } from "./scale.js";
 
 const MARGIN = { left: 50, right: 14, top: 8, bottom: 34 };
+// A line of a title, and how wide a letter of it is at most on the average.
+const TITLE = 15;
+const LETTER = 6.4;
 const REACH = 26;
 const MOST_RINGS = 600;
 const WIDTH_OF_TICK = 84;
@@ -126,8 +129,9 @@ export class Plot {
     const [first, last] = data.range ?? this.whole("x");
     const [low, high] = data.span ?? extent(data.range ? this.#heights(first, last) : this.#heights(-Infinity, Infinity), 0.06);
     this.x = scale(first, last, MARGIN.left, width - MARGIN.right);
-    this.y = scale(low, high, height - MARGIN.bottom, MARGIN.top);
-    const inside = { x: MARGIN.left, y: MARGIN.top, width: width - MARGIN.left - MARGIN.right, height: height - MARGIN.top - MARGIN.bottom };
+    const below = MARGIN.bottom + (this.#titlesMeet(width) ? TITLE : 0);
+    this.y = scale(low, high, height - below, MARGIN.top);
+    const inside = { x: MARGIN.left, y: MARGIN.top, width: width - MARGIN.left - MARGIN.right, height: height - MARGIN.top - below };
     this.ringed = s("g", { class: "rings" });
     this.selection = s("rect", { class: "selection", x: 0, y: 0, width: 0, height: 0 });
     fill(this.svg,
@@ -136,6 +140,11 @@ export class Plot {
       s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#ghost(), this.#curves(this.#curvesShown(), ""), this.#others(), this.#points(data.y, ""), this.#lines(), this.ringed, this.selection),
     );
     this.#drawRings();
+  }
+
+  /** Return whether both titles are too long for one line: then that of the readings stands below the other. */
+  #titlesMeet(width) {
+    return (this.data.xTitle.length + this.data.yTitle.length + 2) * LETTER > width - MARGIN.right;
   }
 
   #axes(inside, height) {
@@ -154,7 +163,7 @@ export class Plot {
         s("line", { class: "grid", x1: x(value), x2: x(value), y1: inside.y, y2: bottom }),
         s("text", { class: "tick", x: x(value), y: bottom + 15, "text-anchor": "middle" }, label),
       ]),
-      s("text", { class: "title", x: inside.x + inside.width, y: height - 4, "text-anchor": "end" }, data.xTitle),
+      s("text", { class: "title", x: inside.x + inside.width, y: bottom + MARGIN.bottom - 4, "text-anchor": "end" }, data.xTitle),
       s("text", { class: "title", x: 4, y: height - 4 }, data.yTitle),
     );
   }

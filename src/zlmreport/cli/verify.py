@@ -127,6 +127,7 @@ def _tell_lines(path: Path, found: CheckedCertificate) -> Iterator[str]:
             *((note, Colour.YELLOW.set(make_visible(say(remark)))) for remark in found.remarks),
         ],
         indent="  ",
+        wrapping=1,
     )
     for standard in dict.fromkeys(value.path[1] for value in found.values if _is_of_parameter(value)):
         yield ""

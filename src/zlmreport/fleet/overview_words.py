@@ -49,7 +49,8 @@ ABOUTS = {
 }
 FAILED = Words("Failed")
 FAILED_CAPTION = Words(
-    "Jobs of which no certificate could be made, or whose file is gone; the next run tries again"
+    "Jobs of which no certificate could be made, or whose file is gone; the next run tries again what is not "
+    "set aside"
 )
 OVERDUE = Words("Overdue")
 OVERDUE_CAPTION = Words("Axes that should have been measured again by now")

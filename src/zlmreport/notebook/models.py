@@ -373,11 +373,11 @@ class Model:
         Raises
         ------
         InputError
-            If a position lies outside of what was measured.
+            If a position lies outside of what was measured, or is no number.
         """
         design = self.fit.design
         unit = design.axis.position_unit
-        places = np.atleast_1d(np.asarray(unit.to_si(np.asarray(positions, dtype=np.float64))))
+        places = unit.to_si(_read_positions(positions))
         sentences = list_outside_of_measured(design.axis.name, unit, places, design.span)
         if sentences:
             raise InputError(Problem(Place("at"), sentence) for sentence in sentences)
@@ -543,7 +543,20 @@ def _fit_model(data: Readings, choices: Sequence[EffectChoice], assumptions: Ass
     return model
 
 
+def _read_positions(positions: ArrayLike) -> FloatArray:
+    """Return positions in a row; raise `InputError` if they are none."""
+    try:
+        found = np.atleast_1d(np.asarray(positions, dtype=np.float64))
+    except (TypeError, ValueError):
+        found = np.empty(0)
+    if found.ndim != 1 or not len(found):
+        raise InputError.at(Place("at"), "positions are a number or several in a row; for example [100, 250]")
+    return found
+
+
 def _choose_effects(effects: Sequence[str | Mapping[str, Any]]) -> tuple[EffectChoice, ...]:
+    if isinstance(effects, str | Mapping):
+        raise InputError.at(Place(_NAME), f"effects are a list; for a single one write [{effects!r}]")
     listed = tree_of({"effects": list(effects)}, _NAME).entries["effects"].value
     problems: list[Problem] = []
     choices = choose_effects_of(listed, registry(), problems, within="effects")

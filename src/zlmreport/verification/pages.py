@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 from functools import cached_property
 from typing import Any
+from xml.etree import ElementTree as ET
 
 from zlmreport.verification import raster, shape
-from zlmreport.verification.carrier import Carrier, guard
+from zlmreport.verification.carrier import Carrier, guard, unpack
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
@@ -22,6 +23,13 @@ _MOST_DIFFERENCES = 4
 _LONGEST_PASSAGE = 60
 #: Programs that save a file again and draw nothing anew; whatever else stands there is read as a statement.
 _SAVED_BY = re.compile(r"(pypdf|pikepdf|qpdf)( \d{1,3}(\.\d{1,3}){0,3})?", re.ASCII)
+
+#: Metadata, the most that they may be unpacked to, and what says only how their stream is packed.
+_XMP = "/Metadata"
+_LARGEST_XMP = 1 << 20
+_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
+#: XML in the frame of XMP, and no other instructions for programs.
+_PACKET = re.compile(rb"\s*<\?xpacket begin=[^?]*\?>(?:[^<]|<(?!\?))*<\?xpacket end=[^?]*\?>\s*")
 
 _COLOURS = "/ColorSpace"
 #: What of a page is compared mark by mark, and link by link.
@@ -181,10 +189,19 @@ class _Comparison:
             elif key not in stated:
                 difference = "is missing"
             else:
-                is_same = self._is_same_part(stated[key], again[key])
+                is_same = self._is_same_part(stated[key], again[key]) or (
+                    key == _XMP and self._is_same_xmp(stated[key], again[key])
+                )
                 difference = "" if is_same else "is not what is printed again"
             yield CheckedStatement.of(_PARTS.get(key, key), difference)
         yield from _check_metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
+
+    def _is_same_xmp(self, stated: Any, again: Any) -> bool:
+        """Whether metadata say the same: programs that save a file again write their XML anew."""
+        streams = [each.get_object() for each in (stated, again)]
+        kinds = [{key: value for key, value in each.items() if key not in _PACKING} for each in streams]
+        said = [_read_xmp(unpack(each, _LARGEST_XMP)) for each in streams]
+        return kinds[0] == kinds[1] and said[0] is not None and said[0] == said[1]
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
         if self._prints.compute_digest(stated) == self._prints_again.compute_digest(again):
@@ -304,6 +321,17 @@ def _find_differences(stated: list[str], again: list[str]) -> Iterator[str]:
 def _quote_passage(found: list[str]) -> str:
     text = " ".join(found)
     return f"'{text if len(text) <= _LONGEST_PASSAGE else text[: _LONGEST_PASSAGE - 1] + '…'}'"
+
+
+def _read_xmp(content: bytes) -> list[tuple[object, ...]] | None:
+    """Return what metadata say, element by element; None where they are more than the elements of an XML."""
+    if b"<!" in content or not _PACKET.fullmatch(content):
+        return None
+    try:
+        root = ET.fromstring(content)  # noqa: S314 - without entities, and bounded
+    except (ET.ParseError, ValueError):
+        return None
+    return [(each.tag, sorted(each.items()), each.text, each.tail, len(each)) for each in root.iter()]
 
 
 def _check_metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[CheckedStatement]:

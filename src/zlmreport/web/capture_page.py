@@ -159,15 +159,16 @@ def _show_moment(
     """Return what the instrument shows now; nothing as long as it does not run."""
     if now is None:
         return None
-    position = now["position"]
+    # What is shown with a fault is no place of the axis.
+    position, still = (None, 0.0) if now["message"] else (now["position"], now["still"])
     away = None if position is None else position - progress.next.position
     is_near = away is not None and abs(away) <= assignment.settings.tolerance
     return {
         "position": None if position is None else writer.write_position(position, 4),
         "deviation": writer.write_deviation(away) if away is not None and is_near else None,
         "toGo": writer.write_position(-away) if away is not None and not is_near else None,
-        "range": None if now["range"] is None else writer.write_small_length(now["range"]),
-        "still": min(1.0, now["still"] / assignment.settings.still),
+        "range": writer.write_small_length(now["range"]) if still and now["range"] is not None else None,
+        "still": min(1.0, still / assignment.settings.still),
         "message": now["message"],
     }
 

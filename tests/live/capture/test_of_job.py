@@ -137,6 +137,14 @@ def test_a_capture_needs_an_instrument(tmp_path: Path) -> None:
             "10:32 unknown key 'prot' in measurement.source.instrument; did you mean 'port'?",
         ),
         (("ttyACM0}", "ttyACM0, sign: up}"), "measurement.source.instrument.sign: 'up' is unknown"),
+        *(
+            (
+                ("/dev/ttyACM0", address),
+                f"10:38 measurement.source.instrument.port: '{address}' does not lead",
+            )
+            for address in ("socket://10.0.0.7", "socket://10.0.0.7:x", "socket://:90", "10.0.0.7:9090")
+        ),
+        (("/dev/ttyACM0", "'spy:///dev/ttyACM0?file=x'"), "writes what passes into a file"),
     ],
 )
 def test_the_instruments_own_keys_are_checked_with_their_places(

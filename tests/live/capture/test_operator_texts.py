@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from zlmreport.live.capture.display import DEGREES
 from zlmreport.live.capture.events import (
     Closed,
     Elsewhere,
@@ -54,7 +55,7 @@ LINES: tuple[Event, ...] = (
     BeamHeld("", 1.0),
     Frozen(60.0),
     Elsewhere(0.031),
-    *(Elsewhere(0.031, factor) for factor in (-1.0, 25.4, 1 / 25.4, 1000.0, 2.0)),
+    *(Elsewhere(0.031, factor) for factor in (-1.0, 25.4, 1 / 25.4, DEGREES, 1000.0, 2.0)),
     Unclear(1, UP, ((FIRST, 0.7), (None, 0.3)), 0.021, MEAN),
     Unclear(1, UP, ((FIRST, 1.0),), 0.021, MEAN, 0.02),
     Presumed(FIRST, 0.99),

@@ -172,3 +172,10 @@ def test_no_text_of_a_workbook_is_a_formula() -> None:
 def test_the_sheets_have_names_in_the_language() -> None:
     german = replace(certificate(), language=Language.GERMAN)
     assert book(german).sheetnames[:3] == ["Kenngrößen", "Positionen", "Messwerte"]
+
+
+def test_the_workbook_says_what_is_decided_as_the_pages_do() -> None:
+    german = replace(certificate(), language=Language.GERMAN)
+    decided = {row["Entscheidung"] for row in table(book(german)["Kenngrößen"])} - {None}
+    assert decided
+    assert decided <= {"eingehalten", "nicht eingehalten", "nicht entschieden"}

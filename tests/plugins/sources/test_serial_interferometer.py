@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from itertools import chain
 from pathlib import Path
 
@@ -15,7 +16,15 @@ from plugins.sources.reading import DATA, JOB, said
 from zlmreport.live.capture.journal import Journal
 from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.model.planning.methods import Method
-from zlmreport.plugin import AccessError, Approach, Axis as MeasuredAxis, InputError, Language, MeasurementSet
+from zlmreport.plugin import (
+    AccessError,
+    Approach,
+    Axis as MeasuredAxis,
+    AxisKind,
+    InputError,
+    Language,
+    MeasurementSet,
+)
 from zlmreport.plugin.instrument import CaptureEnded, CaptureResumed, Fault
 from zlmreport.plugin.protocols import SourceContext
 
@@ -24,10 +33,13 @@ ARRIVAL = 1 * UM / 100
 LINEAR = DATA / "sources" / "linear.journal"
 
 
-def read(journal: Path, name: str = "X") -> MeasurementSet:
+ROTARY = {"axis": "C", "kind": AxisKind.ROTARY}
+
+
+def read(journal: Path, name: str = "X", kind: AxisKind = AxisKind.LINEAR) -> MeasurementSet:
     source = registry().source("serial-interferometer")
     options = source.options.model_validate({"journal": journal})
-    return source.read(options, SourceContext(MeasuredAxis(name), JOB))
+    return source.read(options, SourceContext(MeasuredAxis(name, kind), JOB))
 
 
 def beam_lost(axis: Axis) -> chain:
@@ -71,7 +83,7 @@ def test_the_datum_of_the_capture_is_that_of_the_readings() -> None:
 def test_a_missed_visit_is_a_missing_reading() -> None:
     measurements = read(LINEAR)
     assert measurements.missing() == (MissingReading(100 * MM, Approach.NEGATIVE, 2),)
-    assert "1 of 12 visits of the plan have no reading." in said(measurements)
+    assert "1 of 12 visits of the plan has no reading." in said(measurements)
 
 
 def test_a_repeated_run_counts_whole_and_is_not_mixed_with_the_first_attempt(tmp_path: Path) -> None:
@@ -112,6 +124,25 @@ def test_a_difference_at_the_check_of_the_datum_is_said(tmp_path: Path) -> None:
 def test_remarks_are_said_in_german_with_a_decimal_comma() -> None:
     (first, *_) = read(LINEAR).provenance.remarks
     assert "höchstens 1 mm vom Sollwert" in first.in_language(Language.GERMAN)
+
+
+def test_the_time_over_which_readings_are_averaged_is_said(tmp_path: Path) -> None:
+    axis, path = Axis(), tmp_path / "x.journal"
+    written(path, chain(axis.stand(), axis.go(0, 100, 200, 205, 200, 100, 0, -5)), datum=-5 * MM)
+    taken = [json.loads(line) for line in path.read_text("utf-8").splitlines()[1:]]
+    averaged = {round(each["duration"], 1) for each in taken if each["record"] == "reading"}
+    (first, *_) = said(read(path))
+    assert averaged == {0.5}
+    assert "the mean over the last 0.5 s of a standstill of 1 s" in first
+
+
+def test_signs_of_angles_touch_their_numbers(tmp_path: Path) -> None:
+    axis, path = Axis(), tmp_path / "c.journal"
+    written(path, chain(axis.stand(), axis.go(0, 100, 200, 205, 200, 100, 0, -5)), datum=-5 * MM, **ROTARY)
+    first, datum, closure = said(read(path, "C", AxisKind.ROTARY))
+    assert "within 0.206265″, at most 0.0572958° from" in first
+    assert datum.startswith("The reading at −0.286479° was taken")
+    assert closure.endswith("closure: 0″.")
 
 
 def test_a_capture_that_is_not_finished_says_how_to_go_on(tmp_path: Path) -> None:

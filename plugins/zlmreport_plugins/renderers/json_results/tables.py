@@ -23,7 +23,8 @@ from xml.sax.saxutils import XMLGenerator
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words, hookimpl
-from zlmreport.plugin.renderer import Certificate, Renderer, rounded_pair
+from zlmreport.plugin.renderer import CONFORMITY_STATEMENTS, Certificate, Renderer, rounded_pair
+from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.json_results import Json, collect_results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
@@ -296,7 +297,7 @@ class _Sheets:
                 self._certificate.number,
                 evaluation["standard"],
                 *_make_cells_of_parameter(parameter),
-                parameter.get("decision", {}).get("statement"),
+                self._say_decision(parameter),
                 *([missing] if missing else ()),
             ]
             for evaluation in found["evaluations"]
@@ -327,6 +328,11 @@ class _Sheets:
         of_first = sum(row[0] == table[0][0] for row in table)
         if drawn:
             self._add_chart(sheet, drawn, of_first, self._say(target), units)
+
+    def _say_decision(self, parameter: Json) -> str | None:
+        """Return what is stated of a limit, as the pages say it."""
+        statement = parameter.get("decision", {}).get("statement")
+        return self._say(CONFORMITY_STATEMENTS[Conformity(statement)][1]) if statement else None
 
     def _add_readings(self, measurements: MeasurementSet, name: str) -> None:
         if self._certificate.job and self._certificate.job.keys.agreement.simplified:

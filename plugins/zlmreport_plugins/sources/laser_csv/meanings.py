@@ -1,4 +1,4 @@
-"""Guesses what a column of an unknown table is, by its name (English, German) and its numbers."""
+"""Guesses what a column of an unknown table is, by its name in one of five languages and its numbers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from types import MappingProxyType
 from zlmreport.plugin import Approach, DecimalSign
 from zlmreport.plugin.source import parse_number
 from zlmreport.plugin.table import folded, without_thousands
-from zlmreport_plugins.logged_columns import LOGGED
+from zlmreport_plugins.logged_columns import LOGGED, list_spellings
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,
@@ -32,25 +32,40 @@ _CALLED = MappingProxyType(
         for column, names in {
             "target": "soll sollposition soll_position soll_pos sollwert sollmaß nominal nominal_position "
             "nominal_value target_position target_pos zielposition pos_soll p_soll soll_pos. pos._soll "
-            "command commanded programmed setpoint set_position soll_x soll_y soll_z messpunkt "
-            "zielpunkt soll_winkel sollwinkel target_angle x_soll y_soll z_soll",
+            "command commanded programmed setpoint set_position soll_x soll_y soll_z messpunkt zielpunkt "
+            "soll_winkel sollwinkel target_angle x_soll y_soll z_soll cible position_cible consigne "
+            "position_de_consigne position_visée position_nominale valeur_nominale quota_nominale "
+            "posizione_nominale valore_nominale nominale posizione_target posizione_obiettivo "
+            "quota_teorica posizione_teorica obiettivo objetivo posición_objetivo posición_nominal "
+            "valor_nominal posición_de_consigna posición_programada cota_nominal",
             PLACE: "position pos pos. x y z a b c winkel angle weg strecke distance place location punkt "
-            "axis_position achsposition position_x position_y position_z",
+            "axis_position achsposition position_x position_y position_z "
+            "abscisse posizione quota angolo distanza punto posición ángulo distancia cota",
             "position": "ist istposition ist_position ist_pos istwert actual actual_position actual_value "
             "measured measured_position pos_ist p_ist laser laserwert interferometer istmaß istwinkel "
-            "ist_winkel x_ist y_ist z_ist measured_value",
+            "ist_winkel x_ist y_ist z_ist measured_value position_réelle position_mesurée valeur_réelle "
+            "valeur_mesurée posizione_reale posizione_effettiva posizione_misurata valore_misurato "
+            "quota_misurata quota_reale posición_real posición_medida valor_medido valor_real cota_medida",
             "deviation": "abweichung abw abw. fehler error dev dev. deviations positionsabweichung "
             "messabweichung differenz difference delta residual positionierabweichung positioning_error "
-            "error_value δ positional_deviation position_error abweichungen lagefehler",
-            VALUE: "wert value messwert reading anzeige display ergebnis result y_wert",
+            "error_value δ positional_deviation position_error abweichungen lagefehler écart écarts erreur "
+            "écart_de_position erreur_de_position différence déviation scostamento scostamenti scarto "
+            "errore scostamento_di_posizione errore_di_posizione differenza deviazione desviación "
+            "desviaciones desvío error_de_posición desviación_de_posición diferencia",
+            VALUE: "wert value messwert reading anzeige display ergebnis result y_wert valeur mesure "
+            "lecture affichage valore misura lettura indicazione valor medida lectura indicación",
             "direction": "richtung dir dir. approach anfahrrichtung verfahrrichtung sense anfahrt "
-            "fahrtrichtung approach_direction sinn",
-            "run": "lauf messlauf zyklus durchlauf durchgang cycle run_number run_no run_no. repetition rep "
-            "wiederholung lauf_nr lauf_nr. run_# reihe messreihe",
+            "fahrtrichtung approach_direction sinn "
+            "sens sens_d'approche sens_de_déplacement senso direzione verso senso_di_avvicinamento "
+            "direzione_di_avvicinamento sentido dirección sentido_de_aproximación sentido_de_avance",
+            "run": "lauf messlauf zyklus durchlauf durchgang cycle run_number run_no run_no. repetition "
+            "rep wiederholung lauf_nr lauf_nr. run_# reihe messreihe passe parcours passage série essai "
+            "répétition passata ciclo prova serie ripetizione recorrido pasada ensayo repetición",
             NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
-            "point",
+            "point "
+            "n° nº numéro ligne numero riga número fila",
         }.items()
-        for name in names.split()
+        for name in list_spellings(names)
     }
 )
 #: Words that stand beside run and direction in the name of a column of readings.
@@ -86,6 +101,9 @@ _BESIDE = frozenset(
             "actual",
         ),
         *("wert", "value", "richtung", "direction", "fahrt"),
+        *list_spellings("passe parcours passage essai mesure série numéro écart valeur sens lecture"),
+        *list_spellings("passata ciclo prova misura serie numero scostamento valore senso direzione lettura"),
+        *list_spellings("recorrido pasada ensayo medida medición número desviación valor sentido lectura"),
     )
 )
 #: More digits than a number has that counts are several numbers, which no name of a column has.

@@ -1,4 +1,4 @@
-"""The keys of a table in a job; names of columns, runs and directions (up, forward, ↑, +)."""
+"""The keys of a table in a job; names of columns, runs and directions (up, forward, aller, ↑, +)."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ from zlmreport.plugin import (
     did_you_mean,
 )
 from zlmreport.plugin.table import TableOptions, TablePlace
+from zlmreport_plugins.logged_columns import list_spellings
 
 #: The columns that have a meaning; any other is kept as a condition under its own name.
 COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
@@ -45,6 +46,9 @@ _WORDS = {
                 "positiv",
                 "steigend",
             ),
+            *list_spellings("aller montant montée positif croissant"),
+            *list_spellings("andata salita avanti positivo positiva crescente"),
+            *list_spellings("ida subida adelante ascendente creciente"),
         ),
         Approach.POSITIVE,
     ),
@@ -64,6 +68,9 @@ _WORDS = {
             ),
             *("ab", "abwärts", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
             *("negativ", "fallend"),
+            *list_spellings("retour descendant descente négatif décroissant"),
+            *list_spellings("ritorno discesa indietro negativo negativa decrescente"),
+            *list_spellings("vuelta bajada atrás descendente decreciente"),
         ),
         Approach.NEGATIVE,
     ),
@@ -87,7 +94,8 @@ _DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_LETTE
 
 _IN_HEADERS = "|".join(re.escape(spelling) for spelling in sorted(_SPELLED_OUT, key=len, reverse=True))
 _RUN = (
-    r"(?:(?:run|cycle|pass|test|measurement|meas\.?|lauf|messlauf|durchlauf|durchgang|zyklus|messung|messreihe)"
+    r"(?:(?:run|cycle|pass|test|measurement|meas\.?|lauf|messlauf|durchlauf|durchgang|zyklus|messung|messreihe"
+    r"|passe|parcours|essai|mesure|passata|ciclo|prova|misura|recorrido|pasada|ensayo|medida|medici[oó]n)"
     r"[\s_.]*)?"
 )
 #: ``1+``, ``1 ↓``, ``Run 1 fwd``, ``RUN 1``; ``+1``, ``fwd 1``, ``forward run 1``.

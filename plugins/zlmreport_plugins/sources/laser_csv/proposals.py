@@ -34,6 +34,11 @@ from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, 
 
 #: Axes that turn, by their letters, and a whole turn of them in degrees.
 _TURNING, _WHOLE_TURN = frozenset("ABC"), 360.0
+#: What columns of readings are, and words by which a name says that its values are averages.
+_OF_READINGS = frozenset({"deviation", "position", READING})
+_AVERAGE = re.compile(
+    r"(?<![^\W_])(?:avg|average|mean|mittel|mittelwert|moyenne|moyen|media|promedio)(?![^\W_])", re.IGNORECASE
+)
 #: Lines of a table without a head that may be comments above its names.
 _COMMENTS = 3
 _AXIS = re.compile(
@@ -69,6 +74,7 @@ def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
 def _list_drafts(table: FoundTable) -> Iterator[Draft]:
     """Yield the ways in which a table may be read."""
     draft = Draft(table)
+    _ask_for_averages(draft)
     place_table(draft)
     note_notation(draft)
     if table.is_wide:
@@ -78,6 +84,18 @@ def _list_drafts(table: FoundTable) -> Iterator[Draft]:
     _draft_value(draft)
     _draft_other_columns(draft)
     yield from tell_passes(draft)
+
+
+def _ask_for_averages(draft: Draft) -> None:
+    """Ask whether values are averages, where the name of their column says so, or the line above a table."""
+    table = draft.table
+    above = [line for number, line in table.found.lines if number <= table.layout.skipped]
+    names = [
+        name for name, what in zip(table.header.cells, table.meanings, strict=True) if what in _OF_READINGS
+    ] or ["".join(above[-1:])]
+    named = next((name for name in names if _AVERAGE.search(name)), None)
+    if named and (table.layout.header_rows == 0 or named in table.header.cells):
+        draft.asks.append(questions.AVERAGES_ASKED.format(name=repr(" ".join(named.split()))))
 
 
 def _draft_wide(draft: Draft) -> None:

@@ -9,6 +9,11 @@ UNIT_ASKED = (
     "Are the deviations in {unit}? The table names no unit; {reason}if they are in {other}, say "
     "units: {{deviation: {other}}}."
 )
+AVERAGES_ASKED = (
+    "Is each value the average of several readings, as {name} says? Then no scatter can be had of them, and "
+    "a standard would take each for a single reading: evaluate the readings themselves, or use these for an "
+    "error model and a compensation table alone."
+)
 DIRECTION_ASKED = "Were all readings taken upwards? The table names no direction; else say direction: '-'."
 ORDER_ASKED = (
     "Do the rows stand in the order in which the readings were taken? The table names no direction; it is "

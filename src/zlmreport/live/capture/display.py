@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -10,9 +11,11 @@ from zlmreport.live.ports.reading import LiveReading
 
 #: Factors of units that a display can be switched to while a test goes on: inches, and a thousand times.
 UNITS = (25.4, 1 / 25.4, 1000.0, 1 / 1000.0)
+#: Of degrees that are read as millimetres: what shows an angle is rarely told so.
+DEGREES = 1000 * math.pi / 180
 #: What a display does wrong by a factor: it counts the wrong way, in other units, without or with twice the
 #: optics' path.
-FACTORS = (-1.0, *UNITS, 2.0, 0.5)
+FACTORS = (-1.0, *UNITS, DEGREES, 2.0, 0.5)
 #: Faster than any axis gains speed, m/s² or rad/s².
 _ACCELERATION = 50.0
 #: Readings after a jump that must be the same; a single damaged one is none.

@@ -190,7 +190,7 @@ class Follower:
             return
         self._track.add(reading.value + zero)
         if before is not None and self._track.position is not None:
-            self._route.follow(before, reading, zero, self._track.position, self._settings)
+            self._follow_turns(before, reading, zero, self._track.position)
         yield from self._follow_way(reading.time)
         yield from self._notice_freeze(before, reading)
         yield from self._finish_at_end(reading, zero)
@@ -288,6 +288,20 @@ class Follower:
             self._track.forget()
             self._stood_at = datum
             yield DatumTaken(datum, self._window.compute_mean())
+
+    def _follow_turns(self, before: LiveReading, reading: LiveReading, zero: float, seen: float) -> None:
+        """Follow where the axis turns round.
+
+        Where readings come so seldom that one alone may see it beyond its target, that is too little to say
+        from which side it came back, and too much to hold a stop there for the one before.
+        """
+        turns = len(self._route.turns)
+        self._route.follow(before, reading, zero, seen, self._settings)
+        is_seldom = 2 * (reading.time - before.time) > self._settings.beyond
+        if is_seldom and self._stay is not None and len(self._route.turns) > turns:
+            self._stay = self._stood_at = None
+            self._track.forget()
+            self._ahead.forget()
 
     def _follow_way(self, time: float) -> Iterator[Event]:
         """Follow the axis away from where it stood, into the tolerance of what is next, and through it."""

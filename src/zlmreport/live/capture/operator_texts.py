@@ -11,6 +11,7 @@ from math import isclose
 
 from zlmreport.language import Language, Said, Words, named
 from zlmreport.language.formatting import MINUS, write_fixed_number, write_general_number
+from zlmreport.live.capture.display import DEGREES
 from zlmreport.live.capture.events import (
     BeamHeld,
     Closed,
@@ -136,6 +137,9 @@ _DEPARTS = Words(
 _MIRRORED = Words("but its mirror image is: the display counts the other way; turn the instrument's key sign")
 _SHOWS_INCHES = Words("but 25.4 times it is: the display shows inches; set it to millimetres")
 _SHOWS_MILLIMETRES = Words("but a 25.4th of it is: the display shows millimetres as inches; set it to inches")
+_SHOWS_DEGREES = Words(
+    "but as degrees it is, and it is read as millimetres: set the instrument's key unit to deg"
+)
 _OTHER_UNIT = Words("but {factor} times it is: the display's unit is another one; set it, or the key scale")
 _OTHER_PATH = Words("but {factor} times it is: the optics' path is counted otherwise; set the key scale")
 _CANDIDATE = Words("visit {visit} (run {run}) {share} %")
@@ -378,6 +382,8 @@ def _say_misread(factor: float, writer: AxisWriter) -> Words:
             return _SHOWS_INCHES
         case _ if isclose(factor, 1 / _INCH):
             return _SHOWS_MILLIMETRES
+        case _ if factor == DEGREES:
+            return _SHOWS_DEGREES
         case _ if factor in {_THOUSAND, 1 / _THOUSAND}:
             return _OTHER_UNIT.given(factor=writer.write_general(factor))
         case _:

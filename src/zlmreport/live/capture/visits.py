@@ -91,5 +91,14 @@ class Settings:
 
     @property
     def largest_gap(self) -> float:
-        """How far apart readings may be that count as without a gap, s."""
-        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn)
+        """How far apart readings may be that count as without a gap, s: one at least sees the axis turn."""
+        return min(_LARGEST_GAP * min(self.dwell, self.still), self.beyond)
+
+    @property
+    def beyond(self) -> float:
+        """How long the axis is beyond the tolerance where it turns round, at least, s.
+
+        Inside it the axis is still at its target.
+        """
+        inside = 2 * self.tolerance / (FASTEST * self.feed) if self.feed else SHARE_OF_OVERRUN * self.turn
+        return self.turn - inside

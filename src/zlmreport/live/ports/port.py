@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from types import ModuleType
 from typing import Annotated, Any, Literal, NoReturn
+from urllib.parse import urlsplit
 
 from pydantic import BeforeValidator, Field
 
@@ -218,10 +220,33 @@ def _write_in_one_line(error: OSError) -> str:
     return " ".join(str(error).split())[:200]
 
 
+#: A host and a number, and nothing that says that they are on a network.
+_HOST_ALONE = re.compile(r"[\w.-]+:\d+", re.ASCII)
+
+
 def _check_port_is_named(value: object) -> object:
     if not value:
         raise ValueError("the name of a port is expected: /dev/ttyUSB0, COM3, socket://192.168.1.20:9090")
+    if not isinstance(value, str):
+        return value
+    kind = value.partition("://")[0].casefold()
+    if kind == "spy":
+        raise ValueError(f"{value!r} writes what passes into a file; name the port itself")
+    if _HOST_ALONE.fullmatch(value) or (kind == "socket" and not _has_host_and_number(value)):
+        raise ValueError(
+            f"{value!r} does not lead to an instrument on a network; a host and a number from 1 to 65535 are "
+            "expected: socket://192.168.1.20:9090"
+        )
     return value
+
+
+def _has_host_and_number(address: str) -> bool:
+    """Tell whether an address has both: pyserial has no words for one that has not."""
+    parts = urlsplit(address)
+    try:
+        return bool(parts.hostname and parts.port)
+    except ValueError:
+        return False
 
 
 class PortOptions(Options):
