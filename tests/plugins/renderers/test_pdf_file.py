@@ -1,37 +1,25 @@
-"""The PDF as a file: metadata, structure, fonts, and that it depends on nothing but the certificate."""
+"""The PDF by WeasyPrint as a file: bookmarks, fonts, and that it depends on nothing but the certificate."""
 
 from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import pytest
-from PIL import Image
 from pypdf import PdfReader
 from weasyprint import HTML
 
 from document.typesetting import samples
 from installed import registry
-from plugins.renderers.pdf_pages import elements, fonts, read, sample
+from plugins.renderers.pdf_pages import fonts, read, sample
 from processes import PYTHON, ZLMREPORT, run
-from zlmreport.plugin import AccessError, Language
+from zlmreport.plugin import AccessError
 from zlmreport_plugins.renderers.pdf import press
 
 TESTS = Path(samples.__file__).parents[2]
-
-
-def test_metadata_tell_what_the_document_is() -> None:
-    metadata = sample().metadata
-    assert metadata is not None
-    assert metadata.title == "Calibration certificate CAL-2026-0117"
-    assert metadata.author == "Laboratory for Machine Metrology"
-    assert metadata.subject == "Positioning by SAMPLE 1:2026"
-    assert metadata["/Keywords"] == "positioning, SAMPLE 1:2026"
-    assert metadata.creator == "zlmreport 0.1.0"
 
 
 def test_its_dates_are_the_date_of_issue() -> None:
@@ -44,12 +32,6 @@ def test_without_a_date_of_issue_it_has_no_dates() -> None:
     metadata = read(samples.certificate(standards=0, issued=None)).metadata
     assert metadata is not None
     assert not {"/CreationDate", "/ModDate"} & set(metadata)
-
-
-@pytest.mark.parametrize("language", Language)
-def test_it_says_its_language(language: Language) -> None:
-    certificate = samples.certificate(language, standards=0, sections=())
-    assert read(certificate).trailer["/Root"]["/Lang"] == language.value
 
 
 def test_it_is_for_archives() -> None:
@@ -84,24 +66,6 @@ def test_bookmarks_lead_to_sections_tables_and_figures() -> None:
     ]
 
 
-def test_each_graph_has_its_alternative_text() -> None:
-    expected = [figure.alternative.in_language(Language.GERMAN) for figure in samples.certificate().figures]
-    assert [figure["/Alt"] for figure in elements(sample(Language.GERMAN), "/Figure")] == expected
-
-
-def test_tables_are_tagged_as_tables_with_headings() -> None:
-    reader = sample()
-    headings = len(list(elements(reader, "/TH")))
-    cells = len(list(elements(reader, "/TD")))
-    assert headings > 50
-    assert cells > 700
-
-
-def test_headings_are_tagged_by_their_level() -> None:
-    assert len(list(elements(sample(), "/H1"))) == 1
-    assert len(list(elements(sample(), "/H2"))) == 4
-
-
 def test_every_font_is_embedded_and_of_the_bundled_family() -> None:
     names = set()
     for page in sample().pages:
@@ -113,12 +77,7 @@ def test_every_font_is_embedded_and_of_the_bundled_family() -> None:
 
 
 def test_the_logo_is_printed() -> None:
-    picture = BytesIO()
-    Image.new("RGB", (30, 10), "navy").save(picture, "PNG")
-    plain = samples.certificate(standards=0)
-    assert plain.letterhead is not None
-    with_logo = replace(plain.letterhead, logo=picture.getvalue(), logo_type="image/png")
-    reader = read(replace(plain, letterhead=with_logo))
+    reader = read(samples.with_logo())
     assert [image.image.size for image in reader.pages[0].images if image.image] == [(30, 10)]
 
 
