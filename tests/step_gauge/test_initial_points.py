@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from refusals import refusal
 from zlmreport.plugin import InputError
 from zlmreport_step_gauge.initial_points import read_initial_points
 
@@ -18,10 +19,8 @@ def written(folder: Path, rows: list[str]) -> Path:
     return path
 
 
-def refused(folder: Path, rows: list[str]) -> str:
-    with pytest.raises(InputError) as caught:
-        read_initial_points(written(folder, rows))
-    return str(caught.value)
+def told(folder: Path, rows: list[str]) -> str:
+    return refusal(read_initial_points, written(folder, rows))
 
 
 def test_points_come_by_block_and_number_in_metres_whatever_their_order(tmp_path: Path) -> None:
@@ -31,21 +30,21 @@ def test_points_come_by_block_and_number_in_metres_whatever_their_order(tmp_path
 
 
 def test_a_point_that_is_missing_is_named(tmp_path: Path) -> None:
-    assert "points.csv: point 5 of block begin is missing" in refused(tmp_path, ROWS[:4] + ROWS[5:])
+    assert "points.csv: point 5 of block begin is missing" in told(tmp_path, ROWS[:4] + ROWS[5:])
 
 
 def test_a_point_that_is_there_twice_is_named_with_its_line(tmp_path: Path) -> None:
-    assert "points.csv:18:7: point 1 of block begin is there twice" in refused(
+    assert "points.csv:18:7: point 1 of block begin is there twice" in told(
         tmp_path, [*ROWS, "begin,1,0,0,0"]
     )
 
 
 def test_a_ninth_point_is_refused(tmp_path: Path) -> None:
-    assert "points.csv:18:5: a block has the points 1 to 8" in refused(tmp_path, [*ROWS, "end,9,0,0,0"])
+    assert "points.csv:18:5: a block has the points 1 to 8" in told(tmp_path, [*ROWS, "end,9,0,0,0"])
 
 
 def test_a_third_block_is_refused(tmp_path: Path) -> None:
-    assert "column block: begin or end is expected" in refused(tmp_path, [*ROWS, "middle,1,0,0,0"])
+    assert "column block: begin or end is expected" in told(tmp_path, [*ROWS, "middle,1,0,0,0"])
 
 
 def test_a_coordinate_with_a_decimal_comma_is_told_how_to_write_it(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from refusals import failure
 from testing.exemplary import ExemplaryStandard
 from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.testing import check_standard, expectations
@@ -37,9 +38,8 @@ def test_raw_error_becomes_a_sentence_with_its_line() -> None:
 
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_what_is_missing_is_told_by_the_door_that_an_author_imports(kind: Kind[Any]) -> None:
-    with pytest.raises(AssertionError) as failure:
-        expectations.expect_members(object(), kind)
-    door, _, name = str(failure.value).partition("(see ")[2].removesuffix(")").rpartition(".")
+    told = failure(expectations.expect_members, object(), kind)
+    door, _, name = told.partition("(see ")[2].removesuffix(")").rpartition(".")
     assert getattr(import_module(door), name) is kind.protocol
 
 
