@@ -1,4 +1,4 @@
-"""Numbers that the explanations state are right: of the error model, of the methods, and without an example."""
+"""Numbers that the explanations state are right: of standards, of the error model and of the methods."""
 
 from __future__ import annotations
 
