@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, uncertainties
-from zlmreport.evaluation.evaluation import Least
 from zlmreport.evaluation.uncertainty.budget import KnownError
 from zlmreport.evaluation.uncertainty.drift import compute_mean_drift_variance, compute_reading_times
 from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
@@ -62,12 +61,14 @@ def test_a_budget_that_lacks_a_contributor_is_not_complete() -> None:
 def test_no_uncertainty_is_less_than_the_laboratory_may_state() -> None:
     found = parameters(replace(budget(0.01, Acts.AT_EACH_READING), least=3 * MICROMETRE))
     assert {(each.expanded_uncertainty, each.coverage_factor) for each in found.values()} == {(3e-6, 2.0)}
-    assert {each.raised_to for each in found.values()} == {Least.LABORATORY}
+    assert {each.raised_to.value for each in found.values()} == {"cmc"}
 
 
 def test_only_what_compares_positions_has_the_uncertainty_of_the_instrument_at_least() -> None:
     found = parameters(replace(budget(0.01, Acts.AT_EACH_READING), of_the_instrument=3 * MICROMETRE))
-    raised = {symbol for symbol, each in found.items() if each.raised_to is Least.INSTRUMENT}
+    raised = {
+        symbol for symbol, each in found.items() if each.raised_to and each.raised_to.value == "instrument"
+    }
     assert raised == {"A", "A_fwd", "A_bwd", "E", "E_fwd", "E_bwd", "M"}
     assert found["E"].expanded_uncertainty == 3e-6
     assert found["B"].expanded_uncertainty < 0.1e-6
