@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
+from refusals import refused
 from zlmreport.files import Document, push_folder, rewrite, write, write_new
 from zlmreport.plugin import AccessError, InputError, Place
 
@@ -119,9 +120,8 @@ def test_a_file_that_a_check_refuses_is_left_as_it_is(tmp_path):
 def test_every_file_that_is_in_the_way_is_named_and_none_is_written(tmp_path):
     for name in "ab":
         (tmp_path / name).touch()
-    with pytest.raises(InputError) as caught:
-        write_new([Document(tmp_path / name, b"new") for name in "abc"])
-    assert [Path(problem.place.file).name for problem in caught.value.problems] == ["a", "b"]
+    told = refused(write_new, [Document(tmp_path / name, b"new") for name in "abc"])
+    assert [Path(problem.place.file).name for problem in told.problems] == ["a", "b"]
     assert {each.name: each.read_bytes() for each in tmp_path.iterdir()} == {"a": b"", "b": b""}
 
 

@@ -13,6 +13,7 @@ import pytest
 
 from job.jobs import SOUND, loaded
 from offers import exemplary_registry, offering
+from refusals import refusal, refused
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
@@ -68,9 +69,7 @@ def test_order_of_plugins_does_not_matter() -> None:
 
 
 def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
-    with pytest.raises(InputError) as caught:
-        exemplary_registry().standard("exemplary:l", Place("job.yaml", 3, 5))
-    assert str(caught.value) == (
+    assert refusal(exemplary_registry().standard, "exemplary:l", Place("job.yaml", 3, 5)) == (
         "job.yaml:3:5: no plugin provides standard 'exemplary:l'; "
         "did you mean 'exemplary:1'? (known: exemplary:1)"
     )
@@ -78,9 +77,7 @@ def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
 
 def test_unknown_name_is_answered_with_the_plugins_that_might_have_had_it() -> None:
     registry = collect([(Plugin("broken"), offering([object()]))], disabled=["resting"])
-    with pytest.raises(InputError) as caught:
-        registry.renderer("pdf")
-    message = caught.value.problems[0].message
+    message = refused(registry.renderer, "pdf").problems[0].message
     assert "no plugin provides format 'pdf'; there is none to choose from" in message
     assert "\n  plugin broken was not loaded: standard 'object' lacks identifier" in message
     assert f"\n  plugin resting is switched off by {DISABLE}" in message
@@ -223,9 +220,7 @@ def test_module_that_imports_the_package_of_the_built_in_plugins_is_no_misspelt_
 def test_what_two_plugins_provide_is_refused_to_who_names_it() -> None:
     registry = _collected(offering([ExemplaryStandard()], [ExemplarySource()]))
     assert registry.source("exemplary-text").identifier == "exemplary-text"
-    with pytest.raises(InputError) as caught:
-        registry.standard("exemplary:1", Place("job.yaml", 3, 5))
-    assert str(caught.value) == (
+    assert refusal(registry.standard, "exemplary:1", Place("job.yaml", 3, 5)) == (
         "job.yaml:3:5: two plugins provide standard 'exemplary:1': other_module and sound_module; "
         "switch one off: ZLMREPORT_DISABLE_PLUGINS=sound"
     )
@@ -381,16 +376,12 @@ def test_file_that_is_no_python_is_told(file: Any) -> None:
 )
 def test_file_that_does_not_load_ends_the_work_with_its_line(code: str, message: str, file: Any) -> None:
     path = file(code)
-    with pytest.raises(InputError) as caught:
-        find_plugins({}, [path])
-    assert str(caught.value) == f"{path}{message}"
+    assert refusal(find_plugins, {}, [path]) == f"{path}{message}"
 
 
 def test_file_that_offers_what_is_no_effect_ends_the_work(file: Any) -> None:
     path = file(EFFECT_FILE.replace("[Mine()]", "[object()]"))
-    with pytest.raises(InputError) as caught:
-        find_plugins({}, [path])
-    assert str(caught.value).startswith(f"{path}: effect 'object' lacks identifier, title")
+    assert refusal(find_plugins, {}, [path]).startswith(f"{path}: effect 'object' lacks identifier, title")
 
 
 def test_file_that_offers_what_is_there_already_is_refused(file: Any, install: Any) -> None:

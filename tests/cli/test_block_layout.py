@@ -9,11 +9,11 @@ import pytest
 
 from zlmreport.cli.layout import lay_out_blocks, lay_out_sections
 from zlmreport.cli.terminal import lay_out_heading
-from zlmreport.document.blocks import (
+from zlmreport.document.blocks import ColumnKind
+from zlmreport.plugin.renderer import (
     Align,
     Block,
     Column,
-    ColumnKind,
     Facts,
     Formulas,
     Notice,

@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 
 from environments import ROOT
+from step_gauge.gauges import set_up
 from zlmreport.plugin import CIRCLE, DISPLACEMENT, STRAIGHTNESS, Axis, AxisKind, NominalCircle, Place
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents
 from zlmreport_plugins.union_jack_lines import LINE
 from zlmreport_step_gauge.calibration import read_calibration
-from zlmreport_step_gauge.set_up import GaugeSetUp
 
 REGISTRY = find_plugins()
 DATA = ROOT / "tests" / "data" / "sources"
@@ -25,20 +25,7 @@ CALIBRATED = read_calibration(ROOT / "tests" / "data" / "step_gauge" / "stepgaug
 ON_A_GAUGE = SourceContext(
     Axis("Y"),
     Place("job.yaml", 1, 1),
-    {
-        "step_gauge": GaugeSetUp(
-            gauge=CALIBRATED.gauge,
-            located=None,
-            tip_radius=2e-3,
-            radius_is_corrected=False,
-            effective_radius=None,
-            probing_uncertainty=0.0,
-            gauge_expansion=None,
-            scale_expansion=None,
-            files=(CALIBRATED.file,),
-            place=Place("job.yaml", 1, 1),
-        )
-    },
+    {"step_gauge": set_up(CALIBRATED.gauge, files=(CALIBRATED.file,))},
 )
 _Y_AXIS = FileContents(
     90, ((-15.0, "+", 1, 30.87), (20.0, "+", 5, -20.24), (15.0, "-", 1, 43.5), (-20.0, "-", 5, -7.93))

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.decision import Guard
 from zlmreport.plugin import Language, Options
 from zlmreport.plugin.renderer import Decision, EvaluatedParameter
 from zlmreport.plugin.standard import Conformity, decided, decision_rule, evaluate
@@ -90,10 +89,8 @@ def test_a_rule_is_called_as_jobs_name_it(rule: str) -> None:
 
 
 def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> None:
-    assert (decision_rule("iso14253-1").factor, decision_rule("iso14253-1").guard) == (
-        1.65,
-        Guard.STANDARD_UNCERTAINTY,
-    )
+    rule = decision_rule("iso14253-1")
+    assert (rule.factor, rule.guard.value) == (1.65, "u")
 
 
 @pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])

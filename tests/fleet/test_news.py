@@ -18,6 +18,7 @@ from pydantic import Field
 from fleet.exposition import parse
 from fleet.fleets import FLEET, Fleet, Witness, without_processes
 from fleet.histories import entry, history, parameter
+from refusals import refused
 from zlmreport.fleet import news, night
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import find_news_of, write_digest
@@ -29,7 +30,6 @@ from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.plugin import (
     AccessError,
     DecimalSign,
-    InputError,
     Language,
     Options,
     Place,
@@ -184,9 +184,7 @@ def test_a_folder_that_is_gone_is_told_though_nothing_is_done(fleet: Fleet, post
 
 def test_a_wrong_way_is_refused_before_the_night(fleet: Fleet) -> None:
     fleet.write("fleet.yaml", FLEET + "notify:\n- {plugin: pots, to: x}\n- {plugin: post, too: x}\n")
-    with pytest.raises(InputError) as raised:
-        fleet.spend()
-    assert [(each.place.line, each.message.partition(";")[0]) for each in raised.value.problems] == [
+    assert [(each.place.line, each.message.partition(";")[0]) for each in refused(fleet.spend).problems] == [
         (7, "no plugin provides notifier 'pots'"),
         (8, "notify.to is missing: who gets the letter"),
         (8, "unknown key 'too' in notify"),

@@ -8,9 +8,10 @@ import jsonschema
 import pytest
 import yaml
 
+from refusals import mistakes
 from zlmreport.job.loading import load
 from zlmreport.job.schema import make_job_schema
-from zlmreport.plugin import CIRCLE, InputError
+from zlmreport.plugin import CIRCLE
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()
@@ -28,12 +29,6 @@ def loaded(folder: Path, **keys):
     job = {name: value for name, value in {**JOB, **keys}.items() if value is not None}
     path.write_text(yaml.safe_dump(job, sort_keys=False))
     return load(path, REGISTRY)
-
-
-def mistakes(folder: Path, **keys) -> list[str]:
-    with pytest.raises(InputError) as caught:
-        loaded(folder, **keys)
-    return [str(problem).removeprefix(f"{folder}/") for problem in caught.value.problems]
 
 
 def test_its_plane_stands_for_the_axis(tmp_path: Path) -> None:
@@ -73,12 +68,12 @@ def test_without_a_plane_it_is_that_of_x_and_y(tmp_path: Path) -> None:
     ],
 )
 def test_what_does_not_go_with_it_is_refused(tmp_path: Path, keys, said: str) -> None:
-    found = mistakes(tmp_path, **keys)
+    found = mistakes(tmp_path, loaded, tmp_path, **keys)
     assert any(said in each for each in found), found
 
 
 def test_a_mistake_in_it_is_said_once(tmp_path: Path) -> None:
-    (only,) = mistakes(tmp_path, circle={"radius": -5, "feed": 1})
+    (only,) = mistakes(tmp_path, loaded, tmp_path, circle={"radius": -5, "feed": 1})
     assert "circle.radius" in only
 
 
@@ -92,7 +87,7 @@ def test_a_mistake_in_it_is_said_once(tmp_path: Path) -> None:
     ],
 )
 def test_keys_of_lines_are_refused(tmp_path: Path, key: str, value, said: str) -> None:
-    found = mistakes(tmp_path, measurement={**JOB["measurement"], key: value})
+    found = mistakes(tmp_path, loaded, tmp_path, measurement={**JOB["measurement"], key: value})
     assert any(said in each for each in found), found
 
 

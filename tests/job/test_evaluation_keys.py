@@ -8,16 +8,14 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, job
-from zlmreport.plugin import InputError
+from refusals import refused
 
 ROTARY = {"name": "C", "kind": "rotary"}
 
 
-def refused(folder: Path, **groups: Any) -> str:
+def told(folder: Path, **groups: Any) -> str:
     """Return the message on the only mistake of a job."""
-    with pytest.raises(InputError) as caught:
-        job(folder, {**COMPLETE, **groups})
-    (problem,) = caught.value.problems
+    (problem,) = refused(job, folder, {**COMPLETE, **groups}).problems
     return problem.message
 
 
@@ -32,7 +30,7 @@ def refused(folder: Path, **groups: Any) -> str:
     ],
 )
 def test_a_rotary_axis_has_no_lengths_that_expand_or_are_misaligned(tmp_path: Path, key: str) -> None:
-    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], uncertainty={key: 1.0})
+    message = told(tmp_path, axis=ROTARY, evaluate=["nmtba"], uncertainty={key: 1.0})
 
     assert message == (
         f"uncertainty.{key}: belongs to a linear axis; take it out, or state contributions of this axis"
@@ -42,7 +40,7 @@ def test_a_rotary_axis_has_no_lengths_that_expand_or_are_misaligned(tmp_path: Pa
 def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:
     instrument = {**COMPLETE["instrument"], "expanded_uncertainty_per_metre": 0.5}
 
-    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
+    message = told(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
 
     assert message == (
         "instrument.expanded_uncertainty_per_metre: belongs to a linear axis: a rotary one has no metres"
@@ -52,7 +50,7 @@ def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:
 def test_a_capability_of_rotary_axes_does_not_grow_with_metres(tmp_path: Path) -> None:
     laboratory = {**COMPLETE["laboratory"], "cmc": {"constant": 0.3, "per_metre": 0.5, "kind": "rotary"}}
 
-    message = refused(tmp_path, laboratory=laboratory)
+    message = told(tmp_path, laboratory=laboratory)
 
     assert message == (
         "laboratory.cmc: per_metre belongs to linear axes: a rotary one has no metres; take it out"
@@ -62,13 +60,13 @@ def test_a_capability_of_rotary_axes_does_not_grow_with_metres(tmp_path: Path) -
 def test_a_formula_with_a_length_is_none_of_a_rotary_axis(tmp_path: Path) -> None:
     instrument = {**COMPLETE["instrument"], "expanded_uncertainty": "0.2 + 0.5*L"}
 
-    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
+    message = told(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
 
     assert message == "instrument.expanded_uncertainty: belongs to a linear axis: a rotary one has no metres"
 
 
 def test_a_scale_of_the_instrument_is_named_in_per_cent_of_the_reading(tmp_path: Path) -> None:
-    message = refused(tmp_path, uncertainty={"instrument_acts": "with-the-reading"})
+    message = told(tmp_path, uncertainty={"instrument_acts": "with-the-reading"})
 
     assert message == (
         "uncertainty.instrument_acts: with-the-reading is stated in % of the reading: name it under "
@@ -87,7 +85,7 @@ def test_a_scale_of_the_instrument_is_named_in_per_cent_of_the_reading(tmp_path:
 def test_a_contribution_is_stated_once(tmp_path: Path, sizes: dict[str, Any], found: str) -> None:
     contribution = {"name": "Dead path", "acts": "at-each-reading", **sizes}
 
-    message = refused(tmp_path, uncertainty={"contributions": [contribution]})
+    message = told(tmp_path, uncertainty={"contributions": [contribution]})
 
     assert message == (
         "uncertainty.contributions: state one of expanded_uncertainty, standard_uncertainty, range "
@@ -98,17 +96,17 @@ def test_a_contribution_is_stated_once(tmp_path: Path, sizes: dict[str, Any], fo
 def test_a_normal_distribution_has_no_range(tmp_path: Path) -> None:
     contribution = {"name": "Any", "acts": "at-each-reading", "range": 1, "distribution": "normal"}
 
-    message = refused(tmp_path, uncertainty={"contributions": [contribution]})
+    message = told(tmp_path, uncertainty={"contributions": [contribution]})
 
     assert message.startswith("uncertainty.contributions.distribution: a normal distribution has no range; ")
 
 
 def test_who_shares_an_error_is_said_for_every_contribution(tmp_path: Path) -> None:
-    message = refused(tmp_path, uncertainty={"contributions": [{"name": "Any", "range": 1}]})
+    message = told(tmp_path, uncertainty={"contributions": [{"name": "Any", "range": 1}]})
 
     assert "uncertainty.contributions.acts is missing" in message
 
 
 @pytest.mark.parametrize("key", ["misalignment", "environmental_variation", "resolution"])
 def test_a_range_is_not_negative(tmp_path: Path, key: str) -> None:
-    assert f"uncertainty.{key}" in refused(tmp_path, uncertainty={key: -0.1})
+    assert f"uncertainty.{key}" in told(tmp_path, uncertainty={key: -0.1})

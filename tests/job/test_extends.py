@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
+from refusals import refused
 from zlmreport.job.extends import LONGEST_CHAIN
 from zlmreport.job.loading import load
 from zlmreport.plugin import AccessError, InputError
@@ -76,9 +77,9 @@ def test_paths_are_relative_to_the_file_that_names_them(tmp_path: Path) -> None:
 
 
 def test_mistake_in_an_extended_file_is_placed_there(tmp_path: Path) -> None:
-    with pytest.raises(InputError) as caught:
-        _loaded(tmp_path, job=f"extends: base.yaml\n{SOUND}", base="machine:\n  manufactuer: Ours\n")
-    (problem,) = caught.value.problems
+    (problem,) = refused(
+        _loaded, tmp_path, job=f"extends: base.yaml\n{SOUND}", base="machine:\n  manufactuer: Ours\n"
+    ).problems
     assert problem.place.file == str(tmp_path / "base.yaml")
     assert (problem.place.line, problem.place.column) == (2, 3)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
+from refusals import refusal
 from zlmreport.job.extends import Defaults
 from zlmreport.job.fleet import FleetFile, list_job_files, load_fleet, number_of
 from zlmreport.job.loading import load
@@ -23,9 +24,7 @@ def loaded(folder: Path, *lines: str) -> FleetFile:
 
 
 def mistakes(folder: Path, *lines: str) -> str:
-    with pytest.raises(InputError) as raised:
-        loaded(folder, *lines)
-    return str(raised.value).replace(f"{folder}/", "")
+    return refusal(loaded, folder, *lines).replace(f"{folder}/", "")
 
 
 def test_a_schema_and_jobs_are_enough(tmp_path: Path) -> None:

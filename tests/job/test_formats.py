@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
-
 from installed import registry
+from refusals import refused
 from zlmreport.job.loading import load
 from zlmreport.job.simulation import load_simulation
-from zlmreport.plugin import InputError
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 
 
 def test_a_simulation_is_no_job_and_its_own_command_is_named():
-    with pytest.raises(InputError) as refused:
-        load(CONFIGS / "hidden-effect" / "simulation.yaml", registry())
-
-    (problem,) = refused.value.problems
+    (problem,) = refused(load, CONFIGS / "hidden-effect" / "simulation.yaml", registry()).problems
     assert problem.message == (
         "this file is the description of a simulated test (zlmreport/simulation/1), and a job is expected; "
         "zlmreport simulate takes it"
@@ -26,8 +21,5 @@ def test_a_simulation_is_no_job_and_its_own_command_is_named():
 
 
 def test_a_job_is_no_simulation():
-    with pytest.raises(InputError) as refused:
-        load_simulation(CONFIGS / "hidden-effect" / "job.yaml", registry())
-
-    (problem,) = refused.value.problems
+    (problem,) = refused(load_simulation, CONFIGS / "hidden-effect" / "job.yaml", registry()).problems
     assert "this file is a job (zlmreport/job/1)" in problem.message

@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from installed import registry
+from refusals import refused
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError
 from zlmreport.plugin.extension import Job
@@ -60,8 +61,6 @@ def test_without_any_source_each_test_is_told_to_lack_one(tmp_path: Path) -> Non
 
 
 def test_a_mistake_in_it_is_told_once_and_in_its_place(tmp_path: Path) -> None:
-    with pytest.raises(InputError) as caught:
-        job(tmp_path, source={**DRIFT, "intervall": 60}, tests={"X1": {}, "Z": {}})
-    (problem,) = caught.value.problems
+    (problem,) = refused(job, tmp_path, source={**DRIFT, "intervall": 60}, tests={"X1": {}, "Z": {}}).problems
     assert "'interval'" in problem.message
     assert problem.place.line is not None

@@ -1,4 +1,4 @@
-"""A count of one is said in the singular."""
+"""Counts and names in a row are said one way in every language."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from environments import ROOT
 from language.test_catalogues import OTHERS, tool
 from zlmreport.evaluation.checks import readings_in_words
 from zlmreport.fleet import notices, overview_words
-from zlmreport.plugin import Language, Words
+from zlmreport.language import list_alternatives, list_in_words
+from zlmreport.plugin import Language, Words, listed
 from zlmreport.plugin.standard import positions_in_words, runs_in_words
 
 #: Names of what is counted.
@@ -157,3 +158,43 @@ def test_every_message_that_counts_has_words_for_one(folder: str) -> None:
 def test_a_counted_phrase_has_all_its_forms(language: Language) -> None:
     of_one = _said(Words("{number} run", plural="{number} runs"), 1, language)
     assert of_one != _said(Words("{number} run", plural="{number} runs"), 2, language)
+
+
+EFFECTS = [Words("Backlash"), Words("Squareness"), Words("Vibration")]
+
+
+@pytest.mark.parametrize(
+    ("language", "all_of_them", "one_of_them"),
+    [
+        (Language.ENGLISH, "Backlash, Squareness and Vibration", "Backlash, Squareness or Vibration"),
+        (
+            Language.GERMAN,
+            "Umkehrspiel, Rechtwinkligkeit und Schwingung",
+            "Umkehrspiel, Rechtwinkligkeit oder Schwingung",
+        ),
+        (
+            Language.FRENCH,
+            "Jeu à l’inversion, Perpendicularité et Vibration",
+            "Jeu à l’inversion, Perpendicularité ou Vibration",
+        ),
+    ],
+)
+def test_three_names_have_one_and(language: Language, all_of_them: str, one_of_them: str) -> None:
+    assert list_in_words(EFFECTS).in_language(language) == all_of_them
+    assert list_alternatives(EFFECTS).in_language(language) == one_of_them
+
+
+def test_two_names_have_no_comma_and_one_is_said_alone() -> None:
+    assert list_in_words(EFFECTS[:2]).in_language(Language.ENGLISH) == "Backlash and Squareness"
+    assert list_in_words(["A"]).in_language(Language.GERMAN) == "A"
+
+
+def test_names_that_are_the_same_in_all_languages_stand_in_a_row() -> None:
+    assert list_in_words(["A", "B", "C"]).in_language(Language.GERMAN) == "A, B und C"
+
+
+@pytest.mark.parametrize(
+    ("names", "said"), [([], ""), (["X"], "X"), (["X", "Y"], "X and Y"), (["X", "Y", "Z"], "X, Y and Z")]
+)
+def test_a_message_lists_names_alike(names: list[str], said: str) -> None:
+    assert listed(names) == said

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from refusals import mistakes
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.position_table import TableColumn, read_position_table
 from zlmreport.plugin import ANGLE_UNITS, LENGTH_UNITS, MICROMETRE, MICRORADIAN, MILLIMETRE, InputError
@@ -23,9 +24,7 @@ def _read(folder: Path, text: str, value: TableColumn = DEVIATION) -> PositionTa
 
 
 def _messages(folder: Path, text: str) -> list[str]:
-    with pytest.raises(InputError) as caught:
-        _read(folder, text)
-    return [str(problem).removeprefix(f"{folder}/") for problem in caught.value.problems]
+    return mistakes(folder, _read, folder, text)
 
 
 def test_millimetres_and_micrometres_become_metres(tmp_path: Path) -> None:

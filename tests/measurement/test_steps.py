@@ -1,12 +1,29 @@
-"""The step in which readings were given is that of their display, not always of their last digit."""
+"""The decimals of values, and the step of their display, which is not always that of their last digit."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
+from zlmreport.measurement.arrays import count_decimals_of
 from zlmreport.measurement.measurement_set import find_last_digit, find_step
 from zlmreport.plugin import Axis, MeasurementSet
+
+
+@pytest.mark.parametrize(
+    ("values", "decimals"),
+    [
+        ([1.0, -20.0], 0),
+        ([1.0, 0.25], 2),
+        ([0.1 + 0.2], 1),
+        ([np.nan, 0.5], 1),
+        ([1 / 3], 3),
+        ([], 0),
+    ],
+)
+def test_the_fewest_decimals_that_hold_all_values_count(values: list[float], decimals: int) -> None:
+    assert count_decimals_of(np.array(values), most=3) == decimals
+
 
 TARGETS = np.linspace(0.003, 0.993, 11)
 

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.plugin import AccessError, InputError
+from refusals import refused
+from zlmreport.plugin import AccessError
 from zlmreport.plugin.source import known_encoding, read_text
 
 
@@ -20,9 +21,7 @@ def written(folder: Path, content: bytes) -> Path:
 
 def complaint(file: Path, encoding: str | None = None) -> str:
     """Return what is said of a file, the folder left out."""
-    with pytest.raises(InputError) as caught:
-        read_text(file, encoding)
-    (problem,) = caught.value.problems
+    (problem,) = refused(read_text, file, encoding).problems
     return str(problem).removeprefix(f"{file.parent}/")
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from openpyxl import Workbook
 
-from zlmreport.measurement.workbook import read_sheet_lines
+from refusals import refusal
 from zlmreport.plugin import InputError
 from zlmreport.plugin.source import read_text, sheets_of
 
@@ -28,9 +28,7 @@ def _saved(folder: Path, sheets: Mapping[str, Sequence[Sequence[object]]]) -> Pa
 
 
 def _complaint(path: Path) -> str:
-    with pytest.raises(InputError) as caught:
-        read_text(path)
-    return str(caught.value).removeprefix(f"{path.parent}/")
+    return refusal(read_text, path).removeprefix(f"{path.parent}/")
 
 
 def test_its_rows_are_lines_with_all_digits_and_empty_cells(tmp_path: Path) -> None:
@@ -90,7 +88,8 @@ def test_a_damaged_workbook_is_refused(tmp_path: Path) -> None:
     assert "is a damaged workbook" in _complaint(path)
 
 
-def test_a_workbook_that_unpacks_to_too_much_is_refused(tmp_path: Path) -> None:
-    path = _saved(tmp_path, {"Readings": _READINGS})
-    with pytest.raises(InputError, match="unpacks to more than"):
-        read_sheet_lines(path.read_bytes(), read_text(path).place(), largest=100)
+def test_a_workbook_that_unpacks_to_too_much_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("zlmreport.measurement.text_file._LARGEST_UNPACKED", 100)
+    assert "unpacks to more than" in _complaint(_saved(tmp_path, {"Readings": _READINGS}))

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
+from zlmreport.measurement.axis import PositionTable
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.plugin import FloatArray
+from zlmreport.plugin import Axis, AxisKind, FloatArray
 from zlmreport.plugin.effect import Design, Effect
 from zlmreport_plugins.effects import zlmreport_effects
 

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations, pendulum_test
-from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
+from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.repeats import find_resolution
-from zlmreport.plugin import Axis
+from zlmreport.plugin import Axis, FloatArray, read_only_floats
 from zlmreport.plugin.effect import Design
 
 _READINGS = Path(__file__).parents[1] / "data" / "controls" / "linuxcnc.csv"

@@ -7,8 +7,9 @@ import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, hidden, linear_test, model_of, noise, observations
 from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.diagnosis.report import report, report_model, report_precision
+from zlmreport.model.diagnosis.report import report
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin.effect import report_model, report_precision
 
 _DESIGN = linear_test(11, 3)
 _DEVIATION = 2e-6 + hidden(_DESIGN, "thermal-growth", [300.0], size=8.0) + noise(_DESIGN)

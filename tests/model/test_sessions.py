@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
-from zlmreport.measurement.arrays import FloatArray, read_only_integers
+from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.fitting.observations import Observations, select_of_the_job
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
-from zlmreport.plugin import Language, same_in_all_languages as same
+from zlmreport.plugin import FloatArray, Language, same_in_all_languages as same
 from zlmreport.plugin.effect import Design
 
 _STRAIGHT = model_of("offset", "backlash")

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
+from refusals import refusal
 from zlmreport.plugin import InputError, Place
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import Side
@@ -22,12 +23,6 @@ def written(folder: Path, content: str, name: str = "gauge.csv") -> Path:
     path = folder / name
     path.write_text(content, encoding="utf-8")
     return path
-
-
-def refused(path: Path) -> str:
-    with pytest.raises(InputError) as caught:
-        read_calibration(path)
-    return str(caught.value)
 
 
 def test_a_table_holds_both_faces_of_each_block_in_si() -> None:
@@ -81,20 +76,20 @@ def test_a_section_beyond_the_gauge_is_refused_with_the_blocks_there_are() -> No
     ],
 )
 def test_a_defective_table_is_refused_with_the_place(content: str, message: str, tmp_path: Path) -> None:
-    assert message in refused(written(tmp_path, HEADER + content))
+    assert message in refusal(read_calibration, written(tmp_path, HEADER + content))
 
 
 def test_a_table_without_a_column_is_refused_with_all_that_it_needs(tmp_path: Path) -> None:
-    assert "the header lacks U_k2_um" in refused(
-        written(tmp_path, "face,side,nominal_mm,calibrated_mm\n1,front,0,0\n")
+    assert "the header lacks U_k2_um" in refusal(
+        read_calibration, written(tmp_path, "face,side,nominal_mm,calibrated_mm\n1,front,0,0\n")
     )
 
 
 def test_an_unknown_key_of_a_yaml_file_is_refused_with_the_nearest(tmp_path: Path) -> None:
     text = EXAMPLE.read_text(encoding="utf-8").replace("serial:", "seriel:")
-    assert "did you mean 'serial'" in refused(written(tmp_path, text, "gauge.yaml"))
+    assert "did you mean 'serial'" in refusal(read_calibration, written(tmp_path, text, "gauge.yaml"))
 
 
 def test_a_job_in_the_place_of_a_calibration_is_refused_by_one_sentence(tmp_path: Path) -> None:
     path = written(tmp_path, "schema: zlmreport/job/1\n", "gauge.yaml")
-    assert "this file is a job" in refused(path)
+    assert "this file is a job" in refusal(read_calibration, path)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from refusals import refusal
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
@@ -23,10 +24,8 @@ STATED = StatedRadius(RADIUS, 0.2e-6)
 NANOMETRE = 1e-9
 
 
-def refused(points: list[ProbedPoint], **stated: object) -> str:
-    with pytest.raises(InputError) as caught:
-        deviations(points, set_up(GAUGE, **stated))
-    return str(caught.value)
+def told(points: list[ProbedPoint], **stated: object) -> str:
+    return refusal(deviations, points, set_up(GAUGE, **stated))
 
 
 def test_a_machine_without_errors_has_none_at_any_face() -> None:
@@ -109,11 +108,11 @@ def test_faces_of_one_side_need_no_radius(side: Side) -> None:
 
 
 def test_surface_points_that_are_taken_for_centres_are_told() -> None:
-    assert "state step_gauge.radius_correction: true" in refused(touched(GAUGE, radius=0.0))
+    assert "state step_gauge.radius_correction: true" in told(touched(GAUGE, radius=0.0))
 
 
 def test_a_tip_of_another_size_is_told() -> None:
-    message = refused(touched(GAUGE, radius=1.5e-3))
+    message = told(touched(GAUGE, radius=1.5e-3))
     assert "the effective radius is 1.5000 mm, and the nominal one 2.0000 mm" in message
 
 
@@ -132,13 +131,13 @@ def test_distances_need_no_radius() -> None:
 def test_a_gauge_that_lies_the_other_way_round_is_told() -> None:
     departures = tuple(round((face.distance - face.nominal) * 1e6, 6) for face in GAUGE.faces)
     turned = gauge(tuple(-(each - departures[-1]) for each in reversed(departures)))
-    assert "the gauge lies the other way round" in refused(touched(turned))
+    assert "the gauge lies the other way round" in told(touched(turned))
 
 
 def test_a_calibration_with_the_wrong_sign_is_told() -> None:
     departures = tuple(round((face.distance - face.nominal) * 1e6, 6) for face in GAUGE.faces)
     exchanged = gauge(tuple(-each for each in departures))
-    assert "were nominal − calibrated entered for calibrated − nominal?" in refused(touched(exchanged))
+    assert "were nominal − calibrated entered for calibrated − nominal?" in told(touched(exchanged))
     of_the_machine = touched(exchanged, lambda x, side: 2e-6 * np.sin(x / 0.02) + side * 1e-6)
     deviations(of_the_machine, set_up(GAUGE))  # errors as large as the departures: nobody can tell
 
@@ -152,7 +151,7 @@ def test_faces_that_are_numbered_from_the_end_are_told() -> None:
     points = simulate(along_x, MachineErrors(), np.random.default_rng(1)).initial_points
     located = locate(InitialPoints(points, FILE), GAUGE, 2e-3, 1e-6)
     turned = [replace(each, face=11 - each.face) for each in touched(GAUGE)]
-    assert "numbered from the wrong end" in refused(turned, located=located)
+    assert "numbered from the wrong end" in told(turned, located=located)
 
 
 def test_a_missed_face_that_shifts_the_others_is_told_with_its_line() -> None:
@@ -160,7 +159,7 @@ def test_a_missed_face_that_shifts_the_others_is_told_with_its_line() -> None:
         replace(each, coordinates=(each.coordinates[0] + 20e-3 * (each.face > 4), 0.2, 0.3))
         for each in touched(GAUGE)
     ]
-    message = refused(shifted)
+    message = told(shifted)
     assert message.startswith("probed.csv:6:1: face 5 lies")
     assert "is this the section that was probed" in message
 

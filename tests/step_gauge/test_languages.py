@@ -1,8 +1,9 @@
-"""Programs say what their languages can say, and the samples of each language are read the same way."""
+"""Programs say what their languages can say, are read alike, and pass the checks of the kit."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,9 +13,10 @@ import pytest
 from step_gauge.languages import LANGUAGES, LanguageError, dmis, ippdme, mv_ms
 from step_gauge.paths import PLACE, planned
 from zlmreport.plugin import InputError
+from zlmreport.plugin.program import PartProgram
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
-from zlmreport_step_gauge.testing import sample_path
+from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, sample_path
 
 REGISTRY = find_plugins()
 DATA = Path(__file__).parents[1] / "data"
@@ -119,3 +121,16 @@ def test_horizontal_paths_are_written_too(identifier: str) -> None:
     path = planned(kind=PathKind.HORIZONTAL).path
     program = REGISTRY.part_program(identifier, takes=ProbingPath)
     assert len(LANGUAGES[identifier](program.write(path, program.options()))) == len(path.moves)
+
+
+PROGRAMS = find_plugins().list_programs_for(ProbingPath)
+
+
+@pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.identifier)
+@pytest.mark.parametrize("check", PROBING_PROGRAM_CHECKS)
+def test_conforms(program: PartProgram, check: Callable[..., None]) -> None:
+    check(program, LANGUAGES[program.identifier], {})
+
+
+def test_every_probing_program_has_a_recogniser() -> None:
+    assert {program.identifier for program in PROGRAMS} == set(LANGUAGES)

@@ -1,18 +1,65 @@
-"""A gauge is found from its 16 points wherever it lies, and what is no gauge is refused with the reason."""
+"""A gauge is found from its 16 points wherever it lies; what is no gauge is refused with the reason."""
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from refusals import refusal
 from step_gauge.gauges import gauge
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.plugin import FloatArray, InputError, Place
-from zlmreport_step_gauge.initial_points import InitialPoints
+from zlmreport_step_gauge.initial_points import InitialPoints, read_initial_points
 from zlmreport_step_gauge.location import Located, compute_direction_of, locate
+
+ROWS = [f"{block},{point},{point},2,3" for block in ("begin", "end") for point in range(1, 9)]
+
+
+def written(folder: Path, rows: list[str]) -> Path:
+    path = folder / "points.csv"
+    path.write_text("\n".join(["block,point,x,y,z", *rows]), encoding="utf-8")
+    return path
+
+
+def told(folder: Path, rows: list[str]) -> str:
+    return refusal(read_initial_points, written(folder, rows))
+
+
+def test_points_come_by_block_and_number_in_metres_whatever_their_order(tmp_path: Path) -> None:
+    found = read_initial_points(written(tmp_path, ROWS[::-1])).coordinates
+    assert found.shape == (2, 8, 3)
+    assert found[1, 6].tolist() == pytest.approx([7e-3, 2e-3, 3e-3])
+
+
+def test_a_point_that_is_missing_is_named(tmp_path: Path) -> None:
+    assert "points.csv: point 5 of block begin is missing" in told(tmp_path, ROWS[:4] + ROWS[5:])
+
+
+def test_a_point_that_is_there_twice_is_named_with_its_line(tmp_path: Path) -> None:
+    assert "points.csv:18:7: point 1 of block begin is there twice" in told(
+        tmp_path, [*ROWS, "begin,1,0,0,0"]
+    )
+
+
+def test_a_ninth_point_is_refused(tmp_path: Path) -> None:
+    assert "points.csv:18:5: a block has the points 1 to 8" in told(tmp_path, [*ROWS, "end,9,0,0,0"])
+
+
+def test_a_third_block_is_refused(tmp_path: Path) -> None:
+    assert "column block: begin or end is expected" in told(tmp_path, [*ROWS, "middle,1,0,0,0"])
+
+
+def test_a_coordinate_with_a_decimal_comma_is_told_how_to_write_it(tmp_path: Path) -> None:
+    semicolons = [row.replace(",", ";") for row in ROWS[:-1]]
+    path = tmp_path / "points.csv"
+    path.write_text("\n".join(["block;point;x;y;z", *semicolons, "end;8;8,5;2;3"]), encoding="utf-8")
+    with pytest.raises(InputError, match=r"write '8\.5' if that is meant"):
+        read_initial_points(path)
+
 
 GAUGE = gauge()
 PLACE = Place("points.csv")
@@ -32,12 +79,6 @@ def points(
 
 def located(coordinates: FloatArray, uncertainty: float = 1e-6) -> Located:
     return locate(InitialPoints(coordinates, PLACE), GAUGE, RADIUS, uncertainty)
-
-
-def refused(coordinates: FloatArray) -> str:
-    with pytest.raises(InputError) as caught:
-        located(coordinates)
-    return str(caught.value)
 
 
 @given(COMPONENT, COMPONENT, COMPONENT)
@@ -113,34 +154,35 @@ def test_a_face_that_is_tilted_is_reported_as_misaligned() -> None:
 def test_points_on_a_line_define_no_plane() -> None:
     coordinates = points()
     coordinates[0, 1] = (coordinates[0, 0] + coordinates[0, 2]) / 2
-    assert "block begin: P1, P2 and P3 lie on a line and define no plane" in refused(coordinates)
+    assert "block begin: P1, P2 and P3 lie on a line and define no plane" in refusal(located, coordinates)
 
 
 def test_exchanged_ends_are_refused() -> None:
-    assert "beginning and end are exchanged" in refused(points()[::-1])
+    assert "beginning and end are exchanged" in refusal(located, points()[::-1])
 
 
 def test_a_point_on_the_wrong_face_is_refused() -> None:
     coordinates = points()
     coordinates[0, 7] = coordinates[0, 0]
-    assert "P1 to P3 belong on the front, P8 on the back" in refused(coordinates)
+    assert "P1 to P3 belong on the front, P8 on the back" in refusal(located, coordinates)
 
 
 def test_sides_that_are_no_sides_are_refused() -> None:
     coordinates = points()
     coordinates[1, 3] = coordinates[1, 4]
-    assert "block end: P4 and P5 do not lie on opposite sides" in refused(coordinates)
+    assert "block end: P4 and P5 do not lie on opposite sides" in refusal(located, coordinates)
 
 
 def test_a_block_of_another_width_is_refused_with_both_widths() -> None:
     coordinates = points((1.0, 0.0, 0.0))
     coordinates[:, 3, 1] -= 3e-3
-    assert "a width of 23.000 mm by these points, and the gauge one of 20.000 mm" in refused(coordinates)
+    told = refusal(located, coordinates)
+    assert "a width of 23.000 mm by these points, and the gauge one of 20.000 mm" in told
 
 
 def test_a_section_of_another_number_of_blocks_is_refused_with_the_one_that_fits() -> None:
     coordinates = points((1.0, 0.0, 0.0))
     coordinates[1, :, 0] -= 20e-3
-    message = refused(coordinates)
+    message = refusal(located, coordinates)
     assert "mm apart by these points, and the blocks 1 and 5 of the section 80.000 mm" in message
     assert "they fit the blocks 1 to 4" in message

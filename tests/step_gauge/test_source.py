@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from environments import ROOT
+from refusals import refusal
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.plugin import (
     ANGLE,
@@ -87,12 +88,6 @@ def read(path: Path, set_up: GaugeSetUp | None = None, **keys: Any) -> Measureme
     return SOURCE.read(options, SourceContext(Axis("Y"), HERE, {"step_gauge": set_up or whole()}))
 
 
-def refused(path: Path, set_up: GaugeSetUp | None = None, **keys: Any) -> str:
-    with pytest.raises(InputError) as caught:
-        read(path, set_up, **keys)
-    return str(caught.value)
-
-
 def means(measurements: MeasurementSet) -> FloatArray:
     grid = measurements.deviations().mean(axis=-1)
     return np.where(np.isnan(grid[0]), grid[1], grid[0])
@@ -129,7 +124,8 @@ def test_a_sequence_of_coordinates_is_cut_into_cycles(tmp_path: Path) -> None:
 def test_a_sequence_that_is_no_whole_number_of_cycles_is_refused(tmp_path: Path) -> None:
     sequence = tmp_path / "raw.dat"
     sequence.write_text("1 2 3\n4 5 6\n", encoding="utf-8")
-    assert "holds 2 points, and a cycle over this section has 10: a face was missed" in refused(sequence)
+    told = refusal(read, sequence)
+    assert "holds 2 points, and a cycle over this section has 10: a face was missed" in told
 
 
 def test_a_table_of_characteristics_gives_distances_of_the_surface() -> None:
@@ -149,13 +145,13 @@ def test_remarks_may_stand_before_a_table_of_characteristics(tmp_path: Path) -> 
 def test_a_number_that_no_face_has_is_told_as_a_name(tmp_path: Path) -> None:
     table = tmp_path / "part_chr.txt"
     table.write_text(f"partnb\tid\tactual\tunit\n1\tF{'3' * 5000}\t20.0\tmm\n", encoding="utf-8")
-    assert "names no face of the gauge; state measurement.source.faces" in refused(table)
+    assert "names no face of the gauge; state measurement.source.faces" in refusal(read, table)
 
 
 def test_a_line_that_holds_a_tag_alone_is_no_log(tmp_path: Path) -> None:
     table = tmp_path / "points.txt"
     table.write_text("12345 \n", encoding="utf-8")
-    assert "three numbers are expected, x y z: '12345'" in refused(table)
+    assert "three numbers are expected, x y z: '12345'" in refusal(read, table)
 
 
 def test_characteristics_of_other_names_are_mapped_by_the_job(tmp_path: Path) -> None:
@@ -167,7 +163,7 @@ def test_characteristics_of_other_names_are_mapped_by_the_job(tmp_path: Path) ->
     of = whole(gauge=cut_section(CALIBRATED.gauge, 1, 2, HERE))
     mapping = {f"Step {name}": number for number, name in enumerate("ABCD", 1)}
     assert means(read(renamed, of, faces=mapping)) == pytest.approx(means(read(CALYPSO, of)))
-    assert "'Step A' names no face of the gauge; state measurement.source.faces" in refused(renamed, of)
+    assert "'Step A' names no face of the gauge; state measurement.source.faces" in refusal(read, renamed, of)
 
 
 def test_front_faces_alone_make_a_test_in_one_direction() -> None:
@@ -187,7 +183,7 @@ def test_a_normal_that_looks_the_other_way_is_refused_with_its_line(tmp_path: Pa
         RAW.read_text(encoding="utf-8").replace("-0.0006000,0.9999998", "0.0006000,-0.9999998"),
         encoding="utf-8",
     )
-    message = refused(turned, whole(located=located(CALIBRATED.gauge)))
+    message = refusal(read, turned, whole(located=located(CALIBRATED.gauge)))
     assert (
         "turned.csv:4:1: face 2 is a back face, and the normal of this point looks the other way" in message
     )
@@ -198,17 +194,17 @@ def test_an_error_answer_in_a_log_is_refused_with_its_line(tmp_path: Path) -> No
     log.write_text(
         '00010 &\n00120 ! Error(2, 1006, PtMeas, "Surface not found")\n00120 %\n', encoding="utf-8"
     )
-    assert "run.res:2:1: the machine answered with an error: 2, 1006, PtMeas" in refused(log)
+    assert "run.res:2:1: the machine answered with an error: 2, 1006, PtMeas" in refusal(read, log)
 
 
 def test_a_point_off_every_face_is_refused_with_its_line(tmp_path: Path) -> None:
     log = tmp_path / "run.res"
     log.write_text(LOG.read_text(encoding="utf-8").replace("Y(59.01421)", "Y(54.01421)"), encoding="utf-8")
-    message = refused(log, whole(located=located(CALIBRATED.gauge)))
+    message = refusal(read, log, whole(located=located(CALIBRATED.gauge)))
     assert "on no face of it" in message
 
 
 def test_text_in_the_place_of_a_coordinate_is_refused_with_its_column(tmp_path: Path) -> None:
     broken = tmp_path / "broken.csv"
     broken.write_text(RAW.read_text(encoding="utf-8").replace("53.01088", "x"), encoding="utf-8")
-    assert "broken.csv:4:15: column y: 'x' stands where a number belongs" in refused(broken)
+    assert "broken.csv:4:15: column y: 'x' stands where a number belongs" in refusal(read, broken)

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from environments import imported_from
+from refusals import failure
 from testing.planted import PLANTED, Changes, Planted
 from zlmreport.cli.new import make_skeleton_of
 
@@ -74,6 +75,4 @@ def test_a_planted_mistake_is_named(
 ) -> None:
     test_conforms = test_of(planted)
     takes_folder = planted.kind in {"source", "notifier"}
-    with pytest.raises(AssertionError) as failure:
-        test_conforms(*([tmp_path] if takes_folder else []))
-    assert planted.sentence in str(failure.value)
+    assert planted.sentence in failure(test_conforms, *([tmp_path] if takes_folder else []))

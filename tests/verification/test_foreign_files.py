@@ -25,6 +25,7 @@ from pypdf.generic import (
 )
 
 from installed import registry
+from refusals import refused
 from verification.altering import descendant, every_font, rewritten, with_program
 from verification.issued import JOB, altered, content_of, specification, with_results, with_source
 from zlmreport.plugin import AccessError, InputError
@@ -47,9 +48,7 @@ def blank(change: Callable[[PdfWriter], None] = lambda _: None) -> bytes:
 
 
 def refusal(verified: Verify, pdf: bytes) -> str:
-    with pytest.raises(InputError) as refused:
-        verified(pdf)
-    (problem,) = refused.value.problems
+    (problem,) = refused(verified, pdf).problems
     assert Path(problem.place.file).name == "certificate.pdf"
     return problem.message
 
@@ -273,9 +272,7 @@ def test_problems_with_an_attached_file_name_it_and_not_where_it_was_unpacked(
     issued: bytes, verified: Verify
 ) -> None:
     readings = content_of(issued, "x-axis.csv").replace(b"2.9", b"much")
-    with pytest.raises(InputError) as refused:
-        verified(with_source(issued, "x-axis.csv", readings))
-    (problem,) = refused.value.problems
+    (problem,) = refused(verified, with_source(issued, "x-axis.csv", readings)).problems
     assert str(problem).startswith("x-axis.csv:4:9: ")
 
 

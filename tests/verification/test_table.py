@@ -6,8 +6,10 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from time import process_time
+from types import SimpleNamespace
 
 import pytest
+from pypdf.generic import DictionaryObject, NameObject, NumberObject
 
 from verification.altering import rewritten
 from verification.forgeries import plain
@@ -16,6 +18,7 @@ from verification.raw_forgeries import with_packed_table
 from verification.test_trust import signed
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationVerdict
+from zlmreport.verification.shape import find_strangers
 from zlmreport.verification.table import check_table, scan
 from zlmreport.verification.tokens import OddError, PdfName, Reference, read_object, read_value
 
@@ -138,3 +141,20 @@ def test_what_two_readers_might_take_differently_is_no_object(text: bytes) -> No
 def test_an_object_ends_where_it_says(text: bytes) -> None:
     with pytest.raises(OddError):
         read_object(text, 0)
+
+
+def told(key: str, *, is_signed: bool) -> list[str]:
+    """Return what is said of a catalog with an entry that is none of a signature."""
+    value = DictionaryObject({NameObject("/Other"): NumberObject(1)})
+    reader = SimpleNamespace(trailer={"/Root": DictionaryObject({NameObject(key): value})})
+    return list(find_strangers(reader, is_signed=is_signed))
+
+
+@pytest.mark.parametrize("key", ["/AcroForm", "/DSS", "/Perms", "/Extensions", "/Version"])
+def test_what_only_a_signature_brings_is_strange_without_one(key: str) -> None:
+    assert told(key, is_signed=False) == [f"the catalog has {key}, and the file is not signed"]
+
+
+@pytest.mark.parametrize("key", ["/AcroForm", "/DSS", "/Perms"])
+def test_what_no_signature_brings_is_strange_beside_one(key: str) -> None:
+    assert told(key, is_signed=True) == [f"the catalog's {key} is none of a signature"]

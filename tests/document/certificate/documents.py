@@ -62,6 +62,16 @@ COMPLETE: Mapping[str, Any] = {
     "uncertainty": {"negligible": dict.fromkeys(NEGLIGIBLE, "40 mm at 20 °C")},
     "evaluate": [{"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}}],
 }
+#: Standards in seven editions, the first with limits.
+SEVEN = (
+    {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
+    "iso230-2:2006",
+    "iso230-2:1997",
+    "iso230-2:1988",
+    "vdi-dgq-3441",
+    "vdi-vde-2617",
+    "nmtba",
+)
 
 
 def job(folder: Path, keys: Mapping[str, Any] = COMPLETE) -> Job:

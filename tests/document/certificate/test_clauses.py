@@ -3,8 +3,8 @@
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, without
+from refusals import messages, refused
 from zlmreport.document.certificate.clauses import MANDATORY_ITEMS
-from zlmreport.plugin import InputError
 
 #: A job that states every item, those of an axis that was adjusted included.
 EVERYTHING = {
@@ -41,9 +41,7 @@ def bare(certificate):
 
 def refusals(folder, keys):
     """Return the messages of all items that a job with these keys lacks."""
-    with pytest.raises(InputError) as refused:
-        certificate(folder, keys)
-    return [problem.message for problem in refused.value.problems]
+    return messages(certificate, folder, keys)
 
 
 def test_a_complete_certificate_is_accepted(tmp_path):
@@ -77,8 +75,6 @@ def test_five_keys_are_enough_for_a_measuring_report(tmp_path):
 
 
 def test_the_message_stands_where_the_key_would_be_added(tmp_path):
-    with pytest.raises(InputError) as refused:
-        certificate(tmp_path, without("machine.serial"))
-    (problem,) = refused.value.problems
+    (problem,) = refused(certificate, tmp_path, without("machine.serial")).problems
     lines = (tmp_path / "job.yaml").read_text().splitlines()
     assert lines[problem.place.line - 1].startswith(("machine:", "  manufacturer:"))

@@ -1,15 +1,70 @@
-"""Digits of a whole document: U has two, its value as many, and no number contradicts another."""
+"""Digits: U has two, its value as many, and no number of a document contradicts another."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from document.certificate.documents import certificate, having
+from plugins.standards.installed import STANDARDS
+from zlmreport.document.certificate.values import write_coverage_factor
+from zlmreport.document.writer import write_uncertainty, write_with_uncertainty
 from zlmreport.language.formatting import write_plain
-from zlmreport.plugin.renderer import Symbol, Table
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, Language
+from zlmreport.plugin.renderer import EvaluatedParameter, Symbol, Table, Writer
+
+#: Of readings with two decimals.
+SCRIBE = Writer(Language.ENGLISH, MILLIMETRE, MICROMETRE, 0, 2)
+
+
+def parameter(value: float, expanded: float | None, factor: float = 2.0) -> EvaluatedParameter:
+    """Return a parameter with values in micrometres."""
+    quantity = STANDARDS["iso230-2:2014"].quantities[0]
+    return EvaluatedParameter(
+        quantity, value * 1e-6, expanded_uncertainty=expanded and expanded * 1e-6, coverage_factor=factor
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "expanded", "expected"),
+    [
+        (12.3456, 1.234, ("12.3", "1.2")),
+        (12.3456, 0.123, ("12.35", "0.12")),
+        (1234.56, 123.4, ("1230", "120")),
+        # Two digits of U always, whatever the readings show.
+        (12.34567, 0.00149, ("12.3457", "0.0015")),
+        # None known: as the readings. None at all: said to be none.
+        (12.3456, None, ("12.35", "–")),
+        (12.3456, 0.0, ("12.35", "0")),
+    ],
+)
+def test_a_value_is_rounded_with_its_uncertainty(
+    value: float, expanded: float | None, expected: tuple[str, str]
+) -> None:
+    assert write_with_uncertainty(parameter(value, expanded), SCRIBE) == expected
+
+
+def test_the_decimal_sign_is_that_of_the_document() -> None:
+    german = replace(SCRIBE, language=Language.GERMAN)
+
+    assert write_with_uncertainty(parameter(12.3456, 0.123), german) == ("12,35", "0,12")
+    assert write_coverage_factor(parameter(1.0, 0.1, 1.653), german) == "1,65"
+
+
+@pytest.mark.parametrize("expanded", [None, 0.0])
+def test_what_has_no_uncertainty_has_no_coverage_factor(expanded: float | None) -> None:
+    assert write_coverage_factor(parameter(1.0, expanded), SCRIBE) == "–"
+
+
+@pytest.mark.parametrize(
+    ("micrometres", "expected"), [(0.456, "0.46"), (0.0, "0"), (float("nan"), "–"), (0.0001, "0.00010")]
+)
+def test_an_uncertainty_by_itself_keeps_two_digits(micrometres: float, expected: str) -> None:
+    assert write_uncertainty(micrometres * 1e-6, SCRIBE) == expected
+
 
 TARGETS = range(0, 401, 40)
 

@@ -14,6 +14,7 @@ from fontTools.ttLib import TTFont
 
 from document.certificate.documents import certificate, having
 from installed import registry
+from refusals import refusal
 from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.renderer import Certificate
 
@@ -38,10 +39,8 @@ def pdf(of: Certificate) -> pypdf.PdfReader:
     return pypdf.PdfReader(io.BytesIO(registry().renderer("pdf").render(of)))
 
 
-def refusal(of: Certificate, renderer: str = "html") -> str:
-    with pytest.raises(InputError) as caught:
-        registry().renderer(renderer).render(of)
-    return str(caught.value)
+def told_of(of: Certificate, renderer: str = "html") -> str:
+    return refusal(registry().renderer(renderer).render, of)
 
 
 @pytest.mark.long
@@ -116,12 +115,12 @@ def test_a_template_takes_the_place_of_one_kind_of_block(tmp_path: Path, rendere
 )
 def test_a_template_that_is_wrong_or_leaves_out_is_refused(tmp_path: Path, template: str, told: str) -> None:
     found = styled(tmp_path, templates=str(templates(tmp_path, notice_html=template)))
-    assert re.match(told, refusal(found)), refusal(found)
+    assert re.match(told, told_of(found)), told_of(found)
 
 
 def test_a_picture_cannot_be_left_out_either(tmp_path: Path) -> None:
     house = templates(tmp_path, graph_html="<p>{{ label }} {{ caption }}</p>")
-    assert "leaves out <" in refusal(styled(tmp_path, templates=str(house)), "pdf")
+    assert "leaves out <" in told_of(styled(tmp_path, templates=str(house)), "pdf")
 
 
 def test_a_file_that_stands_for_no_block_is_refused(tmp_path: Path) -> None:
@@ -131,4 +130,4 @@ def test_a_file_that_stands_for_no_block_is_refused(tmp_path: Path) -> None:
 
 
 def test_typst_takes_neither(tmp_path: Path) -> None:
-    assert "ask for the format pdf" in refusal(styled(tmp_path, typeface=TYPEFACE), "pdf-typst")
+    assert "ask for the format pdf" in told_of(styled(tmp_path, typeface=TYPEFACE), "pdf-typst")

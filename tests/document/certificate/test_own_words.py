@@ -11,8 +11,8 @@ import pytest
 
 from document.certificate.documents import COMPLETE, certificate, job
 from installed import registry
+from refusals import refusal
 from zlmreport import pipeline
-from zlmreport.plugin import InputError
 from zlmreport.plugin.renderer import Notice
 from zlmreport.verification.verify import verify
 
@@ -21,12 +21,6 @@ LEAST = ["results", "uncertainty", "conditions"]
 
 def having(**keys: Any) -> Mapping[str, Any]:
     return {**COMPLETE, "certificate": {**COMPLETE["certificate"], **keys}}
-
-
-def refusal(folder: Path, **keys: Any) -> str:
-    with pytest.raises(InputError) as refused:
-        certificate(folder, having(**keys))
-    return str(refused.value)
 
 
 @pytest.mark.parametrize("layout", ["standard", "full"])
@@ -45,7 +39,9 @@ def test_a_placeholder_is_looked_up_and_nothing_is_executed(tmp_path: Path) -> N
     made = certificate(tmp_path, having(style={"footer": harmless}))
     assert made.page_words.foot == harmless.replace("{customer.name}", "A Customer")
     for named in ("customer.nme", "customer.name.__class__", "certificate.__init__"):
-        assert f"{{{named}}} stands for no value" in refusal(tmp_path, style={"header": f"{{{named}}}"})
+        assert f"{{{named}}} stands for no value" in refusal(
+            certificate, tmp_path, having(style={"header": f"{{{named}}}"})
+        )
 
 
 def test_what_a_customer_is_called_is_no_placeholder(tmp_path: Path) -> None:
@@ -57,7 +53,7 @@ def test_what_a_customer_is_called_is_no_placeholder(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["uncertainty", "conditions"])
 def test_a_certificate_cannot_leave_out_what_is_mandatory(tmp_path: Path, name: str) -> None:
     sections = [each for each in LEAST if each != name]
-    assert f"add {name} to certificate.sections" in refusal(tmp_path, sections=sections)
+    assert f"add {name} to certificate.sections" in refusal(certificate, tmp_path, having(sections=sections))
     assert certificate(tmp_path, having(kind="report", sections=sections))
 
 
@@ -72,7 +68,7 @@ def test_a_certificate_cannot_leave_out_what_is_mandatory(tmp_path: Path, name: 
     ],
 )
 def test_what_cannot_be_printed_is_refused(tmp_path: Path, keys: Mapping[str, Any], message: str) -> None:
-    assert message in refusal(tmp_path, **keys)
+    assert message in refusal(certificate, tmp_path, having(**keys))
 
 
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst", "html"])

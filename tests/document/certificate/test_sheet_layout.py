@@ -14,22 +14,13 @@ import pytest
 import yaml
 from hypothesis import example, given, settings, strategies as st
 
-from document.certificate.documents import COMPLETE, ROOT, certificate, having, lines_of, without
+from document.certificate.documents import COMPLETE, ROOT, SEVEN, certificate, having, lines_of, without
 from installed import registry
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Head, Party
 from zlmreport.plugin import Language
 from zlmreport.plugin.renderer import Block, Certificate, Facts, Graph, Letterhead, Notice, Paragraph, Table
 
-SEVEN = (
-    {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
-    "iso230-2:2006",
-    "iso230-2:1997",
-    "iso230-2:1988",
-    "vdi-dgq-3441",
-    "vdi-vde-2617",
-    "nmtba",
-)
 #: An axis that drifts by no more than is said, by an instrument whose calibration has a date.
 _NEGLECTED = {
     name: reason

@@ -12,7 +12,7 @@ import numpy as np
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of
+from document.certificate.documents import COMPLETE, SEVEN, certificate, having, lines_of
 from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
 from installed import registry
@@ -21,15 +21,6 @@ from zlmreport.plugin import same_in_all_languages
 from zlmreport.plugin.renderer import Block, Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
 from zlmreport.plugin.standard import Curve, Panel, Role
 
-SEVEN = (
-    {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
-    "iso230-2:2006",
-    "iso230-2:1997",
-    "iso230-2:1988",
-    "vdi-dgq-3441",
-    "vdi-vde-2617",
-    "nmtba",
-)
 #: More of the conditions than a first page has room for beside the results by seven standards.
 _LONG: Mapping[str, Any] = {
     "measurement": {**COMPLETE["measurement"], "feed": 600, "dwell": 3, "remarks": "Words of a remark. " * 6},

@@ -1,8 +1,12 @@
-"""What a certificate states beside its results."""
+"""What a certificate states beside its results: place, amendment, opinions."""
+
+from __future__ import annotations
 
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of, text_of, without
+from document.certificate.documents import COMPLETE, certificate, having, job, lines_of, text_of, without
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Notice, place_of_work
 
 
 def cover(document):
@@ -109,3 +113,144 @@ def test_a_certificate_without_any_condition_says_that_none_is_named(tmp_path):
         certificate(tmp_path, {**COMPLETE, "axis": rotary, "uncertainty": negligible, "environment": {}})
     )
     assert "The laboratory names no environmental condition that influenced the results." in text
+
+
+AMENDS = {"number": "CAL-0", "reason": "Wrong serial number.", "changes": ["Serial number: S-1, not S-2"]}
+
+
+@pytest.fixture
+def document(tmp_path):
+    """Compose a document that changes CAL-0, with other keys of its certificate."""
+
+    def compose(**keys):
+        changed = {**COMPLETE["certificate"], "amends": AMENDS, **keys}
+        words_only = COMPLETE
+        return certificate(tmp_path, {**words_only, "certificate": changed})
+
+    return compose
+
+
+@pytest.mark.parametrize(
+    ("keys", "title"),
+    [
+        ({}, "Amendment to Calibration Certificate CAL-0"),
+        ({"language": "de"}, "Änderung zum Kalibrierschein CAL-0"),
+        ({"kind": "report"}, "Amendment to Measuring Report CAL-0"),
+        ({"kind": "report", "language": "de"}, "Änderung zum Messbericht CAL-0"),
+        ({"title": "Factory Test"}, "Amendment to Factory Test CAL-0"),
+    ],
+)
+def test_an_amendment_is_titled_by_what_it_amends(document, keys, title):
+    assert document(**keys).title == title
+
+
+def test_every_page_of_an_amendment_has_its_own_number(document):
+    assert document().page_words.number == "Amendment CAL-1"
+
+
+def test_a_replacement_is_a_whole_certificate_by_title_and_on_every_page(document):
+    replacing = document(amends={**AMENDS, "kind": "replacement"})
+    assert replacing.title == "Calibration Certificate"
+    assert replacing.page_words.number == "Calibration Certificate CAL-1"
+
+
+@pytest.mark.parametrize(
+    ("kind", "heading"),
+    [
+        ("amendment", "This document amends CAL-0, which remains valid in all that is not changed here"),
+        ("replacement", "This document replaces CAL-0, which is no longer valid"),
+    ],
+)
+def test_the_first_page_begins_with_what_is_changed_and_why(document, kind, heading):
+    first = document(amends={**AMENDS, "kind": kind}).cover[0]
+    assert first == Notice(heading, ("Reason: Wrong serial number.", "Changed: Serial number: S-1, not S-2"))
+
+
+def test_a_document_that_changes_none_speaks_of_none(document):
+    text = "\n".join(line for block in document(amends=None).cover for line in lines_of(block))
+    assert "amends" not in text
+    assert "replaces" not in text
+
+
+CUSTOMER = COMPLETE["customer"]["address"]
+LABORATORY = COMPLETE["laboratory"]["address"]
+
+
+def place(folder, keys):
+    return place_of_work(job(folder, keys).keys)
+
+
+@pytest.mark.parametrize(
+    ("location", "kind", "words"),
+    [
+        ("Hall 3, Village", "other", "Hall 3, Village"),
+        ({"kind": "laboratory"}, "laboratory", f"in the laboratory: {LABORATORY}"),
+        ({"kind": "customer"}, "customer", f"at the customer's: {CUSTOMER}"),
+        ({"kind": "customer", "address": "Hall 3"}, "customer", "at the customer's: Hall 3"),
+        ({"kind": "other", "address": "Fair, stand 7"}, "other", "Fair, stand 7"),
+        (
+            {"kind": "laboratory branch", "address": "Lane 9\n12345 Town"},
+            "laboratory branch",
+            "at a branch of the laboratory: Lane 9, 12345 Town",
+        ),
+        (
+            {"kind": "customer branch", "address": "Works 2"},
+            "customer branch",
+            "at a branch of the customer: Works 2",
+        ),
+    ],
+)
+def test_the_page_says_whose_place_it_was_and_its_address(tmp_path, location, kind, words):
+    found = place(tmp_path, {**COMPLETE, "location": location})
+    assert (found.kind, found.words.in_language(Language.ENGLISH)) == (kind, words)
+
+
+def test_a_machine_is_calibrated_where_it_stands_if_nothing_else_is_said(tmp_path):
+    found = place(tmp_path, having("machine.location", "Hall 3", without("location")))
+    assert found.words.in_language(Language.GERMAN) == "am Aufstellort der Maschine: Hall 3"
+
+
+def test_the_place_that_is_stated_goes_before_that_of_the_machine(tmp_path):
+    keys = having("machine.location", "Hall 3", {**COMPLETE, "location": {"kind": "laboratory"}})
+    assert place(tmp_path, keys).kind == "laboratory"
+
+
+def test_no_place_is_assumed(tmp_path):
+    assert place(tmp_path, without("location")) is None
+
+
+def test_certificate_without_a_place_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"where the work was done .*7\.8\.2\.1 c"):
+        certificate(tmp_path, without("location"))
+
+
+OPINIONS = [
+    {"statement": "There is play in the nut.", "basis": "The reversal value is alike everywhere."},
+    {"statement": "It will grow.", "basis": "Three years.", "by": {"name": "B. Other", "function": "Fitter"}},
+]
+
+
+def test_opinions_stand_in_a_section_of_their_own_after_all_results(tmp_path):
+    keys = [section.key for section in certificate(tmp_path, {**COMPLETE, "opinions": OPINIONS}).sections]
+    assert keys[-1] == "opinions"
+
+
+def test_an_opinion_is_marked_and_has_its_basis_and_its_author(tmp_path):
+    document = certificate(tmp_path, {**COMPLETE, "opinions": OPINIONS})
+    lines = [line for block in document.sections[-1].blocks for line in lines_of(block)]
+    assert lines[0] == (
+        "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement"
+    )
+    assert lines[-2:] == [
+        "  There is play in the nut. | The reversal value is alike everywhere. | A. Person, Head",
+        "  It will grow. | Three years. | B. Other, Fitter",
+    ]
+
+
+def test_a_certificate_without_opinions_has_no_section_for_them(tmp_path):
+    assert "opinions" not in [section.key for section in certificate(tmp_path, COMPLETE).sections]
+
+
+def test_opinions_are_not_on_the_first_page(tmp_path):
+    document = certificate(tmp_path, {**COMPLETE, "opinions": OPINIONS})
+    assert not any("play" in line for block in document.cover for line in lines_of(block))

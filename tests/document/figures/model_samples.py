@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -13,6 +12,7 @@ from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin import FloatArray, read_only_floats
 from zlmreport.plugin.effect import Design
 from zlmreport.testing import full_designs
@@ -57,15 +57,4 @@ def history() -> tuple[Fitted, ...]:
 
 def one_way(design: Design) -> Design:
     """Return the readings of the positive approach alone."""
-    chosen = design.direction > 0
-    return replace(
-        design,
-        position=design.position[chosen],
-        direction=design.direction[chosen],
-        run=design.run[chosen],
-        target=design.target[chosen],
-        time=design.time[chosen],
-        since_reversal=design.since_reversal[chosen],
-        conditions={},
-        rates={},
-    )
+    return select_readings(design, np.flatnonzero(design.direction > 0))

@@ -31,6 +31,7 @@ from zlmreport.document.figures.model_residuals import (
     draw_slopes_over_time,
 )
 from zlmreport.model.effects.design import place_at_positions
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin import Approach, Figure, FloatArray, Language
 from zlmreport.plugin.standard import Panel, Role
 
@@ -188,16 +189,7 @@ def test_the_uncertainty_of_the_estimate_is_that_of_the_fit() -> None:
     band = estimate(found).panels[0].bands[0]
     design = found.design
     chosen = np.flatnonzero((design.direction > 0) & (design.run == 3))[[0]]
-    at = replace(
-        design,
-        position=design.position[chosen],
-        direction=design.direction[chosen],
-        run=design.run[chosen],
-        target=design.target[chosen],
-        time=design.time[chosen],
-        since_reversal=design.since_reversal[chosen],
-        conditions={name: log[chosen] for name, log in design.conditions.items()},
-    )
+    at = select_readings(design, chosen)
     expected = float(found.fit.predict(at).expanded_uncertainty[0]) * MICROMETRE
     place = int(np.argmin(np.abs(band.x - at.position[0] * 1e3)))
     assert (band.upper[place] - band.lower[place]) / 2 == pytest.approx(expected, rel=0.05)

@@ -1,14 +1,15 @@
-"""From an evaluation to the marks of its graphs: units, order of ends, and what is left out."""
+"""From evaluations to the marks of their graphs: units, order of ends, targets of one direction."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.plugin import Approach
+from zlmreport.plugin import Approach, Evaluation, Options
 from zlmreport.plugin.standard import Diagram, Role, diagram_panel, evaluate, worst_position
 from zlmreport.testing import bidirectional_test
 
@@ -80,3 +81,18 @@ def test_a_panel_leaves_out_what_is_not_defined() -> None:
     shown = diagram_panel(curves=[None], levels=[None, level])
 
     assert (shown.curves, shown.levels) == ((), (level,))
+
+
+def evaluation(*, one_sided: bool) -> Evaluation:
+    positive = np.array([[1.0], [NAN], [3.0]])
+    negative = np.array([[NAN], [2.0], [NAN]])
+    test = bidirectional_test([0.0, 10.0, 20.0], positive, negative)
+    return evaluate(ISO, replace(test, one_sided_targets=one_sided), Options(), {})
+
+
+@pytest.mark.parametrize(("one_sided", "positions"), [(True, [0.0, 20.0]), (False, [0.0, 10.0, 20.0])])
+def test_a_line_has_a_gap_only_where_a_reading_is_missing(one_sided: bool, positions: list[float]) -> None:  # noqa: FBT001 - a parameter
+    found = evaluation(one_sided=one_sided)
+    curve = Diagram(found).curve("x̄", Role.MEAN_POSITIVE, found.statistics.mean_positive)
+    assert curve is not None
+    assert curve.x == pytest.approx(positions)

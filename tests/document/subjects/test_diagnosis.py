@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from model.hidden_effect import example_diagnosis, example_history
-from zlmreport.document.blocks import Paragraph
 from zlmreport.document.subjects.diagnosis import (
     DiagnosisRows,
     lay_out_diagnosis,
@@ -15,10 +14,10 @@ from zlmreport.document.subjects.diagnosis import (
     make_failure_row,
 )
 from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
-from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
-from zlmreport.plugin import Language, Words
+from zlmreport.plugin import STRAIGHTNESS, Language, Words
+from zlmreport.plugin.renderer import Paragraph
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 

@@ -6,8 +6,10 @@ import datetime as dt
 import random
 from collections.abc import Iterable
 from dataclasses import replace
+from io import BytesIO
 
 import numpy as np
+from PIL import Image
 
 from zlmreport.document.certificate.document import Party
 from zlmreport.document.figures.figure import PlottedReadings
@@ -285,6 +287,16 @@ def certificate(
         plugins={"laser-csv": "zlmreport 0.1.0", "sample:2026": "zlmreport 0.1.0"},
     )
     return replace(document, **changes)  # type: ignore[arg-type]
+
+
+def with_logo(kind: str = "png") -> Certificate:
+    """A certificate of a laboratory that has a logo of 30 by 10 pixels."""
+    picture = BytesIO()
+    Image.new("RGB", (30, 10), "navy").save(picture, kind)
+    plain = certificate(standards=0)
+    assert plain.letterhead is not None
+    letterhead = replace(plain.letterhead, logo=picture.getvalue(), logo_type=f"image/{kind}")
+    return replace(plain, letterhead=letterhead)
 
 
 class _Writer:

@@ -114,11 +114,6 @@ def test_the_heading_of_a_group_leads_to_its_section() -> None:
     assert (link.get("href"), text(link)) == ("#key", "words")
 
 
-@pytest.mark.parametrize("language", Language)
-def test_the_document_says_its_language(language: Language) -> None:
-    assert tree(certificate(language)).get("lang") == language.value
-
-
 def test_metadata_tell_title_author_dates_and_program() -> None:
     document = tree(certificate())
     metadata = {element.get("name"): element.get("content") for element in document.iter("meta")}
@@ -274,10 +269,6 @@ def test_a_short_table_stays_on_a_page_and_a_long_one_does_not() -> None:
 
     assert whole(5)
     assert not whole(60)
-
-
-def test_the_same_certificate_is_set_the_same() -> None:
-    assert compose_html(certificate()) == compose_html(certificate())
 
 
 _SYMBOLS = ("U_{max}",)

@@ -1,4 +1,4 @@
-"""Style sheets and fonts as they are bundled."""
+"""Style sheets, fonts and the files of pages, as they are bundled; templates run in a sandbox."""
 
 from __future__ import annotations
 
@@ -7,8 +7,11 @@ from io import BytesIO
 
 import pytest
 from fontTools.ttLib import TTFont, woff2
+from jinja2 import TemplateNotFound
+from jinja2.exceptions import SecurityError, UndefinedError
 
-from zlmreport.document.typesetting.resources import FAMILY, FontFace
+from zlmreport.document.typesetting.resources import FAMILY, FontFace, find_page_file, read_page_files
+from zlmreport.document.typesetting.templates import make_environment
 from zlmreport.plugin.page import FONT_FACES, font_face_rules, font_file, style_sheet
 
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
@@ -69,3 +72,79 @@ def test_a_colour_stands_for_the_usual_one_wherever_a_style_sheet_has_that() -> 
     usual, accent = style_sheet("certificate"), "#0d4a63"
     assert usual.count(accent) > 1
     assert style_sheet("certificate", accent="#5c1a33") == usual.replace(accent, "#5c1a33")
+
+
+_IMPORT = re.compile(r'from "\./([\w.]+)"')
+_URL = re.compile(r"url\(([^)]+)\)")
+
+
+def test_everything_that_a_page_loads_is_there() -> None:
+    named = {"workbench.js", "tokens.css", "workbench.css", "graphs.css", "faces.css", "icon.svg"}
+    for name, file in read_page_files().items():
+        if name.endswith((".js", ".css")):
+            named.update((_IMPORT if name.endswith(".js") else _URL).findall(file.content.decode()))
+    assert named == set(read_page_files())
+
+
+@pytest.mark.parametrize("name", ["", ".", "..", "../templates/document.html", "/etc/passwd", "__init__.py"])
+def test_nothing_else_is_handed_out(name: str) -> None:
+    assert find_page_file(name) is None
+
+
+def test_scripts_turn_no_text_into_markup_or_program() -> None:
+    scripts = "".join(
+        file.content.decode() for name, file in read_page_files().items() if name.endswith(".js")
+    )
+    for word in (
+        "innerHTML",
+        "outerHTML",
+        "insertAdjacentHTML",
+        "document.write",
+        "eval(",
+        "new Function",
+        ".style",
+    ):
+        assert word not in scripts
+
+
+def test_every_media_type_is_one_that_browsers_take() -> None:
+    assert {file.media_type for file in read_page_files().values()} == {
+        "text/css",
+        "text/javascript",
+        "image/svg+xml",
+        "font/woff2",
+    }
+
+
+@pytest.mark.parametrize(
+    "attack",
+    [
+        "{{ ''.__class__.__mro__[1].__subclasses__() }}",
+        "{{ words.append('x') }}",
+        "{{ words.clear() }}",
+        "{{ call.__globals__ }}",
+        "{{ '{0.__class__.__init__.__globals__}'.format(call) }}",
+        "{{ range(10**9) | list }}",
+    ],
+)
+def test_a_template_reaches_nothing_but_what_it_is_given(attack: str) -> None:
+    words = ["a"]
+    with pytest.raises((SecurityError, OverflowError)):
+        make_environment().from_string(attack).render(words=words, call=lambda: None)
+    assert words == ["a"]
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../styles/A4.css", "../../../../etc/passwd", "none.html"])
+def test_a_template_of_elsewhere_is_not_found(name: str) -> None:
+    with pytest.raises(TemplateNotFound):
+        make_environment().from_string("{% include name %}").render(name=name)
+
+
+def test_a_value_that_is_missing_is_a_mistake_and_no_blank() -> None:
+    with pytest.raises(UndefinedError):
+        make_environment().from_string("{{ nothing }}").render()
+
+
+def test_a_value_is_escaped() -> None:
+    text = make_environment().from_string("<p title='{{ text }}'>{{ text }}</p>").render(text="<b>'&\"")
+    assert text == "<p title='&lt;b&gt;&#39;&amp;&#34;'>&lt;b&gt;&#39;&amp;&#34;</p>"

@@ -12,6 +12,7 @@ import yaml
 
 from document.certificate.documents import COMPLETE, job as job_of_axis
 from installed import registry
+from refusals import refused
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
 from zlmreport.job.loading import load
@@ -245,13 +246,10 @@ def test_a_certificate_says_what_to_state(tmp_path: Path) -> None:
     stated = {key: each for key, each in STATED.items() if key != "calibrated_length"}
     keys = {"certificate": COMPLETE["certificate"], "uncertainty": stated}
 
-    with pytest.raises(InputError) as caught:
-        pipeline.compose(job(tmp_path, **keys), registry(), trials=100)
-
     assert any(
         "uncertainty.calibrated_length: state the expanded uncertainty (k = 2) of the instrument's "
         "calibrated length" in str(each)
-        for each in caught.value.problems
+        for each in refused(pipeline.compose, job(tmp_path, **keys), registry(), trials=100).problems
     )
 
 
@@ -277,10 +275,7 @@ def test_errors_are_shared_in_a_way_that_fits(tmp_path: Path, of: str, acts: str
         "axis": lambda: job_of_axis(tmp_path, {**COMPLETE, "uncertainty": own}),
     }[of]
 
-    with pytest.raises(InputError) as caught:
-        load_it()
-
-    assert [str(each).partition(": ")[2] for each in caught.value.problems] == [
+    assert [str(each).partition(": ")[2] for each in refused(load_it).problems] == [
         f"uncertainty.{key}: {acts} does not fit: {said}" for key in ("contributions.acts", "instrument_acts")
     ]
 

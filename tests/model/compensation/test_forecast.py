@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from zlmreport.model.compensation.basis import DeviationPart, ReadingScatter, TableBasis
-from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
+from zlmreport.model.compensation.curve import ErrorCurve
 from zlmreport.model.compensation.forecast import ExpectedFigure, forecast
 from zlmreport.plugin import Approach, Axis, Place, same_in_all_languages as same
+from zlmreport.plugin.controller import CompensationTable
 from zlmreport.plugin.extension import Acts, Contribution, Distribution
 from zlmreport.plugin.renderer import Budget
 

@@ -1,14 +1,22 @@
-"""Each positioning method leads the axis as its description says: small tests, written out by hand."""
+"""Each positioning method leads the axis as its description says, and effects see it so."""
 
 from __future__ import annotations
 
 import itertools
 
+import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
-from zlmreport.model.planning.methods import Method, Stop, list_visits, plan_path
-from zlmreport.plugin import Approach
+from zlmreport.model.planning.methods import (
+    Method,
+    Stop,
+    compute_times,
+    list_visits,
+    make_planned_design,
+    plan_path,
+)
+from zlmreport.plugin import Approach, Axis
 
 TARGETS = (10.0, 20.0, 40.0)
 OVERRUN = 5.0
@@ -123,3 +131,28 @@ def test_targets_that_do_not_rise_are_refused(targets: tuple[float, ...]) -> Non
 def test_a_reading_where_nothing_has_moved_has_no_direction() -> None:
     with pytest.raises(ValueError, match="no direction of approach"):
         list_visits([Stop(1.0, 0, 1)])
+
+
+TWO_TARGETS = np.array([0.1, 0.3])
+VISITS_OF_TWO = list_visits(plan_path(Method.LINEAR, TWO_TARGETS.tolist(), 1, 0.05))
+
+
+def test_time_is_way_by_feed_and_dwell() -> None:
+    # ways: 0.05 (start), 0.2, 0.1, 0.2 m at 0.1 m/s; 2 s at rest before each reading
+    np.testing.assert_allclose(compute_times(VISITS_OF_TWO, 0.1, 2.0), [0.0, 4.0, 7.0, 11.0], rtol=1e-14)
+
+
+def test_design_has_the_readings_in_their_order() -> None:
+    design = make_planned_design(Axis("X"), TWO_TARGETS, VISITS_OF_TWO, 0.1, 2.0)
+    np.testing.assert_array_equal(design.position, [0.1, 0.3, 0.3, 0.1])
+    np.testing.assert_array_equal(design.direction, [1.0, 1.0, -1.0, -1.0])
+    np.testing.assert_array_equal(design.target, [0, 1, 1, 0])
+    np.testing.assert_array_equal(design.run, [1, 1, 1, 1])
+    np.testing.assert_allclose(design.since_reversal, [0.05, 0.25, 0.05, 0.25], rtol=1e-14)
+    assert not design.time_is_counted
+    assert design.is_bidirectional
+
+
+def test_design_ends_where_the_targets_do() -> None:
+    design = make_planned_design(Axis("X"), TWO_TARGETS, VISITS_OF_TWO, 0.1, 2.0)
+    assert (design.length, design.middle, design.duration) == (0.3 - 0.1, 0.2, 11.0)

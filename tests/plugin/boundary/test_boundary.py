@@ -20,11 +20,10 @@ from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
-from zlmreport.errors import InputError, Place, PluginError
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import What
-from zlmreport.plugin import Axis, Language, MeasurementSet
-from zlmreport.plugin.boundary import guard
+from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
+from zlmreport.plugin.boundary import PluginError, guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import Plugin, Registry, collect

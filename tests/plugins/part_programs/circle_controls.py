@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 
-from plugins.part_programs.controls import AlarmError
+from plugins.part_programs.controls import AlarmError, demand, read_klartext
 from zlmreport.testing import CircleMove
 
 _WORD = re.compile(r"([A-Z])=?([+-]?\d+\.?\d*)")
@@ -68,7 +68,7 @@ def _way(point: tuple[float, float], centre: tuple[float, float]) -> float:
 def linuxcnc(text: str) -> Tool:
     """Run RS274/NGC: remarks in brackets, offsets of arcs from their start, M2 at the end."""
     *lines, last = text.splitlines()
-    _demand(last == "M2", "no end")
+    demand(last == "M2", "no end")
     tool, modes = Tool(), set[str]()
     for line in lines:
         code = re.sub(r"\([^()]*\)", "", line).strip()
@@ -80,20 +80,20 @@ def linuxcnc(text: str) -> Tool:
             tool.is_exact = code == "G61.1"
         elif code:
             _iso(code, tool, modes)
-    _demand({"G21", "G90", "G94", "G49", "G91.1"} <= modes, "modes are not set")
+    demand({"G21", "G90", "G94", "G49", "G91.1"} <= modes, "modes are not set")
     return tool
 
 
 def fanuc(text: str) -> Tool:
     """Run ISO code of a machining centre: between percent signs, every value with a point."""
     first, number, *lines, end, last = text.splitlines()
-    _demand((first, end, last) == ("%", "M30", "%"), "no frame of percent signs, or no M30")
-    _demand(re.fullmatch(r"O\d{4}", number), "no program number")
+    demand((first, end, last) == ("%", "M30", "%"), "no frame of percent signs, or no M30")
+    demand(re.fullmatch(r"O\d{4}", number), "no program number")
     tool, modes = Tool(), set[str]()
     for line in lines:
         code = re.sub(r"\([A-Z0-9 .,+/-]*\)", "", line).strip()
         values = [value for letter, value in _WORD.findall(code) if letter not in "GM"]
-        _demand(all("." in value for value in values), f"without a point, least increments are meant: {line}")
+        demand(all("." in value for value in values), f"without a point, least increments are meant: {line}")
         if words := re.fullmatch(r"G04 X([\d.]+)", code):
             tool.rests.append(float(words[1]))
         elif code == "M00":
@@ -102,19 +102,19 @@ def fanuc(text: str) -> Tool:
             tool.is_exact = code == "G61"
         elif code:
             _iso(code, tool, modes)
-    _demand({"G21", "G90", "G94", "G49"} <= modes, "modes are not set")
+    demand({"G21", "G90", "G94", "G49"} <= modes, "modes are not set")
     return tool
 
 
 def siemens(text: str) -> Tool:
     """Run the language of SINUMERIK: remarks after a semicolon, no reading ahead of a rest."""
     *lines, last = text.splitlines()
-    _demand(last == "M30", "no end")
+    demand(last == "M30", "no end")
     tool, modes, is_stopped = Tool(), set[str](), False
     for line in lines:
         code = line.partition(";")[0].strip()
         if words := re.fullmatch(r"G4 F([\d.]+)", code):
-            _demand(is_stopped, "reads ahead before it rests")
+            demand(is_stopped, "reads ahead before it rests")
             tool.rests.append(float(words[1]))
         elif code == "M0":
             tool.wait()
@@ -123,21 +123,14 @@ def siemens(text: str) -> Tool:
         elif code and code != "STOPRE":
             _iso(code, tool, modes)
         is_stopped = code == "STOPRE"
-    _demand({"G710", "G90", "G94", "D0"} <= modes, "modes are not set")
+    demand({"G710", "G90", "G94", "D0"} <= modes, "modes are not set")
     return tool
 
 
 def heidenhain(text: str) -> Tool:
     """Run Klartext: numbered blocks, arcs about CC, cycle 9 in two blocks."""
-    blocks = []
-    for count, line in enumerate(text.splitlines()):
-        number, _, code = line.partition(" ")
-        _demand(number == str(count), f"blocks are not numbered: {line}")
-        blocks.append(code)
-    begin = re.fullmatch(r"BEGIN PGM ([A-Za-z0-9_-]+) MM", blocks[0])
-    _demand(begin and blocks[-1] == f"END PGM {begin[1]} MM", "no begin and end of one name")
     tool, centre = Tool(), None
-    for code in blocks[1:-1]:
+    for code in read_klartext(text):
         words = {letter: float(value) for letter, value in re.findall(r"([XYZ])([+-][\d.]+)", code)}
         if code == "STOP":
             tool.wait()
@@ -150,10 +143,10 @@ def heidenhain(text: str) -> Tool:
             tool.feed = float(line[2])
             tool.line(words)
         elif arc := re.fullmatch(r"C( [XYZ][+-][\d.]+){2} DR([+-])", code):
-            _demand(centre, "no centre")
+            demand(centre, "no centre")
             tool.arc(words, 1 if arc[2] == "+" else -1, centre)
         else:
-            _demand(code.startswith(";") or code == "CYCL DEF 9.0 DWELL TIME", code)
+            demand(code.startswith(";") or code == "CYCL DEF 9.0 DWELL TIME", code)
     return tool
 
 
@@ -168,9 +161,9 @@ def _iso(code: str, tool: Tool, modes: set[str]) -> None:
                 tool.plane = plane
     else:
         head, _, rest = code.partition(" ")
-        _demand(re.fullmatch(r"([A-Z]=?[+-]?\d+\.\d+ ?)+", rest), code)
+        demand(re.fullmatch(r"([A-Z]=?[+-]?\d+\.\d+ ?)+", rest), code)
         words = {letter: float(value) for letter, value in _WORD.findall(rest)}
-        _demand(modes & {"G54", "G55", "G56", "G57", "G58", "G59"}, "no work offset")
+        demand(modes & {"G54", "G55", "G56", "G57", "G58", "G59"}, "no work offset")
         match head.replace("G0", "G"):
             case "G1":
                 tool.line(words)
@@ -180,11 +173,6 @@ def _iso(code: str, tool: Tool, modes: set[str]) -> None:
                 tool.arc(words, 1)
             case _:
                 raise AlarmError(code)
-
-
-def _demand(condition: object, alarm: str) -> None:
-    if not condition:
-        raise AlarmError(alarm)
 
 
 CONTROLS = {"linuxcnc": linuxcnc, "fanuc": fanuc, "siemens-840d": siemens, "heidenhain": heidenhain}

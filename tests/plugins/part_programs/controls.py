@@ -60,7 +60,7 @@ def linuxcnc(text: str, axis: str = "[XYZABCUVW]") -> Machine:
         elif words := re.fullmatch(r"F([\d.]+)", code):
             machine.feed = float(words[1])
         elif words := re.fullmatch(rf"G53 G1 {axis}(-?\d+\.\d+)", code):
-            _demand({"G21", "G90", "G94", "G49", "G61.1"} <= modes, "modes are not set")
+            demand({"G21", "G90", "G94", "G49", "G61.1"} <= modes, "modes are not set")
             machine.move(float(words[1]))
         elif code == "M0":
             machine.wait()
@@ -68,7 +68,7 @@ def linuxcnc(text: str, axis: str = "[XYZABCUVW]") -> Machine:
             machine.rest(float(words[1]))
         else:
             raise AlarmError(line)
-    _demand(last == "M2", "no end")
+    demand(last == "M2", "no end")
     return machine
 
 
@@ -76,25 +76,25 @@ def fanuc(text: str) -> Machine:
     """Run ISO code of a machining centre: between percent signs, modal, every position with a point."""
     machine, modes = Machine(), set[int]()
     first, number, *lines, end, last = text.splitlines()
-    _demand((first, end, last) == ("%", "M30", "%"), "no frame of percent signs, or no M30")
-    _demand(re.fullmatch(r"O\d{4}", number), "no program number")
+    demand((first, end, last) == ("%", "M30", "%"), "no frame of percent signs, or no M30")
+    demand(re.fullmatch(r"O\d{4}", number), "no program number")
     for line in lines:
         code = re.sub(r"\([A-Z0-9 .,+/-]*\)", "", line).strip()
         if code == "M00":
             machine.wait()
             continue
         found = _WORD.findall(code)
-        _demand("".join(f"{letter}{value}" for letter, value in found) == code.replace(" ", ""), line)
+        demand("".join(f"{letter}{value}" for letter, value in found) == code.replace(" ", ""), line)
         words = [(letter, value) for letter, value in found if letter not in "GN"]
         functions = {int(value) for letter, value in found if letter == "G"}
         machine.blocks.extend(int(value) for letter, value in found if letter == "N")
-        _demand(
+        demand(
             all("." in value for _, value in words), f"without a point, least increments are meant: {line}"
         )
-        _demand(len(words) <= 1, line)
+        demand(len(words) <= 1, line)
         if 4 in functions:
             ((letter, value),) = words
-            _demand(letter == "X" and functions == {4}, line)
+            demand(letter == "X" and functions == {4}, line)
             machine.rest(float(value))
             continue
         modes |= functions
@@ -102,8 +102,8 @@ def fanuc(text: str) -> Machine:
             if letter == "F":
                 machine.feed = float(value)
             else:
-                _demand(letter in "XYZABCUVW" and {1, 21, 61, 90, 94, 49} <= modes, line)
-                _demand(modes & set(range(54, 60)) and 53 not in modes and 0 not in modes, line)
+                demand(letter in "XYZABCUVW" and {1, 21, 61, 90, 94, 49} <= modes, line)
+                demand(modes & set(range(54, 60)) and 53 not in modes and 0 not in modes, line)
                 machine.move(float(value))
     return machine
 
@@ -117,35 +117,28 @@ def siemens(text: str) -> Machine:
         if not code:
             continue
         if words := re.fullmatch(r"(?:N(\d+) )?G4 F([\d.]+)", code):
-            _demand(is_stopped, "reads ahead before it rests")
+            demand(is_stopped, "reads ahead before it rests")
             machine.blocks.append(int(words[1]))
             machine.rest(float(words[2]))
         elif words := re.fullmatch(r"SUPA G1 [A-Z][A-Z0-9_]*=(-?\d+(\.\d+)?)", code):
-            _demand({"G710", "G90", "G94", "G60", "D0"} <= modes, "modes are not set")
+            demand({"G710", "G90", "G94", "G60", "D0"} <= modes, "modes are not set")
             machine.move(float(words[1]))
         elif words := re.fullmatch(r"F([\d.]+)", code):
             machine.feed = float(words[1])
         elif code == "M0":
             machine.wait()
         elif code != "STOPRE":
-            _demand(re.fullmatch(r"([GD]\d+ ?)+", code), line)
+            demand(re.fullmatch(r"([GD]\d+ ?)+", code), line)
             modes |= set(code.split())
         is_stopped = code == "STOPRE"
-    _demand(last == "M30", "no end")
+    demand(last == "M30", "no end")
     return machine
 
 
 def heidenhain(text: str) -> Machine:
     """Run Klartext: numbered blocks, a feed and M91 in each line, cycle 9 in two blocks."""
     machine, is_defining = Machine(), False
-    blocks = []
-    for count, line in enumerate(text.splitlines()):
-        number, _, code = line.partition(" ")
-        _demand(number == str(count), f"blocks are not numbered: {line}")
-        blocks.append(code)
-    begin = re.fullmatch(r"BEGIN PGM ([A-Za-z0-9_-]+) MM", blocks[0])
-    _demand(begin and blocks[-1] == f"END PGM {begin[1]} MM", "no begin and end of one name")
-    for code in blocks[1:-1]:
+    for code in read_klartext(text):
         if code.startswith(";"):
             continue
         if code == "STOP":
@@ -156,18 +149,31 @@ def heidenhain(text: str) -> Machine:
             continue
         if is_defining:
             rest = re.fullmatch(r"CYCL DEF 9\.1 DWELL (\d+\.\d+)", code)
-            _demand(rest, code)
+            demand(rest, code)
             machine.rest(float(rest[1]))
             is_defining = False
             continue
         line = re.fullmatch(r"L [XYZABCUVW]([+-]\d+(?:\.\d+)?) R0 F(\d+(?:\.\d+)?) M91", code)
-        _demand(line, code)
+        demand(line, code)
         machine.feed = float(line[2])
         machine.move(float(line[1]))
     return machine
 
 
-def _demand(condition: object, alarm: str) -> None:
+def read_klartext(text: str) -> list[str]:
+    """Return the blocks of a program in Klartext, between its begin and its end."""
+    blocks = []
+    for count, line in enumerate(text.splitlines()):
+        number, _, code = line.partition(" ")
+        demand(number == str(count), f"blocks are not numbered: {line}")
+        blocks.append(code)
+    begin = re.fullmatch(r"BEGIN PGM ([A-Za-z0-9_-]+) MM", blocks[0])
+    demand(begin and blocks[-1] == f"END PGM {begin[1]} MM", "no begin and end of one name")
+    return blocks[1:-1]
+
+
+def demand(condition: object, alarm: str) -> None:
+    """Raise an alarm where something is not so."""
     if not condition:
         raise AlarmError(alarm)
 

@@ -1,10 +1,12 @@
-"""A PDF read again: its pages' text and its structure."""
+"""A PDF read again: its pages' text, its structure, and the files that it carries."""
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from io import BytesIO
 
@@ -15,21 +17,33 @@ from document.typesetting import samples
 from installed import registry
 from zlmreport.document.blocks import write_cell_text
 from zlmreport.plugin import Language
-from zlmreport.plugin.renderer import Certificate, Table
+from zlmreport.plugin.renderer import Attachment, Certificate, Relationship, Section, Table
 
 #: A number as it is printed; a standard's year and the like are among them.
 NUMBER = re.compile(r"(?<![\w.,−])−?\d+(?:[.,]\d+)?(?![\w.,])")
+#: Files for a certificate to carry.
+ATTACHED = (
+    Attachment("CAL-1.json", b"{}\n", "application/json", Relationship.DATA, "Results file"),
+    Attachment("CAL-1.xml", b"<dcc/>\n", "application/xml", Relationship.ALTERNATIVE, "DCC"),
+    Attachment("job.yaml", b"axis: {}\n", "application/yaml", Relationship.SOURCE, "Job: job.yaml"),
+    Attachment("Prüfung ↑.csv", b"\x00\xff", "text/csv", Relationship.SOURCE, "Messwerte: Prüfung ↑.csv"),
+)
 
 
-def read(certificate: Certificate) -> PdfReader:
-    """Print a certificate and open it."""
-    return PdfReader(BytesIO(registry().renderer("pdf").render(certificate)))
+def read(certificate: Certificate, press: str = "pdf") -> PdfReader:
+    """Print a certificate in a format and open it."""
+    return PdfReader(BytesIO(registry().renderer(press).render(certificate)))
 
 
 @cache
-def sample(language: Language = Language.ENGLISH, paper: str = "A4") -> PdfReader:
+def sample(language: Language = Language.ENGLISH, paper: str = "A4", *, press: str = "pdf") -> PdfReader:
     """The sample certificate, printed once for all tests that only look."""
-    return read(samples.certificate(language, paper))
+    return read(samples.certificate(language, paper), press)
+
+
+def with_blocks(*sections: Section) -> Certificate:
+    """A certificate without a cover that has these sections."""
+    return replace(samples.certificate(standards=0), cover=(), sections=sections)
 
 
 @cache
@@ -62,6 +76,17 @@ def page_of(reader: PdfReader, text: str) -> int:
     pages = [number for number, page in enumerate(texts(reader), start=1) if text in page]
     assert len(pages) == 1, f"{text!r} stands on pages {pages}"
     return pages[0]
+
+
+def unspaced(text: str) -> str:
+    """A text without its spaces, composed."""
+    return "".join(unicodedata.normalize("NFC", text).split())
+
+
+def specifications(reader: PdfReader) -> dict[str, DictionaryObject]:
+    """The files that a PDF carries, by name."""
+    listed = reader.root_object["/Names"]["/EmbeddedFiles"]["/Names"]
+    return {each.get_object()["/UF"]: each.get_object() for each in listed[1::2]}
 
 
 def elements(reader: PdfReader, kind: str) -> Iterator[DictionaryObject]:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import json
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-import jsonschema
 import pytest
 
 from environments import ROOT
 from installed import registry
+from plugins.renderers.results import VALIDATOR, results_of
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 
-SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}
 
 
@@ -29,12 +26,11 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
         "certificate: {number: EXAMPLE-1, amends: {number: EXAMPLE-0, kind: replacement, "
         "reason: Wrong serial number.}}\n"
     )
-    certificate = pipeline.compose(load(path, registry()), registry())
-    return json.loads(registry().renderer("json").render(certificate))
+    return results_of(pipeline.compose(load(path, registry()), registry()))
 
 
 def test_it_fits_its_schema(results: Any) -> None:
-    jsonschema.Draft202012Validator(SCHEMA).validate(results)
+    VALIDATOR.validate(results)
 
 
 def test_it_has_the_axis_as_found_by_the_same_standards(results: Any) -> None:

@@ -2,50 +2,38 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import replace
 from functools import cache, partial
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from jsonschema import Draft202012Validator
 
 from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
 from installed import registry
 from model.hidden_effect import example_diagnosis
+from plugins.renderers.results import VALIDATOR, results_of
 from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.measurement.provenance import Exclusion
 from zlmreport.plugin import Approach, AxisKind, Language, MeasurementSet, Options, Words
 from zlmreport.plugin.extension import Acts, Distribution, with_uncertainty
-from zlmreport.plugin.renderer import Budget, Certificate, NoBudget
+from zlmreport.plugin.renderer import Budget, NoBudget
 from zlmreport.plugin.source import SourceFile
 from zlmreport.plugin.standard import decided, decision_rule
-
-SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
-
-
-def render(certificate: Certificate) -> Any:
-    return json.loads(registry().renderer("json").render(certificate), parse_constant=_refuse)
-
-
-def _refuse(constant: str) -> None:
-    raise AssertionError(f"{constant} is no JSON")
 
 
 @cache
 def sample() -> Any:
-    return render(samples.certificate())
+    return results_of(samples.certificate())
 
 
-def results_of(readings: MeasurementSet) -> Any:
+def results_of_readings(readings: MeasurementSet) -> Any:
     """The results of these readings by the sample standard."""
     evaluations = (samples.evaluation(readings),)
-    return render(samples.certificate(readings=readings, standards=0, evaluations=evaluations))
+    return results_of(samples.certificate(readings=readings, standards=0, evaluations=evaluations))
 
 
 def test_it_names_its_format_and_its_certificate() -> None:
@@ -59,7 +47,7 @@ def test_it_names_its_format_and_its_certificate() -> None:
 
 
 def test_a_report_without_a_date_of_issue_states_none() -> None:
-    assert "issued" not in render(samples.certificate(issued=None))["certificate"]
+    assert "issued" not in results_of(samples.certificate(issued=None))["certificate"]
 
 
 def test_it_has_one_evaluation_for_each_standard_in_order() -> None:
@@ -82,7 +70,7 @@ def test_an_undecided_limit_says_so() -> None:
     certificate = samples.certificate(standards=1)
     # The rule needs an uncertainty, and none was evaluated.
     undecided = decided(certificate.evaluations[0], decision_rule("guard-band"))
-    results = render(replace(certificate, evaluations=(undecided,)))
+    results = results_of(replace(certificate, evaluations=(undecided,)))
     assert results["evaluations"][0]["parameters"][0]["conforms"] is None
 
 
@@ -90,7 +78,7 @@ def test_uncertainty_and_coverage_factor_stand_where_they_were_evaluated() -> No
     certificate = samples.certificate(standards=1)
     evaluation = certificate.evaluations[0]
     first = replace(evaluation.parameters[0], expanded_uncertainty=1.4e-6, coverage_factor=2.0)
-    results = render(replace(certificate, evaluations=(replace(evaluation, parameters=(first,)),)))
+    results = results_of(replace(certificate, evaluations=(replace(evaluation, parameters=(first,)),)))
     (parameter,) = results["evaluations"][0]["parameters"]
     assert (parameter["expanded_uncertainty"], parameter["coverage_factor"]) == (1.4, 2.0)
 
@@ -108,7 +96,7 @@ def with_budget() -> Any:
     bare = samples.certificate(standards=1)
     arithmetic = partial(samples.SampleStandard().arithmetic, options=Options())
     (uncertain,) = with_uncertainty([(bare.evaluations[0], arithmetic)], budget)
-    return render(replace(bare, evaluations=(uncertain,), budget=budget))
+    return results_of(replace(bare, evaluations=(uncertain,), budget=budget))
 
 
 def test_the_budget_stands_with_every_contribution() -> None:
@@ -135,7 +123,7 @@ def test_every_parameter_and_every_mean_of_a_budget_has_its_uncertainty() -> Non
 
 def test_without_a_budget_the_reason_stands_in_its_place() -> None:
     reason = NoBudget(Words("nothing is known", "nichts ist bekannt"))
-    results = render(replace(samples.certificate(), budget=reason))
+    results = results_of(replace(samples.certificate(), budget=reason))
     assert results["uncertainty"] == {
         "state": "incomplete",
         "missing": ["instrument"],
@@ -177,30 +165,30 @@ def test_targets_are_as_they_were_typed() -> None:
     typed = [0.1, 0.3, 19.999, 123.456, 1000.000001]
     readings = samples.measurements(targets=len(typed))
     shifted = replace(readings, target_positions=np.array(typed) / 1e3)
-    assert [row["target"] for row in results_of(shifted)["evaluations"][0]["positions"]] == typed
+    assert [row["target"] for row in results_of_readings(shifted)["evaluations"][0]["positions"]] == typed
 
 
 def test_what_a_test_in_one_direction_does_not_define_is_absent() -> None:
-    results = results_of(samples.measurements(approaches=(Approach.POSITIVE,)))
+    results = results_of_readings(samples.measurements(approaches=(Approach.POSITIVE,)))
     assert {frozenset(row) for row in results["evaluations"][0]["positions"]} == {
         frozenset({"target", "n_fwd", "mean_fwd", "s_fwd", "R_i_fwd"})
     }
 
 
 def test_a_single_run_has_no_standard_deviation() -> None:
-    (evaluation,) = results_of(samples.measurements(runs=1))["evaluations"]
+    (evaluation,) = results_of_readings(samples.measurements(runs=1))["evaluations"]
     assert {frozenset(row) for row in evaluation["positions"]} == {
         frozenset({"target", "n_fwd", "n_bwd", "mean_fwd", "mean_bwd", "mean", "reversal"})
     }
 
 
 def test_parameters_that_a_test_does_not_define_are_absent() -> None:
-    (evaluation,) = results_of(samples.measurements(runs=1))["evaluations"]
+    (evaluation,) = results_of_readings(samples.measurements(runs=1))["evaluations"]
     assert [parameter["symbol"] for parameter in evaluation["parameters"]] == ["M", "B"]
 
 
 def test_missing_readings_are_named_and_counted() -> None:
-    results = results_of(samples.measurements(missing=(3, 25)))
+    results = results_of_readings(samples.measurements(missing=(3, 25)))
     measurements = results["measurements"]
     assert measurements["readings"] == 2 * samples.TARGETS * samples.RUNS - 2
     assert measurements["missing"] == [
@@ -215,7 +203,7 @@ def test_readings_that_were_set_aside_are_named_with_value_and_reason() -> None:
     measurements = samples.measurements(missing=(3,))
     aside = Exclusion(3, 0.15, Approach.POSITIVE, 1, 2.5e-6, "Air hose touched the reflector.")
     provenance = replace(measurements.provenance, exclusions=(aside,))
-    results = results_of(replace(measurements, provenance=provenance))
+    results = results_of_readings(replace(measurements, provenance=provenance))
     assert results["measurements"]["excluded"] == [
         {
             "target": 150.0,
@@ -228,7 +216,7 @@ def test_readings_that_were_set_aside_are_named_with_value_and_reason() -> None:
 
 
 def test_a_rotary_axis_is_in_degrees_and_seconds_of_arc() -> None:
-    results = results_of(samples.measurements(kind=AxisKind.ROTARY))
+    results = results_of_readings(samples.measurements(kind=AxisKind.ROTARY))
     assert results["measurements"]["units"] == {"position": "deg", "deviation": "arcsec"}
     evaluation = results["evaluations"][0]
     assert {parameter["unit"] for parameter in evaluation["parameters"]} == {"arcsec"}
@@ -255,8 +243,8 @@ def test_there_is_a_place_for_the_error_model() -> None:
 
 
 def test_error_model_has_what_is_known_of_its_parameters_and_what_it_leaves() -> None:
-    results = render(replace(samples.certificate(), diagnosis=example_diagnosis()))
-    Draft202012Validator(SCHEMA).validate(results)
+    results = results_of(replace(samples.certificate(), diagnosis=example_diagnosis()))
+    VALIDATOR.validate(results)
     model = results["model"]
     names = [f"{each['effect']}.{each['name']}" for each in model["parameters"]]
     assert (model["covariance"]["parameters"], [each["parameter"] for each in model["intervals"]]) == (
@@ -276,7 +264,7 @@ def test_provenance_tells_files_programs_and_remarks() -> None:
 
 
 def test_words_are_of_the_documents_language() -> None:
-    results = render(samples.certificate(Language.GERMAN))
+    results = results_of(samples.certificate(Language.GERMAN))
     assert results["evaluations"][0]["parameters"][2]["name"] == "Umkehrspanne"
 
 
@@ -288,7 +276,7 @@ def test_symbols_and_units_are_ascii() -> None:
 
 @pytest.mark.parametrize("title", ["Ω 🙂 \u202e", "half a pair \ud83d", '"\\\x00'])
 def test_any_text_comes_out_as_it_went_in(title: str) -> None:
-    assert render(samples.certificate(standards=0, title=title))["certificate"]["title"] == title
+    assert results_of(samples.certificate(standards=0, title=title))["certificate"]["title"] == title
 
 
 def test_it_is_the_same_twice() -> None:
@@ -308,7 +296,7 @@ def test_it_is_the_same_twice() -> None:
     ids=["both directions", "one run", "one direction", "rotary, a reading missing"],
 )
 def test_it_keeps_its_published_schema(readings: MeasurementSet) -> None:
-    assert violations(results_of(readings)) == set()
+    assert violations(results_of_readings(readings)) == set()
 
 
 def test_a_budget_keeps_the_published_schema() -> None:
@@ -332,14 +320,14 @@ def test_what_breaks_the_schema_is_noticed(change: dict[str, Any], complaint: st
 
 def violations(value: Any) -> set[str]:
     """Return the paths at which a results file breaks its schema."""
-    return {error.json_path for error in Draft202012Validator(SCHEMA).iter_errors(value)}
+    return {error.json_path for error in VALIDATOR.iter_errors(value)}
 
 
 def test_every_file_that_it_was_made_from_is_named_with_its_role_path_and_digest() -> None:
     file = SourceFile.of(Path("shared/laboratory.yaml"), b"laboratory: {}\n")
     source = Source(SourceRole.EXTENDED, "laboratory.yaml", "../shared/laboratory.yaml", file)
     certificate = replace(samples.certificate(standards=0), sources=(source,))
-    assert render(certificate)["provenance"]["sources"] == [
+    assert results_of(certificate)["provenance"]["sources"] == [
         {
             "role": "extended",
             "name": "laboratory.yaml",
@@ -348,4 +336,4 @@ def test_every_file_that_it_was_made_from_is_named_with_its_role_path_and_digest
             "size": 15,
         }
     ]
-    Draft202012Validator(SCHEMA).validate(render(certificate))
+    VALIDATOR.validate(results_of(certificate))

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from dcclib.validation.schematron import SchematronValidator
-from jsonschema import Draft202012Validator
 
 from document.certificate.documents import COMPLETE, job
 from installed import registry
+from plugins.renderers.results import VALIDATOR, is_verified, parameters_of, results_of
 from zlmreport import pipeline
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import Certificate
-from zlmreport.verification.verify import verify
 
-SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))
 HOURS = np.arange(0.0, 6.5, 0.5)
 NAMES = ("X1", "X2", "Z")
 
@@ -59,20 +53,20 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
 
 @pytest.fixture(scope="module")
 def results(made: Certificate) -> Any:
-    return json.loads(registry().renderer("json").render(made))
+    return results_of(made)
 
 
 def test_the_results_file_is_as_promised(results: Any) -> None:
-    assert not list(Draft202012Validator(SCHEMA).iter_errors(results))
+    assert not list(VALIDATOR.iter_errors(results))
     found = {each["symbol"]: each["unit"] for each in results["evaluations"][0]["parameters"]}
     assert found == {"E_X1": "um", "E_X2": "um", "E_Z": "um", "tilt_X": "arcsec"}
     assert results["evaluations"][0]["parameters"][2]["value"] == pytest.approx(6.0)
 
 
 def test_a_table_has_every_parameter(made: Certificate, results: Any) -> None:
-    rows = csv.DictReader(io.StringIO(registry().renderer("csv").render(made).decode()))
-    found = {row["symbol"]: row["value"] for row in rows if not row["target"] and row["quantity"] == "value"}
-    assert found == {each["symbol"]: repr(each["value"]) for each in results["evaluations"][0]["parameters"]}
+    assert parameters_of(made) == {
+        each["symbol"]: repr(each["value"]) for each in results["evaluations"][0]["parameters"]
+    }
 
 
 def test_what_was_measured_over_time_asks_for_no_environment_beside_it(results: Any) -> None:
@@ -106,7 +100,4 @@ def test_its_readings_come_out_of_a_digital_certificate_as_they_went_in(
 
 def test_its_pages_hold(tmp_path: Path) -> None:
     output = {"directory": str(tmp_path), "formats": ["pdf-typst", "json"]}
-    for each in pipeline.run(report(tmp_path, output=output), registry()).documents:
-        each.path.write_bytes(each.content)
-    (page,) = tmp_path.glob("*.pdf")
-    assert verify(page, registry()).holds
+    assert is_verified(report(tmp_path, output=output))

@@ -1,37 +1,32 @@
-"""The PDF as a file: metadata, structure, fonts, and that it depends on nothing but the certificate."""
+"""The PDF by WeasyPrint as a file: what it claims, what it carries, and that it depends on nothing else."""
 
 from __future__ import annotations
 
 import os
 import sys
 from dataclasses import replace
+from datetime import date
+from hashlib import md5
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import pytest
-from PIL import Image
 from pypdf import PdfReader
 from weasyprint import HTML
 
 from document.typesetting import samples
+from environments import ROOT
 from installed import registry
-from plugins.renderers.pdf_pages import elements, fonts, read, sample
+from pdf_conformance import complaints
+from plugins.renderers.pdf_pages import ATTACHED, fonts, read, sample, specifications
 from processes import PYTHON, ZLMREPORT, run
+from zlmreport import pipeline
+from zlmreport.job.loading import load
 from zlmreport.plugin import AccessError, Language
 from zlmreport_plugins.renderers.pdf import press
 
 TESTS = Path(samples.__file__).parents[2]
-
-
-def test_metadata_tell_what_the_document_is() -> None:
-    metadata = sample().metadata
-    assert metadata is not None
-    assert metadata.title == "Calibration certificate CAL-2026-0117"
-    assert metadata.author == "Laboratory for Machine Metrology"
-    assert metadata.subject == "Positioning by SAMPLE 1:2026"
-    assert metadata["/Keywords"] == "positioning, SAMPLE 1:2026"
-    assert metadata.creator == "zlmreport 0.1.0"
 
 
 def test_its_dates_are_the_date_of_issue() -> None:
@@ -44,12 +39,6 @@ def test_without_a_date_of_issue_it_has_no_dates() -> None:
     metadata = read(samples.certificate(standards=0, issued=None)).metadata
     assert metadata is not None
     assert not {"/CreationDate", "/ModDate"} & set(metadata)
-
-
-@pytest.mark.parametrize("language", Language)
-def test_it_says_its_language(language: Language) -> None:
-    certificate = samples.certificate(language, standards=0, sections=())
-    assert read(certificate).trailer["/Root"]["/Lang"] == language.value
 
 
 def test_it_is_for_archives() -> None:
@@ -84,24 +73,6 @@ def test_bookmarks_lead_to_sections_tables_and_figures() -> None:
     ]
 
 
-def test_each_graph_has_its_alternative_text() -> None:
-    expected = [figure.alternative.in_language(Language.GERMAN) for figure in samples.certificate().figures]
-    assert [figure["/Alt"] for figure in elements(sample(Language.GERMAN), "/Figure")] == expected
-
-
-def test_tables_are_tagged_as_tables_with_headings() -> None:
-    reader = sample()
-    headings = len(list(elements(reader, "/TH")))
-    cells = len(list(elements(reader, "/TD")))
-    assert headings > 50
-    assert cells > 700
-
-
-def test_headings_are_tagged_by_their_level() -> None:
-    assert len(list(elements(sample(), "/H1"))) == 1
-    assert len(list(elements(sample(), "/H2"))) == 4
-
-
 def test_every_font_is_embedded_and_of_the_bundled_family() -> None:
     names = set()
     for page in sample().pages:
@@ -113,12 +84,7 @@ def test_every_font_is_embedded_and_of_the_bundled_family() -> None:
 
 
 def test_the_logo_is_printed() -> None:
-    picture = BytesIO()
-    Image.new("RGB", (30, 10), "navy").save(picture, "PNG")
-    plain = samples.certificate(standards=0)
-    assert plain.letterhead is not None
-    with_logo = replace(plain.letterhead, logo=picture.getvalue(), logo_type="image/png")
-    reader = read(replace(plain, letterhead=with_logo))
+    reader = read(samples.with_logo())
     assert [image.image.size for image in reader.pages[0].images if image.image] == [(30, 10)]
 
 
@@ -178,3 +144,72 @@ def _titles(outline: list[Any]) -> list[Any]:
 
 def test_the_file_opens_without_a_complaint() -> None:
     PdfReader(BytesIO(registry().renderer("pdf").render(samples.certificate(standards=0))), strict=True)
+
+
+@pytest.mark.long
+def test_a_certificate_with_a_diagnosis_conforms() -> None:
+    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry(), formats=("pdf",))
+    (document,) = pipeline.run(loaded, registry()).documents
+    assert complaints(document.content) == []
+
+
+def test_markup_and_control_characters_in_a_name_conform() -> None:
+    customer = "<b>A & B</b> ]]> {{ 1 }} a\x00b\x1fc\u200b\ufffe"
+    certificate = samples.certificate(standards=0, customer=customer)
+    assert complaints(registry().renderer("pdf").render(certificate)) == []
+
+
+def test_it_claims_both() -> None:
+    reader = sample()
+    packet = reader.trailer["/Root"]["/Metadata"].get_object().get_data().decode()
+    assert 'pdfaid:part="3" pdfaid:conformance="A"' in packet
+    assert "<pdfuaid:part>1</pdfuaid:part>" in packet
+
+
+def test_its_number_and_language_are_metadata() -> None:
+    metadata = sample(Language.GERMAN).xmp_metadata
+    assert metadata is not None
+    assert (metadata.dc_identifier, metadata.dc_language) == ("CAL-2026-0117", ["de"])
+
+
+def test_metadata_can_be_read_without_unpacking_the_file() -> None:
+    content = registry().renderer("pdf").render(samples.certificate(standards=0))
+    assert b"<pdfuaid:part>1</pdfuaid:part>" in content
+
+
+def test_viewers_show_the_title_and_walk_in_the_order_of_the_structure() -> None:
+    reader: PdfReader = sample()
+    assert reader.trailer["/Root"]["/ViewerPreferences"]["/DisplayDocTitle"].value is True
+    assert {page["/Tabs"] for page in reader.pages} == {"/S"}
+
+
+def printed(issued: date | None = date(2026, 11, 20)) -> PdfReader:
+    return read(replace(samples.certificate(standards=0), attachments=ATTACHED, issued=issued))
+
+
+@pytest.fixture(scope="module")
+def reader() -> PdfReader:
+    return printed()
+
+
+def test_a_file_has_its_size_and_checksum(reader: PdfReader) -> None:
+    parameters = specifications(reader)["job.yaml"]["/EF"]["/F"]["/Params"]
+    assert parameters["/Size"] == len(b"axis: {}\n")
+    assert parameters["/CheckSum"].original_bytes == md5(b"axis: {}\n", usedforsecurity=False).digest()
+
+
+@pytest.mark.parametrize(
+    ("issued", "moment"), [(date(2026, 11, 20), "D:20261120000000Z"), (None, "D:19700101000000Z")]
+)
+def test_dates_of_files_come_from_the_certificate_and_not_from_the_clock(
+    issued: date | None, moment: str
+) -> None:
+    for entry in specifications(printed(issued)).values():
+        parameters = entry["/EF"]["/F"]["/Params"]
+        assert (parameters["/CreationDate"], parameters["/ModDate"]) == (moment, moment)
+
+
+def test_without_files_there_is_no_list_of_them() -> None:
+    reader = read(samples.certificate(standards=0))
+    assert "/AF" not in reader.root_object
+    assert "/EmbeddedFiles" not in reader.root_object.get("/Names", {})

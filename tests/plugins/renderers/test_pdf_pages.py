@@ -1,46 +1,24 @@
-"""How a certificate lies on pages."""
+"""How a certificate lies on the pages of a PDF by WeasyPrint: its texts, lines and columns."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
+import numpy as np
 import pytest
 from pypdfium2 import PdfDocument
+from weasyprint import HTML
 
 from document.typesetting import samples
 from installed import registry
-from plugins.renderers.pdf_pages import page_of, read, sample, texts
-from zlmreport.plugin import Language
-from zlmreport.plugin.renderer import Align, Certificate, Column, Paragraph, RowGroup, Section, Table
+from plugins.renderers.pdf_pages import page_of, printed_numbers, read, sample, texts, with_blocks
+from zlmreport.plugin import InputError, Language
+from zlmreport.plugin.renderer import Align, Column, Notice, Paragraph, RowGroup, Section, Table
+from zlmreport_plugins.renderers.pdf.press import find_press
 
-MILLIMETRES = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}
 POINT = 25.4 / 72
-
-
-def with_blocks(*sections: Section) -> Certificate:
-    return samples.certificate(standards=0, sections=sections)
-
-
-@pytest.mark.parametrize("paper", MILLIMETRES)
-def test_pages_are_of_the_size_asked_for(paper: str) -> None:
-    for page in read(samples.certificate(standards=0, paper=paper)).pages:
-        size = float(page.mediabox.width) * POINT, float(page.mediabox.height) * POINT
-        assert size == pytest.approx(MILLIMETRES[paper], abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ("language", "number", "page_of_pages"),
-    [
-        (Language.ENGLISH, "Calibration certificate CAL-2026-0117", "Page {} of {}"),
-        (Language.GERMAN, "Kalibrierschein CAL-2026-0117", "Seite {} von {}"),
-    ],
-)
-def test_every_page_has_the_number_and_its_place(language: Language, number: str, page_of_pages: str) -> None:
-    pages = texts(sample(language))
-    assert len(pages) > 3
-    for count, text in enumerate(pages, start=1):
-        assert number in text
-        assert page_of_pages.format(count, len(pages)) in text
 
 
 def test_the_longest_number_stands_whole_on_every_page() -> None:
@@ -56,7 +34,8 @@ def test_the_head_of_a_page_stands_within_its_margin_beside_a_laboratory_of_one_
     assert head is not None
     laboratory = replace(head.laboratory, name="Präzisionsmaschinenvermessungs" * 4)
     section = Section("item", "Item, method and conditions", (Paragraph("Text"),), new_page=True)
-    document = replace(with_blocks(section), letterhead=replace(head, laboratory=laboratory))
+    letterhead = replace(head, laboratory=laboratory)
+    document = samples.certificate(standards=0, sections=(section,), letterhead=letterhead)
 
     page = PdfDocument(registry().renderer("pdf").render(document))[1]
 
@@ -65,38 +44,8 @@ def test_the_head_of_a_page_stands_within_its_margin_beside_a_laboratory_of_one_
     assert (page.get_height() - top) * POINT > 8
 
 
-def test_the_end_is_marked_once_on_the_last_page() -> None:
-    reader = sample()
-    assert page_of(reader, "End of the calibration certificate") == len(reader.pages)
-
-
 def test_a_report_without_a_laboratory_is_printed() -> None:
     assert "CAL-2026-0117" in texts(read(samples.certificate(standards=0, letterhead=None)))[-1]
-
-
-def test_a_row_is_never_split() -> None:
-    rows = tuple((f"begin{n:02d} " + "words that go on " * 30 + f"end{n:02d}", str(n)) for n in range(30))
-    table = Table(
-        "rows of several lines", (Column("text"), Column("n", align=Align.RIGHT)), (RowGroup(rows),)
-    )
-    reader = read(with_blocks(Section("rows", "Rows", (table,))))
-    assert len(reader.pages) > 2
-    for n in range(30):
-        assert page_of(reader, f"begin{n:02d}") == page_of(reader, f"end{n:02d}")
-
-
-@pytest.mark.parametrize("lines", range(0, 8, 2))
-def test_the_heading_of_a_group_stays_with_its_rows(lines: int) -> None:
-    filler = tuple(Paragraph(f"line {n}") for n in range(lines))
-    groups = tuple(
-        RowGroup(((f"row{n:02d}a", "1"), (f"row{n:02d}b", "2")), f"group{n:02d}", "what it means")
-        for n in range(20)
-    )
-    table = Table("groups", (Column("text"), Column("n", align=Align.RIGHT)), groups)
-    reader = read(with_blocks(Section("groups", "Groups", (*filler, table))))
-    assert len(reader.pages) > 1
-    for n in range(20):
-        assert page_of(reader, f"group{n:02d}") == page_of(reader, f"row{n:02d}a")
 
 
 def test_pages_part_columns_of_numbers_between_the_fives() -> None:
@@ -114,20 +63,71 @@ def test_pages_part_columns_of_numbers_between_the_fives() -> None:
     assert all(end % 5 == 0 for end in ends)
 
 
-@pytest.mark.parametrize("rows_in_all", [51, 52, 56, 57])
-def test_the_last_rows_do_not_stand_alone_on_a_page(rows_in_all: int) -> None:
-    rows = tuple((f"row{n:03d}", "1.0") for n in range(1, rows_in_all + 1))
-    table = Table("numbers", (Column("text"), Column("x", align=Align.RIGHT)), (RowGroup(rows),), dense=True)
-    reader = read(with_blocks(Section("numbers", "Numbers", (table,), new_page=True)))
-    assert page_of(reader, f"row{rows_in_all - 2:03d}") == page_of(reader, f"row{rows_in_all:03d}")
+def test_decimals_are_written_as_the_language_writes_them() -> None:
+    assert printed_numbers("\n".join(texts(sample(Language.GERMAN))))["13,8"] == 2
+    assert printed_numbers("\n".join(texts(sample(Language.ENGLISH))))["13.8"] == 2
 
 
-@pytest.mark.parametrize("lines", range(12, 21, 2))
-def test_a_title_stays_with_what_follows(lines: int) -> None:
-    filler = tuple(Paragraph(f"line {n:02d}") for n in range(lines))
-    rows = RowGroup(tuple((f"row {n:02d}",) for n in range(30)))
-    table = Table("a caption", (Column("heading"),), (rows,))
-    reader = read(with_blocks(Section("a", "Filler", filler), Section("b", "A title", (table,))))
-    begins, *goes_on = (number for number, page in enumerate(texts(reader), 1) if "A title" in page)
-    assert {page_of(reader, text) for text in ("a caption", "row 00", "row 01")} == {begins}
-    assert goes_on == list(range(begins + 1, len(reader.pages) + 1)), "the head names what goes on"
+def test_a_name_from_right_to_left_leaves_the_rest_as_it_was() -> None:
+    customer = "שלום \u202eabc עולם"
+    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
+    # Readers put right-to-left letters into either order; all of them are there.
+    assert set("שלוםעabc") <= set(text)
+    assert "Sample Works HMC 500" in text
+
+
+def test_a_letter_that_no_typeface_has_is_named_and_no_box_stands_for_it(weasyprint_log: list[str]) -> None:
+    """Not even a signer would see what the box meant; and programs read none of the letters beside it."""
+    document = samples.certificate(standards=0, customer="A \U000f1234 Customer")
+    weasyprint_log.append(
+        '.notdef glyph rendered for Unicode string unsupported by fonts: "\U000f1234" (U+F1234)'
+    )
+
+    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); write it otherwise"):
+        read(document)
+
+
+def test_names_that_stay_whole_stand_beside_each_other_in_a_notice_too() -> None:
+    """The line of a notice begins left of the others: a name in it does not."""
+    named = "ISO 230-2:2014, ISO 230-2:2006, VDI/VDE 2617; see 4711-D-K-2026"
+    notice = Notice("Not met", (named,))
+    document = replace(samples.certificate(standards=0), sections=(Section("s", "S", (notice,)),))
+    assert named in "\n".join(texts(read(document)))
+
+
+SENTENCE = "Traceable through the calibration of the instrument (certificate "
+NUMBER = "C-1)."
+
+
+def lay_out(width: float) -> list[Any]:
+    """Return the lines of the sentence and its number, which no line parts, in a column so wide, px."""
+    find_press()
+    page = (
+        "<style>@page { size: 600px 200px; margin: 0 }"
+        f"body {{ font-size: 10px; margin: 0; overflow-wrap: break-word; width: {width}px }}"
+        ".held { display: inline-block }</style>"
+        f'<p>{SENTENCE}<span class="held">{NUMBER}</span></p>'
+    )
+    (sheet,) = HTML(string=page).render().pages
+    return list(list_lines(sheet._page_box))
+
+
+def list_lines(box: Any) -> Iterator[Any]:
+    if type(box).__name__ == "LineBox":
+        yield box
+    else:
+        for each in getattr(box, "children", ()):
+            yield from list_lines(each)
+
+
+def count_words(line: Any) -> int:
+    return sum(len(each.text.split()) for each in line.descendants() if hasattr(each, "text"))
+
+
+def test_a_wider_column_never_has_fewer_words_on_its_first_line() -> None:
+    """Where the sentence fits but for its last blank, too, at which a line ends anyway."""
+    sentence = next(each for each in lay_out(580)[0].descendants() if hasattr(each, "text"))
+    words = [count_words(lay_out(sentence.width + more)[0]) for more in np.arange(-6, 2, 0.5)]
+
+    assert words == sorted(words)
+    assert {words[0], words[-1]} == {len(SENTENCE.split()) - 1, len(SENTENCE.split())}

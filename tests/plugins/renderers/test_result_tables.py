@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -15,6 +14,7 @@ import pytest
 
 from document.typesetting import samples
 from installed import registry
+from plugins.renderers.results import results_of, rows_of
 from zlmreport.plugin import ANGLE, ARCSECOND, Language, Words
 from zlmreport.plugin.renderer import Certificate, NoBudget
 
@@ -28,12 +28,12 @@ def certificate() -> Certificate:
 
 @cache
 def results() -> Any:
-    return json.loads(registry().renderer("json").render(certificate()))
+    return results_of(certificate())
 
 
 @cache
 def rows() -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(registry().renderer("csv").render(certificate()).decode())))
+    return rows_of(certificate())
 
 
 def book(of: Certificate) -> Any:

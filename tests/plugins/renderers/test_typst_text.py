@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import unicodedata
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
@@ -14,9 +13,7 @@ from pypdf import PdfReader
 
 from document.typesetting import samples
 from environments import ROOT
-from plugins.renderers import pdf_pages
-from plugins.renderers.pdf_pages import numbers_of, printed_numbers, texts
-from plugins.renderers.typst_pages import read, sample
+from plugins.renderers.pdf_pages import numbers_of, printed_numbers, read, sample, texts, unspaced
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError, Language
@@ -32,9 +29,9 @@ def _letters(reader: PdfReader, running: tuple[str, ...]) -> Counter[str]:
     """
     found: Counter[str] = Counter()
     for number, text in enumerate(texts(reader), start=1):
-        found += Counter(_unspaced(text))
+        found += Counter(unspaced(text))
         of_page = running[-1].format(number, len(reader.pages))
-        found -= Counter(_unspaced("".join((of_page, *running[: 1 if number == 1 else -1]))))
+        found -= Counter(unspaced("".join((of_page, *running[: 1 if number == 1 else -1]))))
     return found
 
 
@@ -42,9 +39,9 @@ def _body(reader: PdfReader, running: tuple[str, ...]) -> str:
     """All text of all pages without spaces, and without what stands at the head and foot of each."""
     pages = []
     for number, text in enumerate(texts(reader), start=1):
-        page = _unspaced(text)
+        page = unspaced(text)
         for each in (*running[:-1], running[-1].format(number, len(reader.pages))):
-            page = page.replace(_unspaced(each), "", 1)
+            page = page.replace(unspaced(each), "", 1)
         pages.append(page)
     return "".join(pages)
 
@@ -75,14 +72,14 @@ def _running(certificate: Certificate) -> tuple[str, ...]:
 
 def test_a_document_that_is_all_on_its_first_page_is_printed_as_the_sheet_of_a_machine_is() -> None:
     certificate = replace(samples.certificate(), sections=())
-    (page,) = texts(read(certificate))
+    (page,) = texts(read(certificate, "pdf-typst"))
     assert certificate.number in page
 
 
 @pytest.mark.parametrize("language", Language)
 def test_it_says_what_the_other_says_letter_for_letter(language: Language) -> None:
     running = _running(samples.certificate(language))
-    assert _letters(sample(language), running) == _letters(pdf_pages.sample(language), running)
+    assert _letters(sample(language, press="pdf-typst"), running) == _letters(sample(language), running)
 
 
 @pytest.mark.long
@@ -95,56 +92,15 @@ def test_every_number_and_every_sentence_of_a_real_certificate_stands_in_both(jo
     for identifier in ("pdf", "pdf-typst"):
         reader = PdfReader(BytesIO(registry.renderer(identifier).render(certificate)))
         body = _body(reader, _running(certificate))
-        assert [sentence for sentence in sentences if _unspaced(sentence) not in body] == []
+        assert [sentence for sentence in sentences if unspaced(sentence) not in body] == []
         assert not numbers_of(certificate) - printed_numbers("\n".join(texts(reader)))
 
 
-@pytest.mark.parametrize("paper", ["A4", "Letter"])
-@pytest.mark.parametrize("language", Language)
-def test_every_number_of_every_table_is_printed(language: Language, paper: str) -> None:
-    expected = numbers_of(samples.certificate(language, paper))
-    assert expected.total() > 700
-    assert not expected - printed_numbers("\n".join(texts(sample(language, paper))))
-
-
-def test_rows_of_numbers_are_read_in_order() -> None:
-    text = "\n".join(texts(sample()))
-    assert "\n4 150.000 5 5 3.3 0.6 1.9 0.7 0.8 2.6 2.9 3.3\n" in text
-
-
 def test_a_letter_with_a_bar_is_read_as_such_and_one_without_is_not() -> None:
-    text = "".join("".join(texts(sample())).split())
+    text = "".join("".join(texts(sample(press="pdf-typst"))).split())
     assert "max[x̄i]" in text
     assert "xi1↑" in text
     assert "x̄i1↑" not in text
-
-
-def test_graphs_carry_their_words_as_text() -> None:
-    text = "\n".join(texts(sample(Language.GERMAN)))
-    assert text.count("Zielposition in mm") == 4
-    assert text.count("Abweichung in µm") == 4
-
-
-@pytest.mark.parametrize(
-    "customer",
-    [
-        '#read("/etc/passwd") #{ panic() }',
-        "$x^2$ *bold* _italic_ `raw` @label <label> // = - + /",
-        "\\u{41} \\# \"quoted\" 'quoted' -- --- ... ~",
-        "{{ 7 * 7 }} &amp; <b>x</b>",
-        "x̄ é ñ q̈",
-        "Ελληνικά Русский Türkçe",
-    ],
-)
-def test_a_customers_name_is_printed_as_it_is_typed(customer: str) -> None:
-    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
-    assert _unspaced(customer) in _unspaced(text)
-
-
-def test_a_name_of_500_characters_is_printed_whole_and_parts_without_a_sign() -> None:
-    customer = "".join(chr(ord("a") + n % 26) for n in range(500))
-    text = "".join(texts(read(samples.certificate(standards=0, customer=customer))))
-    assert customer in "".join(text.split())
 
 
 @pytest.mark.parametrize(
@@ -152,18 +108,14 @@ def test_a_name_of_500_characters_is_printed_whole_and_parts_without_a_sign() ->
 )
 def test_a_letter_that_the_typeface_lacks_is_refused_by_name(customer: str, told: str) -> None:
     with pytest.raises(InputError) as refused:
-        read(samples.certificate(standards=0, customer=customer))
+        read(samples.certificate(standards=0, customer=customer), "pdf-typst")
     assert told in str(refused.value)
     assert "ask for the format pdf" in str(refused.value)
 
 
 def test_line_ends_of_a_value_are_kept() -> None:
-    cover, *_ = texts(sample())
+    cover, *_ = texts(sample(press="pdf-typst"))
     assert "Werkstraße 7\n70565 Stuttgart\nDeutschland" in cover
-
-
-def _unspaced(text: str) -> str:
-    return "".join(unicodedata.normalize("NFC", text).split())
 
 
 def test_a_symbol_in_a_text_is_set_as_one_and_the_name_of_a_standard_stays_whole() -> None:

@@ -157,9 +157,18 @@ def _finish(certificate: Certificate, document: Any, pdf: Any) -> None:
         )
     if "AF" in pdf.catalog:  # WeasyPrint 70 names each attachment twice among the associated files
         pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
+        _sort_files(pdf)
     structure.identify(pdf, certificate)
     structure.mend(pdf, {section.key: section.title for section in certificate.sections})
     structure.settle(pdf)
+
+
+def _sort_files(pdf: Any) -> None:
+    """Put the attachments in the order of their names: a reader may look for one by halves."""
+    number, *_ = pdf.catalog["Names"]["EmbeddedFiles"].split()
+    names = pdf.objects[int(number)]["Names"]
+    pairs = sorted(zip(names[::2], names[1::2], strict=True), key=lambda pair: pair[0].string)
+    names[:] = [each for pair in pairs for each in pair]
 
 
 class _Document(HTML):  # type: ignore[misc]
