@@ -18,6 +18,23 @@ def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:
     assert find_next_step(replace(found, faults=()), "job.yaml") == "zlmreport job.yaml"
 
 
+def test_unit_that_looks_wrong_is_stated_before_an_effect_is_added() -> None:
+    unit = DataFault(FaultKind.WRONG_UNIT, None, 1.0, same("as if in mm"), same("state source.units"))
+    found = replace(example_diagnosis(), faults=(unit,))
+    assert found.verdict is DiagnosisVerdict.MISSING
+    assert find_next_step(found, "job.yaml") == "state the unit, then zlmreport model diagnose job.yaml"
+
+
+def test_fault_that_the_verdict_states_is_not_said_a_second_time() -> None:
+    unit = DataFault(FaultKind.WRONG_UNIT, None, 1.0, same("as if in mm"), same("state source.units"))
+    stuck = DataFault(FaultKind.STUCK_SENSOR, None, 0.5, same("the log stands still"), same("read it again"))
+    lines = "\n".join(
+        tell_diagnosis(replace(example_diagnosis(), faults=(unit, stuck)), example(), "job.yaml", None, {})
+    )
+    assert lines.count("as if in mm") == 1
+    assert lines.count("the log stands still. Remedy: read it again.") == 1
+
+
 def test_what_no_test_of_such_an_axis_could_see_is_not_counted() -> None:
     found = example_diagnosis()
     of_rotary = [

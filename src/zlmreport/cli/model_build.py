@@ -12,7 +12,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, ModelStep, name_steps
-from zlmreport.model.diagnosis.report import list_chances, write_statement_after_build
+from zlmreport.model.diagnosis.report import find_stated_fault, list_chances, write_statement_after_build
 
 _ENGLISH = Language.ENGLISH
 
@@ -40,7 +40,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
             "",
         )
     yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
-    if is_tried and edit is not None:
+    if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
     else:
         yield from measure_lines(last)

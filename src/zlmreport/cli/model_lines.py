@@ -26,8 +26,9 @@ from zlmreport.language.formatting import round_pair, write_general_number, writ
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.building import is_outstanding
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
+from zlmreport.model.diagnosis.report import find_stated_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.effect import is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
@@ -112,8 +113,10 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
     `path`: The job as the user types it.
     `experiment`: What would tell effects apart.
     """
-    if find_leading_fault(diagnosis):
-        return f"correct the data, then zlmreport model diagnose {path}"
+    fault = find_stated_fault(diagnosis)
+    if fault:
+        first = "state the unit" if fault.kind is FaultKind.WRONG_UNIT else "correct the data"
+        return f"{first}, then zlmreport model diagnose {path}"
     if experiment and experiment.plan:
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
     if len(diagnosis.together) > 1:

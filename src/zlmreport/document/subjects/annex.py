@@ -98,6 +98,7 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     yield from said.pop("remainder", ())
     yield lay_out_equations(whole.fit, writer.language)
     yield Paragraph(writer.say(_SYMBOLS))
+    yield from said.pop("faults", ())
     yield from said.pop("assumed", ())
     yield from said.pop("model", ())
     yield Graph(draw_over_position(diagram))

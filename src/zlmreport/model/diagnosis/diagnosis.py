@@ -48,9 +48,6 @@ _LEAST_LEFT = 0.25
 _IMPROBABLE = 1e-3
 
 
-_LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
-
-
 class DiagnosisVerdict(StrEnum):
     """What a diagnosis comes to.
 
@@ -251,7 +248,6 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
         remarks=(
             *observed.remarks,
             *find_gaps(observed.design),
-            *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
         lasting_noise=estimate_lasting_floor(fitted.design, choose_scattering(fitted)),
         faults=faults,

@@ -356,10 +356,10 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     if diagnosis.remainder is not None:
         beside = _describe_remainder(_BESIDE, diagnosis.remainder, diagnosis.fit.design.axis)
         statement = _TWO.given(one=statement, other=beside)
-    unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
-    if unit is None:
+    fault = find_stated_fault(diagnosis)
+    if fault is None:
         return statement
-    return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
+    return _IN_DOUBT.given(statement=fault.statement, remedy=fault.remedy, verdict=statement)
 
 
 def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Words:
@@ -422,6 +422,19 @@ def find_leading_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
     if first is None and diagnosis.remainder is None:
         return next(iter(diagnosis.faults), None)
     return first
+
+
+def find_stated_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
+    """Return the fault of the data that the verdict states, in place of causes or before them; or None."""
+    if diagnosis.verdict is DiagnosisVerdict.MISSING:
+        return next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
+    return find_leading_fault(diagnosis)
+
+
+def list_further_faults(diagnosis: AxisDiagnosis) -> tuple[DataFault, ...]:
+    """Return what looks wrong in the data beside the fault that the verdict states."""
+    stated = find_stated_fault(diagnosis)
+    return tuple(each for each in diagnosis.faults if each is not stated)
 
 
 def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
