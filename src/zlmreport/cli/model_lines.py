@@ -195,5 +195,3 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
     if held:
         yield from wrap(f"held together with {', '.join(held)}")
-    if job.priors:
-        yield from wrap(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
