@@ -151,10 +151,13 @@ def _judge_options(judged: Callable[[_Option], _Option], options: Sequence[_Opti
 
 
 def choose_option(tried: Sequence[_Option]) -> _Option | None:
-    """Return the shortest of the plans that decide as often as any, as far as their simulated tests tell."""
+    """Return the shortest of the plans that decide; else of those that do it as often as any.
+
+    How often that is, so many simulated tests tell within their standard error.
+    """
     most = max((each.decides for each in tried), default=0.0)
     error = math.sqrt(most * (1.0 - most) / _SETS_OF_THE_BEST)
-    enough = max(most - error, _ENOUGH) if most >= _ENOUGH else most - error
+    enough = _ENOUGH if most >= _ENOUGH else most - error
     as_sure = (each for each in tried if each.decides >= enough)
     return min(as_sure, key=lambda each: each.plan.duration, default=None)
 
