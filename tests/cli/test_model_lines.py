@@ -25,6 +25,14 @@ def test_unit_that_looks_wrong_is_stated_before_an_effect_is_added() -> None:
     assert find_next_step(found, "job.yaml") == "state the unit, then zlmreport model diagnose job.yaml"
 
 
+def test_given_value_that_the_readings_contradict_is_mended_before_anything_else() -> None:
+    wrong = (same("backlash: −4 µm fits, the job says 4 µm."),)
+    found = replace(
+        example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, together=(), contradicted=wrong
+    )
+    assert find_next_step(found, "job.yaml").startswith("free or mend the given value in model.effects, then")
+
+
 def test_fault_that_the_verdict_states_is_not_said_a_second_time() -> None:
     unit = DataFault(FaultKind.WRONG_UNIT, None, 1.0, same("as if in mm"), same("state source.units"))
     stuck = DataFault(FaultKind.STUCK_SENSOR, None, 0.5, same("the log stands still"), same("read it again"))

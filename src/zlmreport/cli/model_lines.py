@@ -113,9 +113,8 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
     `path`: The job as the user types it.
     `experiment`: What would tell effects apart.
     """
-    fault = find_stated_fault(diagnosis)
-    if fault:
-        first = "state the unit" if fault.kind is FaultKind.WRONG_UNIT else "correct the data"
+    first = _say_what_comes_first(diagnosis)
+    if first:
         return f"{first}, then zlmreport model diagnose {path}"
     if experiment and experiment.plan:
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
@@ -127,6 +126,14 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
     if left and left.formula:
         return f"zlmreport model add {path} {_quote_for_shell(write_formula_entry(left.formula))}"
     return f"zlmreport {path}"
+
+
+def _say_what_comes_first(diagnosis: AxisDiagnosis) -> str:
+    """Return what is to be put right before a cause is sought; empty if nothing is."""
+    fault = find_stated_fault(diagnosis)
+    if fault:
+        return "state the unit" if fault.kind is FaultKind.WRONG_UNIT else "correct the data"
+    return "free or mend the given value in model.effects" if diagnosis.contradicted else ""
 
 
 def _quote_for_shell(argument: str) -> str:

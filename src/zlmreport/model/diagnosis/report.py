@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
 from math import isfinite
 from typing import Any
 
@@ -51,6 +52,9 @@ _ONE_OF = Words("({names})")
 _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
     "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
+)
+_GIVEN = Words(
+    "The readings contradict what the job gives, and no cause is sought before it is right: {statements}"
 )
 _ADEQUATE_SO_FAR = Words(
     "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
@@ -121,6 +125,7 @@ def report(
             }
             for each in diagnosis.faults
         ],
+        "contradicted": [each.in_language(language) for each in diagnosis.contradicted],
         "outliers": diagnosis.outliers.tolist(),
         "remarks": [each.in_language(language) for each in diagnosis.remarks],
     }
@@ -441,6 +446,9 @@ def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     fault = find_leading_fault(diagnosis)
     if fault is not None:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
+    if diagnosis.contradicted:
+        statements = reduce(lambda one, other: _TWO.given(one=one, other=other), diagnosis.contradicted)
+        return _GIVEN.given(statements=statements)
     if diagnosis.remainder is None:
         return _UNEXPLAINED
     words = _SHAPE if diagnosis.remainder.instead is None else _UNSURE
