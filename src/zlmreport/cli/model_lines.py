@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,7 +24,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.building import is_outstanding
+from zlmreport.model.diagnosis.building import is_outstanding, list_needless
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -94,8 +94,19 @@ def tell_diagnosis(
             "",
         )
     yield ""
+    yield from write_needless_lines(list_needless(diagnosis), path)
     yield from measure_lines(diagnosis)
     yield following
+
+
+def write_needless_lines(effects: Iterable[str], path: str) -> Iterator[str]:
+    """Yield how effects are taken out that may not be there; `path` is the job as the user types it."""
+    for each in effects:
+        yield from wrap(
+            f"{each}: nothing of it exceeds its uncertainty, it may not be there; without it: "
+            f"zlmreport model remove {path} {each}",
+            "",
+        )
 
 
 def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
