@@ -60,7 +60,8 @@ def test_tests_whose_models_describe_their_readings_teach_and_a_job_uses_it(shop
     assert printed == (shop.folder / "priors.yaml").read_text(encoding="utf-8")
     diagnosed = shop.run("model", "diagnose", "job.yaml")
     assert diagnosed.code == 0, diagnosed.messages
-    assert "expects what 2 earlier tests taught" in diagnosed.output
+    assert "expected to be as 2 earlier tests say (model.priors)" in " ".join(diagnosed.output.split())
+    assert "earlier" not in shop.run("model", "fit", "job.yaml").output  # no fit depends on them
     assert "scale-expansion" in diagnosed.output
 
 
@@ -77,6 +78,12 @@ def test_the_certificate_carries_the_file_and_holds(shop: Shop) -> None:
     ("old", "new", "place", "message"),
     [
         ("linear", "rotary", "job.yaml:", "it was learned from rotary axes, and this one is linear"),
+        (
+            "tests: 8",
+            "measurand: straightness\ntests: 8",
+            "job.yaml:",
+            "from tests of straightness",
+        ),
         ("[1, 3]", "[1]", "priors.yaml:4:", "each ratio has a probability"),
         ("position:", "place:", "priors.yaml:4:", "place"),
         ("zlmreport/priors/1", "zlmreport/job/1", "priors.yaml:1:", "a job"),
@@ -102,6 +109,22 @@ def test_what_is_no_file_is_named_and_waited_for_by_nobody(shop: Shop) -> None:
     assert run.code == 2
     assert "earlier/pipe.yaml: left out: it cannot be read: it is no file but" in run.messages
     assert "earlier/folder.yaml: left out: it cannot be read: it is a folder" in run.messages
+
+
+def test_tests_of_one_kind_teach_together_however_the_files_are_called(shop: Shop) -> None:
+    lacking = (shop.folder / "earlier" / "a-lacking.yaml").read_text(encoding="utf-8")
+    for name in ("b", "c"):
+        shop.write(f"mixed/{name}.yaml", lacking)
+    axis = "name: X, travel: [0, 600], screw_pitch: 10"
+    shop.write("mixed/a.yaml", lacking.replace(axis, "name: C, kind: rotary"))
+    straight = lacking.replace("measurement:\n", "measurement:\n  error: EYX\n").replace(
+        "    - backlash\n", ""
+    )
+    shop.write("mixed/d.yaml", straight.replace("iso230-2:2014", "iso230-1:2012"))
+    told = shop.run("model", "learn", "mixed").messages
+    assert "mixed/a.yaml: left out: it is a test of positioning of a rotary axis, and those of" in told
+    assert "mixed/b.yaml: left out: its model is not adequate" in told
+    assert "mixed/d.yaml: left out: it is a test of straightness of a linear axis, and those of" in told
 
 
 def test_a_job_is_looked_at_however_its_ending_is_written(shop: Shop) -> None:

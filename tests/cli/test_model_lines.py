@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from model.axis_tests import model_of, noise
 from model.hidden_effect import example, example_diagnosis
 from zlmreport.cli.model_lines import find_next_step, tell_diagnosis
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import Language, same_in_all_languages as same
 
 
@@ -16,6 +18,42 @@ def test_data_that_look_wrong_are_corrected_before_anything_else() -> None:
     found = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, together=(), faults=(swapped,))
     assert find_next_step(found, "job.yaml") == "correct the data, then zlmreport model diagnose job.yaml"
     assert find_next_step(replace(found, faults=()), "job.yaml") == "zlmreport job.yaml"
+
+
+def test_unit_that_looks_wrong_is_stated_before_an_effect_is_added() -> None:
+    unit = DataFault(FaultKind.WRONG_UNIT, None, 1.0, same("as if in mm"), same("state source.units"))
+    found = replace(example_diagnosis(), faults=(unit,))
+    assert found.verdict is DiagnosisVerdict.MISSING
+    assert find_next_step(found, "job.yaml") == "state the unit, then zlmreport model diagnose job.yaml"
+
+
+def test_given_value_that_the_readings_contradict_is_mended_before_anything_else() -> None:
+    wrong = (same("backlash: −4 µm fits, the job says 4 µm."),)
+    found = replace(
+        example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, together=(), contradicted=wrong
+    )
+    assert find_next_step(found, "job.yaml").startswith("free or mend the given value in model.effects, then")
+
+
+def test_effect_of_an_adequate_model_that_may_not_be_there_is_told_with_how_to_take_it_out() -> None:
+    found = example_diagnosis()
+    design = found.fit.design
+    fitted = fit(model_of("offset", "backlash", "first-run"), design, 3e-6 * design.direction + noise(design))
+    adequate = replace(found, fit=fitted, together=(), verdict=DiagnosisVerdict.ADEQUATE, candidates=())
+    lines = " ".join(" ".join(tell_diagnosis(adequate, example(), "job.yaml", None, {})).split())
+    assert "first-run: nothing of it exceeds its uncertainty, it may not be there" in lines
+    assert "zlmreport model remove job.yaml first-run" in lines
+    assert "remove job.yaml backlash" not in lines
+
+
+def test_fault_that_the_verdict_states_is_not_said_a_second_time() -> None:
+    unit = DataFault(FaultKind.WRONG_UNIT, None, 1.0, same("as if in mm"), same("state source.units"))
+    stuck = DataFault(FaultKind.STUCK_SENSOR, None, 0.5, same("the log stands still"), same("read it again"))
+    lines = "\n".join(
+        tell_diagnosis(replace(example_diagnosis(), faults=(unit, stuck)), example(), "job.yaml", None, {})
+    )
+    assert lines.count("as if in mm") == 1
+    assert lines.count("the log stands still. Remedy: read it again.") == 1
 
 
 def test_what_no_test_of_such_an_axis_could_see_is_not_counted() -> None:

@@ -104,6 +104,21 @@ def test_the_deviation_at_a_point_is_stated_for_each_direction(bench: Bench) -> 
         assert 0.4 < point["expanded_uncertainty"] < 0.6  # the instrument's 0.4 µm, and the readings'
 
 
+def test_axis_that_no_cubic_describes_is_said_to_be_off_by_more_than_the_uncertainty(bench: Bench) -> None:
+    assert "misses" not in bench.run()[1]
+    for at in LINES:
+        header, *rows = (bench.folder / f"{at}.csv").read_text(encoding="utf-8").splitlines()
+        cells = [row.split(",") for row in rows]
+        waved = [f"{x},{sign},{run},{float(e) + 2 * np.sin(float(x) / 40):.4f}" for x, sign, run, e in cells]
+        (bench.folder / f"{at}.csv").write_text("\n".join([header, *waved]) + "\n", encoding="utf-8")
+    said = " ".join(bench.run()[1].split())
+    assert said.count("± below is its own uncertainty, and the axis may be off by more") == 2
+    for direction in bench.values()["directions"]:
+        error = direction["error"]
+        assert direction["missed"] == pytest.approx(np.sqrt(error["rms"] ** 2 - error["noise_rms"] ** 2))
+        assert 1.0 < direction["missed"] < 2 / np.sqrt(2)
+
+
 def test_coefficients_give_the_deviation_at_every_point(bench: Bench) -> None:
     for direction in bench.values()["directions"]:
         by_name = {each["name"]: each["value"] for each in direction["coefficients"]}

@@ -89,7 +89,7 @@ def test_a_folder_that_cannot_be_written_is_told_and_stops_nothing(fleet: Fleet)
 def test_each_type_of_machine_has_priors_of_its_own_and_the_same_ledger_gives_the_same_bytes(
     tmp_path: Path,
 ) -> None:
-    rotary = {**_LESSON, "kind": "rotary"}
+    rotary, straight = {**_LESSON, "kind": "rotary"}, {**_LESSON, "measurand": "straightness"}
     taught = [
         Taught(Subject(type=name, measured=day), frozenset({day + name}), lesson)
         for day, name, lesson in (
@@ -98,11 +98,13 @@ def test_each_type_of_machine_has_priors_of_its_own_and_the_same_ledger_gives_th
             ("2026-01-03", "Works A", _LESSON),
             ("2026-01-04", "Works A", rotary),
             ("2026-01-05", "", _LESSON),
+            ("2026-01-06", "Works A", straight),
         )
     ]
     found = list(make_priors(taught, tmp_path))
     assert [each.path.name for each in found] == [
         "Works-A.linear.2026-01-03.yaml",
+        "Works-A.linear.straightness.2026-01-06.yaml",
         "Works-A.rotary.2026-01-04.yaml",
         "Works-B.linear.2026-01-02.yaml",
     ]

@@ -11,8 +11,9 @@ import pytest
 from environments import ROOT
 from zlmreport.cli import main
 from zlmreport.job.loading import load
+from zlmreport.machines.axis_errors import make_curve_of_certificate
 from zlmreport.machines.reading import read_machine
-from zlmreport.plugin import InputError
+from zlmreport.plugin import InputError, Place
 from zlmreport.plugin.registry import find_plugins
 
 READINGS = ROOT / "configs" / "machine"
@@ -230,3 +231,24 @@ def test_a_number_that_no_certificate_states_is_refused(tmp_path):
 def test_what_is_missing_is_named(tmp_path):
     with pytest.raises(InputError, match=r"evaluations.0.positions.0.target: Field required"):
         read(tmp_path, [{"mean_fwd": 0.0}])
+
+
+@pytest.mark.parametrize(
+    ("document", "said"),
+    [
+        (
+            {"schema": "zlmreport/machine-results/1"},
+            "is on a whole machine; name the jobs or certificates of its",
+        ),
+        ({"parts": []}, "holds several measurements; name the job or the certificate of each"),
+        ({"measurements": {"axis": "XY"}}, "is on a circle in XY, .* name its job under tests"),
+        ({"measurements": {"axis": "PPP NPP PNP NNP"}}, r"several lines or channels \(PPP NPP PNP NNP\)"),
+    ],
+)
+def test_a_document_on_something_else_is_called_what_it_is(
+    tmp_path: Path, document: dict[str, Any], said: str
+) -> None:
+    path = tmp_path / "CAL-7.json"
+    path.write_text(json.dumps({"certificate": {"number": "CAL-7"}, **document}), encoding="utf-8")
+    with pytest.raises(InputError, match=rf"CAL-7\.json .*{said}"):
+        make_curve_of_certificate(path, Place("machine.yaml", 3, 9), lambda _: None)

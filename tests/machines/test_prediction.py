@@ -7,9 +7,11 @@ from machines.simulated import MICRO, bare_machine, circle, nothing
 from zlmreport.machines.curve import make_measured_curve, remove_alignment, with_scale_error
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
+from zlmreport.machines.reading import read_machine
 from zlmreport.machines.volume import find_measured_space, map_volume, predict_diagonals
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.plugin import Axis, MeasurementSet
+from zlmreport.plugin.registry import find_plugins
 
 TARGETS = np.linspace(0.0, 0.5, 21)
 INSTRUMENT = InstrumentError(at_each_position=0.15 * MICRO, proportional=0.8e-6)
@@ -75,6 +77,24 @@ def test_a_straightness_error_loses_its_line_and_an_angle_its_mean():
         assert np.polyfit(TARGETS, mean, orders) == pytest.approx(np.zeros(orders + 1), abs=1e-15)
         ones = np.ones(len(found.values)) / len(found.values)
         assert np.abs(ones @ found.factor).max() < 1e-15
+
+
+@pytest.mark.parametrize(
+    ("measured_at", "zero"),
+    [("", 0.2), (", at: {X: 0}", 0.0), (", at: {X: 100}", 0.1), (", at: {X: 900}", 0.2)],
+)
+def test_an_angle_counts_from_where_the_axes_are_as_square_as_was_measured(tmp_path, measured_at, zero):
+    path = tmp_path / "machine.yaml"
+    path.write_text(
+        "schema: zlmreport/machine/1\nchain: XYFZ\nerrors:\n"
+        "  - {ECX: {0: 1, 400: 4}, expanded_uncertainty: 0.1}\n"
+        f"  - {{C0Y: 8, expanded_uncertainty: 0.5{measured_at}}}\n",
+        encoding="utf-8",
+    )
+    machine = read_machine(path, find_plugins()).machine
+    yaw = next(each for each in machine.curves if each.name == "ECX")
+    assert np.interp(zero, yaw.nodes, yaw.values) == pytest.approx(0.0, abs=1e-12)
+    assert np.ptp(yaw.values) == pytest.approx(np.radians(3 / 3600))
 
 
 def test_out_of_square_axes_stretch_one_diagonal_and_shorten_the_other():

@@ -5,17 +5,21 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+import numpy as np
+
 from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
 from model.hidden_effect import example as study_of_example, example_diagnosis
 from zlmreport.cli.model_build import build_lines
+from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.model.diagnosis.build_report import build_values
-from zlmreport.model.diagnosis.building import Built, build, name_steps
+from zlmreport.model.diagnosis.building import Built, build, is_outstanding, list_needless, name_steps
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.finding import find
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.sessions import add_zeros
 
 
 def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
@@ -212,3 +216,14 @@ def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None
     assert build_values(built)["needless"] == ["first-run"]
     lines = " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True))
     assert "zlmreport model remove job.yaml first-run" in " ".join(lines.split())
+
+
+def test_zero_of_a_session_is_no_effect_that_could_be_taken_out() -> None:
+    example = example_diagnosis()
+    count = len(example.fit.design.position)
+    design = replace(example.fit.design, session=read_only_integers(np.arange(count) >= count // 2))
+    model = add_zeros(model_of("offset", "backlash"), design)
+    fitted = fit(model, design, 3e-6 * design.direction + noise(design))
+    assert not is_outstanding("session-zero", fitted)
+    adequate = replace(example, fit=fitted, together=(), verdict=DiagnosisVerdict.ADEQUATE)
+    assert list_needless(adequate) == ()

@@ -24,12 +24,30 @@ def _said(course: Course, language: Language = Language.ENGLISH) -> tuple[str, s
 def test_what_is_smooth_along_the_axis_is_measured_at_closer_targets_there() -> None:
     at, measure = _said(Course.PLACE)
     assert at == "the residuals over the position, around 250 mm"
-    assert "two runs with a target every 12.7 mm from 149.3 mm to 350.7 mm" in measure
+    assert "two runs with a target every 12.4 mm from 149.3 mm to 350.7 mm" in measure
 
 
 def test_what_is_irregular_is_measured_in_fine_steps() -> None:
     _, measure = _said(Course.IRREGULAR)
-    assert "a fine run in steps of 5.07 mm from 199.3 mm to 300.7 mm, twice" in measure
+    assert "a fine run in steps of 1.10 mm from 199.3 mm to 300.7 mm, twice" in measure
+
+
+def test_fine_run_between_close_targets_has_finer_steps() -> None:
+    design = linear_test(41, places=np.linspace(0.0, 0.2, 41))
+    measure = look_for(replace(LEFT, course=Course.IRREGULAR), design).measure.in_language(Language.ENGLISH)
+    assert "in steps of 0.549 mm" in measure
+
+
+@pytest.mark.parametrize("distance", [10.0, 25.0, 50.0, 100.0, 250.0])
+@pytest.mark.parametrize("period", [5.0, 8.0, 10.0, 12.0, 16.0, 20.0])
+def test_fine_run_catches_each_tooth_of_a_belt_four_times_at_other_phases(
+    distance: float, period: float
+) -> None:
+    design = linear_test(5, places=1e-3 * distance * np.arange(5))
+    measure = look_for(replace(LEFT, course=Course.IRREGULAR), design).measure.in_language(Language.ENGLISH)
+    step = float(measure.split("in steps of ")[1].split(" mm")[0])
+    assert step <= period / 4
+    assert 0.02 < (period / step) % 1 < 0.98
 
 
 def test_irregular_at_the_end_stays_within_what_was_measured() -> None:
@@ -47,7 +65,7 @@ def test_what_is_irregular_is_measured_about_its_largest_place() -> None:
 def test_what_is_irregular_in_the_reversal_is_measured_in_both_directions() -> None:
     at, measure = _said(Course.IRREGULAR_REVERSAL)
     assert at == "the difference of the two directions over the position, around 250 mm"
-    assert measure.startswith("a fine run in both directions in steps of 5.07 mm")
+    assert measure.startswith("a fine run in both directions in steps of 1.10 mm")
 
 
 def test_of_two_targets_a_fine_run_stays_between_them() -> None:

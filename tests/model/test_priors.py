@@ -126,3 +126,11 @@ def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
     found = expected.compute_probabilities([part.source for part in parts], make_ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)
+
+
+def test_tests_of_an_angle_teach_in_arc_seconds_and_say_what_they_measured() -> None:
+    taught = _learned(_fits(0.5, 1)).model_copy(update={"measurand": "angle"})
+    written = write_priors(taught, "earlier")
+    assert "measurand: angle\n" in written
+    assert "root mean square, ″\n" in written
+    assert PriorsKeys.model_validate(yaml.safe_load(written)).measurand == "angle"

@@ -22,6 +22,7 @@ from model.worlds import (
 from zlmreport.model.diagnosis.candidate import list_questions
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.report import write_verdict_statement
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import Language
 
@@ -117,6 +118,29 @@ def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:
     said = _said(diagnosed(model_of("offset"), _DESIGN, readings))
     assert said.startswith("The data look wrong: the deviations are no larger than 0.0")
     assert "Missing effects: scale-error and backlash" in said
+
+
+def _with_given_play(lost_motion: float) -> AxisModel:
+    """Return the usual model with the lost motion given, m."""
+    terms = model_of("offset", "scale-error", "backlash").terms
+    given = {"backlash": {"lost_motion": lost_motion}}
+    return AxisModel(tuple(replace(each, fixed=given.get(each.effect.identifier, {})) for each in terms))
+
+
+def test_given_value_of_the_wrong_sign_is_said_before_any_cause() -> None:
+    readings = noise(_DESIGN) - 2e-6 * _DESIGN.direction
+    found = diagnosed(_with_given_play(4e-6), _DESIGN, readings)
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
+    assert found.remainder is None
+    assert "backlash, reversal value of the whole axis: −4.11 µm" in _said(found)
+    assert "fits, the job says 4.00 µm." in _said(found)
+
+
+def test_given_value_is_not_blamed_for_an_effect_that_is_missing() -> None:
+    readings = noise(_DESIGN) - 2e-6 * _DESIGN.direction + 4e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.01)
+    found = diagnosed(_with_given_play(-4e-6), _DESIGN, readings)
+    assert found.contradicted == ()
+    assert [each.identifier for each in found.together] == ["screw-pitch"]
 
 
 def test_ratio_that_is_not_as_its_effect_means_it_is_said_with_that_meaning() -> None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from decimal import Decimal
 from itertools import pairwise
 from typing import Any
 
@@ -24,6 +25,10 @@ _NO_TRIAL = Words(
 )
 _MEAN_ONLY = Words("The table has the mean of both directions; the play is left to the backlash parameter.")
 _ZERO_AT_THE_START = Words("The first row is zero: the constant before it was taken out.")
+_FROM_THE_REFERENCE = Words(
+    "The control counts rows from the reference point, in whole intervals. Where none of these rows lies "
+    "there, the table acts at shifted positions."
+)
 
 
 class _OnPaper:
@@ -48,6 +53,18 @@ def _make_columns(table: CompensationTable) -> tuple[list[float], FloatArray, Fl
     if len(positions) < 2 or any(b <= a for a, b in pairwise(positions)):
         raise InputError.at(table.place, "the rows of a table rise, and it has two at least")
     return positions, unit.from_si(table.forward), unit.from_si(table.reverse)
+
+
+def _write_grid(positions: Sequence[float]) -> tuple[str, str, str]:
+    """Return distance, first and last of rows equally far apart, as they are written.
+
+    The last is as many written distances from the first as there are intervals: a distance that was rounded
+    up would leave room for one row less before a last row that was not.
+    """
+    count = len(positions) - 1
+    step = Decimal(f"{(positions[-1] - positions[0]) / count:.6f}")
+    first = Decimal(f"{positions[0]:.6f}")
+    return f"{step}", f"{first}", f"{first + count * step}"
 
 
 def _decode(
@@ -96,15 +113,15 @@ class _Cross:
         """Return the one file: the value that moves the axis by −e, in both directions of travel."""
         lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
         for number, table in enumerate(tables):
-            at = (table.positions * 1e3).tolist()
+            step, first, last = _write_grid((table.positions * 1e3).tolist())
             values = (-moves * table.values * 1e3).tolist()
             lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(values)]
             lines += [
                 f"$AN_CEC_INPUT_AXIS[{number}]=({table.input}1)",
                 f"$AN_CEC_OUTPUT_AXIS[{number}]=({table.output}1)",
-                f"$AN_CEC_STEP[{number}]={(at[-1] - at[0]) / (len(at) - 1):.6f}",
-                f"$AN_CEC_MIN[{number}]={at[0]:.6f}",
-                f"$AN_CEC_MAX[{number}]={at[-1]:.6f}",
+                f"$AN_CEC_STEP[{number}]={step}",
+                f"$AN_CEC_MIN[{number}]={first}",
+                f"$AN_CEC_MAX[{number}]={last}",
                 f"$AN_CEC_DIRECTION[{number}]=0",
                 f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
                 f"$AN_CEC_IS_MODULO[{number}]=0",
@@ -157,8 +174,9 @@ class Siemens840d(_OnPaper):
     notes: tuple[Words, ...] = (
         *_OnPaper.notes,
         Words(
-            "MD38000 holds the number of points; MD32700 is 0 while the table is loaded, then 1; the "
-            "table is zero at the reference point."
+            "MD38000 holds the number of points; MD32700 is 0 while the table is loaded, then 1. The control "
+            "expects zero at the reference point: by what the table has there the axis moves when it is "
+            "referenced."
         ),
     )
 
@@ -167,12 +185,13 @@ class Siemens840d(_OnPaper):
         positions, forward, reverse = _make_columns(table)
         name = options.axis or f"{table.axis.name}1"
         mean = ((forward + reverse) / 2).tolist()
+        step, first, last = _write_grid(positions)
         lines = ["%_N_AX_EEC_INI", "CHANDATA(1)"]
         lines += [f"$AA_ENC_COMP[0,{row},{name}]={each + 0.0:.5f}" for row, each in enumerate(mean)]
         lines += [
-            f"$AA_ENC_COMP_STEP[0,{name}]={positions[1] - positions[0]:.6f}",
-            f"$AA_ENC_COMP_MIN[0,{name}]={positions[0]:.6f}",
-            f"$AA_ENC_COMP_MAX[0,{name}]={positions[-1]:.6f}",
+            f"$AA_ENC_COMP_STEP[0,{name}]={step}",
+            f"$AA_ENC_COMP_MIN[0,{name}]={first}",
+            f"$AA_ENC_COMP_MAX[0,{name}]={last}",
             f"$AA_ENC_COMP_IS_MODULO[0,{name}]=0",
             "M17",
         ]
@@ -211,15 +230,16 @@ class Siemens840dCec(_Cross, _OnPaper):
         """Return the one file: table 0 acts in the positive direction, table 1 in the negative."""
         positions, *values = _make_columns(table)
         name = options.axis or f"{table.axis.name}1"
+        step, first, last = _write_grid(positions)
         lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
         for number, (column, direction) in enumerate(zip(values, (1, -1), strict=True)):
             lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(column.tolist())]
             lines += [
                 f"$AN_CEC_INPUT_AXIS[{number}]=({name})",
                 f"$AN_CEC_OUTPUT_AXIS[{number}]=({name})",
-                f"$AN_CEC_STEP[{number}]={positions[1] - positions[0]:.6f}",
-                f"$AN_CEC_MIN[{number}]={positions[0]:.6f}",
-                f"$AN_CEC_MAX[{number}]={positions[-1]:.6f}",
+                f"$AN_CEC_STEP[{number}]={step}",
+                f"$AN_CEC_MIN[{number}]={first}",
+                f"$AN_CEC_MAX[{number}]={last}",
                 f"$AN_CEC_DIRECTION[{number}]={direction}",
                 f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
                 f"$AN_CEC_IS_MODULO[{number}]=0",
@@ -301,6 +321,7 @@ class Fanuc(_OnPaper):
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
         _ZERO_AT_THE_START,
+        _FROM_THE_REFERENCE,
         Words(
             "One table has the mean of both directions, and the play is left to parameter 1851. With the "
             "key reverse there are two, and 1851 must be 0: their parameters stand in the second file, and "
@@ -366,7 +387,7 @@ class Mitsubishi(_OnPaper):
     title = Words("Mitsubishi (memory pitch error)")
     confidence = "documented"
     is_equidistant = True
-    notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START)
+    notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START, _FROM_THE_REFERENCE)
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the increments, one a line, to be typed in at the control."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -272,39 +273,67 @@ def learn(options: Namespace) -> int:
 
 
 def _collect_lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson], list[tuple[str, str]]]:
-    """Return what tests teach whose models describe their readings, and what is to be said of each job."""
+    """Return what tests teach whose models describe their readings, and what is to be said of each job.
+
+    They teach together what they have in common: most of them say on which axes, and what was measured.
+    """
+    jobs = [(show_path(path), _load_lesson(path, registry)) for path in paths]
+    measured = Counter(_list_measured(job) for _, job in jobs if isinstance(job, Job))
+    (usual, _), *_others = measured.most_common() or [(("", ""), 0)]
     lessons: list[Lesson] = []
     told: list[tuple[str, str]] = []
     seen: dict[tuple[str, ...], str] = {}
-    for path in paths:
-        name = show_path(path)
-        try:
-            if JOB.schema.encode() not in read(path, LARGEST):
-                continue  # what jobs extend, a simulation, a fleet
-            job = load(path, registry)
-            if not job.effects:
-                told.append((name, "left out: it has no error model"))
-                continue
-            alone = replace(job, sessions=(), priors=None)
-            measurements = read_readings(alone, registry)
-            readings = tuple(each.sha256 for each in measurements.provenance.files)
-            if readings in seen:
-                told.append((name, f"left out: the readings of {seen[readings]}"))
-                continue
-            if lessons and lessons[0].kind != job.axis.kind:
-                told.append((name, f"left out: its axis is {job.axis.kind}"))
-                continue
-            diagnosis = Study.of(alone, measurements, registry.effects).diagnose(registry.effects)
-        except ZlmreportError as error:
-            told.append((name, f"left out: {error.problems[0].message}"))
+    for name, job in jobs:
+        if job is None:
             continue
-        except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
-            told.append((name, f"left out: it cannot be read: {say_reason(error)}"))
-            continue
-        if diagnosis.verdict is not DiagnosisVerdict.ADEQUATE:
-            told.append((name, f"left out: its model is not adequate ({diagnosis.verdict})"))
-            continue
-        seen[readings] = name
-        lessons.append(Lesson.of(diagnosis.fit))
-        told.append((name, "learned"))
+        found = job if isinstance(job, str) else _find_lesson(job, name, usual, seen, registry)
+        if isinstance(found, Lesson):
+            lessons.append(found)
+        told.append((name, "learned" if isinstance(found, Lesson) else f"left out: {found}"))
     return lessons, told
+
+
+def _load_lesson(path: Path, registry: Registry) -> Job | str | None:
+    """Return a job that may teach, or why it cannot; None for a file that is no job."""
+    try:
+        if JOB.schema.encode() not in read(path, LARGEST):
+            return None  # what jobs extend, a simulation, a fleet
+        job = load(path, registry)
+    except ZlmreportError as error:
+        return error.problems[0].message
+    except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
+        return f"it cannot be read: {say_reason(error)}"
+    return replace(job, sessions=(), priors=None) if job.effects else "it has no error model"
+
+
+def _list_measured(job: Job) -> tuple[str, str]:
+    """Return what tests must share that teach together: the kind of axis, and what was measured."""
+    return job.axis.kind, job.axis.measurand.identifier
+
+
+def _find_lesson(
+    job: Job, name: str, usual: tuple[str, str], seen: dict[tuple[str, ...], str], registry: Registry
+) -> Lesson | str:
+    """Return what a job teaches, or why it does not.
+
+    `usual`: The kind of axis, and what was measured, of most of the jobs.
+    `seen`: By the readings of jobs that taught, their names; this one's is added.
+    """
+    own = _list_measured(job)
+    if own != usual:
+        of, here = (f"{measurand} of a {kind} axis" for kind, measurand in (own, usual))
+        return f"it is a test of {of}, and those of {here} teach here; give it a folder of its own"
+    try:
+        measurements = read_readings(job, registry)
+        readings = tuple(each.sha256 for each in measurements.provenance.files)
+        if readings in seen:
+            return f"the readings of {seen[readings]}"
+        diagnosis = Study.of(job, measurements, registry.effects).diagnose(registry.effects)
+    except ZlmreportError as error:
+        return error.problems[0].message
+    except OSError as error:
+        return f"it cannot be read: {say_reason(error)}"
+    if diagnosis.verdict is not DiagnosisVerdict.ADEQUATE:
+        return f"its model is not adequate ({diagnosis.verdict})"
+    seen[readings] = name
+    return Lesson.of(diagnosis.fit)

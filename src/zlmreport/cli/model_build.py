@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from zlmreport.cli.model_lines import find_next_step, measure_lines
+from zlmreport.cli.model_lines import find_next_step, measure_lines, write_needless_lines
 from zlmreport.cli.terminal import lay_out_changes, lay_out_heading, wrap, wrap_steps
 from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
@@ -12,7 +12,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.building import Built, ModelStep, name_steps
-from zlmreport.model.diagnosis.report import list_chances, write_statement_after_build
+from zlmreport.model.diagnosis.report import find_stated_fault, list_chances, write_statement_after_build
 
 _ENGLISH = Language.ENGLISH
 
@@ -33,14 +33,9 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
         yield from wrap(f"not sure: {chances}; else another effect, or something without a name", "")
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
-    for each in built.needless:
-        yield from wrap(
-            f"{each}: nothing of it exceeds its uncertainty, it may not be there; without it: "
-            f"zlmreport model remove {path} {each}",
-            "",
-        )
+    yield from write_needless_lines(built.needless, path)
     yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
-    if is_tried and edit is not None:
+    if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
     else:
         yield from measure_lines(last)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,10 +24,11 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.building import is_outstanding
+from zlmreport.model.diagnosis.building import is_outstanding, list_needless
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
+from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import find_leading_fault, write_formula_entry
+from zlmreport.model.diagnosis.report import find_stated_fault, write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.effect import is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
@@ -93,8 +94,19 @@ def tell_diagnosis(
             "",
         )
     yield ""
+    yield from write_needless_lines(list_needless(diagnosis), path)
     yield from measure_lines(diagnosis)
     yield following
+
+
+def write_needless_lines(effects: Iterable[str], path: str) -> Iterator[str]:
+    """Yield how effects are taken out that may not be there; `path` is the job as the user types it."""
+    for each in effects:
+        yield from wrap(
+            f"{each}: nothing of it exceeds its uncertainty, it may not be there; without it: "
+            f"zlmreport model remove {path} {each}",
+            "",
+        )
 
 
 def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
@@ -112,8 +124,9 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
     `path`: The job as the user types it.
     `experiment`: What would tell effects apart.
     """
-    if find_leading_fault(diagnosis):
-        return f"correct the data, then zlmreport model diagnose {path}"
+    first = _say_what_comes_first(diagnosis)
+    if first:
+        return f"{first}, then zlmreport model diagnose {path}"
     if experiment and experiment.plan:
         return f"zlmreport plan {path} --decide {','.join(experiment.effects)} --output next"
     if len(diagnosis.together) > 1:
@@ -124,6 +137,14 @@ def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment |
     if left and left.formula:
         return f"zlmreport model add {path} {_quote_for_shell(write_formula_entry(left.formula))}"
     return f"zlmreport {path}"
+
+
+def _say_what_comes_first(diagnosis: AxisDiagnosis) -> str:
+    """Return what is to be put right before a cause is sought; empty if nothing is."""
+    fault = find_stated_fault(diagnosis)
+    if fault:
+        return "state the unit" if fault.kind is FaultKind.WRONG_UNIT else "correct the data"
+    return "free or mend the given value in model.effects" if diagnosis.contradicted else ""
 
 
 def _quote_for_shell(argument: str) -> str:
@@ -192,5 +213,3 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
     if held:
         yield from wrap(f"held together with {', '.join(held)}")
-    if job.priors:
-        yield from wrap(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")

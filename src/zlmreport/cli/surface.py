@@ -91,6 +91,12 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
         yield from wrap(f"{surface.approach.arrow} {write_in_a_line(error)}", "")
         yield from wrap(_write_equation(surface))
         yield from wrap(_tell_interaction(surface))
+        if surface.missed:
+            missed = say(wording.deviation(plane.axis, surface.missed))
+            yield from wrap(
+                f"the polynomial {Colour.YELLOW.set('misses')} {missed} of what the lines show, root mean "
+                "square: ± below is its own uncertainty, and the axis may be off by more"
+            )
     yield ""
     yield from _lay_out_table(plane, points)
     yield ""

@@ -20,6 +20,7 @@ from zlmreport.fleet.records import About, make_file_name
 from zlmreport.fleet.state import FleetState
 from zlmreport.fleet.trend import Series
 from zlmreport.language import Language, Words
+from zlmreport.measurement.measurand import POSITIONING
 from zlmreport.measurement.units import ANGLES, LENGTHS
 from zlmreport.version import __version__
 
@@ -224,6 +225,8 @@ def write_calendar(state: FleetState, language: Language) -> bytes:
 def make_priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     """Yield the files of priors that are not there yet: of each type of machine, for each kind of axis.
 
+    What was measured stands in the name where it is not positioning.
+
     A file is named after the last day of whose tests it knows, and stays as it is: certificates are made with
     it. The same ledger gives the same bytes.
 
@@ -232,16 +235,20 @@ def make_priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     """
     from zlmreport.model.fitting.priors import Lesson, learn_priors, write_priors  # noqa: PLC0415 - only where there is a model
 
-    groups: defaultdict[tuple[str, str], list[Taught]] = defaultdict(list)
+    groups: defaultdict[tuple[str, str], list[tuple[Taught, Lesson]]] = defaultdict(list)
     seen: set[frozenset[str]] = set()
     for each in taught:
         if each.subject.type and each.readings not in seen:
-            groups[make_file_name(each.subject.type), each.lesson["kind"]].append(each)
+            lesson = Lesson.from_json(each.lesson)
+            is_usual = lesson.measurand == POSITIONING.identifier
+            of = lesson.kind if is_usual else f"{lesson.kind}.{lesson.measurand}"
+            groups[make_file_name(each.subject.type), of].append((each, lesson))
             seen.add(each.readings)
-    for (type_, kind), tests in sorted(groups.items()):
+    for (type_, of), learned in sorted(groups.items()):
+        tests = [each for each, _ in learned]
         last = tests[-1].subject.measured
-        path = folder / f"{type_}.{kind}.{last}.yaml"
+        path = folder / f"{type_}.{of}.{last}.yaml"
         if not path.exists():
-            found = learn_priors([Lesson.from_json(each.lesson) for each in tests])
+            found = learn_priors([lesson for _, lesson in learned])
             origin = f"the fleet, of {tests[-1].subject.type} and until {last},"
             yield Document(path, write_priors(found, origin).encode())

@@ -16,6 +16,7 @@ from zlmreport.job.types import (
     Text,
 )
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurand import POSITIONING
 
 #: Of every uncertainty that a job states as expanded.
 STATED_COVERAGE_FACTOR = 2.0
@@ -332,6 +333,9 @@ class PriorsKeys(JobPart):
 
     schema_: Literal["zlmreport/priors/1"] = Field(alias="schema", description="Version of this format.")
     kind: AxisKind = Field(description="Of the axes.")
+    measurand: Text = Field(
+        POSITIONING.identifier, description="What the tests measured.", examples=["straightness"]
+    )
     tests: int = Field(ge=1, description="How many tests taught it.")
     noise: dict[SourceName, NoiseKeys] = Field(description="By source of shared scatter.")
     effects: dict[str, SizeKeys] = Field(description="By effect.")

@@ -264,6 +264,12 @@ def _read_priors(job: Job) -> KeysFile[PriorsKeys] | None:
             job.place_of("model.priors"),
             f"it was learned from {found.keys.kind} axes, and this one is {job.axis.kind}",
         )
+    if found.keys.measurand != job.axis.measurand.identifier:
+        raise InputError.at(
+            job.place_of("model.priors"),
+            f"it was learned from tests of {found.keys.measurand}, and this one is of "
+            f"{job.axis.measurand.identifier}",
+        )
     return found
 
 

@@ -15,7 +15,13 @@ import numpy as np
 from pydantic import ConfigDict, Field
 
 from zlmreport import pipeline
-from zlmreport.document.certificate.results_file import RESULTS, ResultsFile, ResultsPart, read_results
+from zlmreport.document.certificate.results_file import (
+    MACHINE_RESULTS,
+    RESULTS,
+    ResultsFile,
+    ResultsPart,
+    read_results,
+)
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.files import demand
@@ -225,7 +231,9 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
             )
         content = carried
     try:
-        found = _Results.of(read_results(content))
+        tree = read_results(content)
+        _refuse_other_documents(path.name, tree, place)
+        found = _Results.of(tree)
     except ValueError as error:
         raise InputError.at(
             place, f"{path.name} is no results file of this program ({RESULTS}): {error}"
@@ -248,6 +256,27 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
     if len(positions) < 2:
         raise InputError.at(place, f"{path.name} states no deviations by position")
     return _make_of_positions(name, positions, found, line)
+
+
+def _refuse_other_documents(name: str, tree: Any, place: Place) -> None:
+    """Refuse what this program wrote on something else than one error, and say what that is."""
+    stated = tree if isinstance(tree, Mapping) else {}
+    measured = stated.get("measurements")
+    axis = str(measured.get("axis", "")) if isinstance(measured, Mapping) else ""
+    is_one_error = isinstance(measured, Mapping) and measured.get("error") is not None
+    if stated.get("schema") == MACHINE_RESULTS:
+        what = (
+            "is on a whole machine; name the jobs or certificates of its axes, which its machine file lists"
+        )
+    elif "parts" in stated:
+        what = "holds several measurements; name the job or the certificate of each of them"
+    elif not is_one_error and {*axis} <= {*"XYZ"} and len(axis) == len("XY"):
+        what = f"is on a circle in {axis}, which two axes run; name its job under tests"
+    elif not is_one_error and " " in axis:
+        what = f"holds several lines or channels ({axis[:60]}); diagonals stand under tests, by their job"
+    else:
+        return
+    raise InputError.at(place, f"{name} {what}")
 
 
 def _make_of_positions(

@@ -164,11 +164,15 @@ def with_scale_error(curve: AxisErrorCurve, uncertainty: float) -> AxisErrorCurv
     return replace(curve, factor=np.column_stack([curve.factor, uncertainty * curve.values]))
 
 
-def remove_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
+def remove_alignment(curve: AxisErrorCurve, zero_at: float | None = None) -> AxisErrorCurve:
     """Return a curve without what only says how it was set up.
 
     Of a straightness error the least-squares line: its slope is the artefact's alignment, and what the axes
-    do to each other is the squareness error's. Of an angle the mean. Of a position nothing.
+    do to each other is the squareness error's. Of an angle its value where that squareness error was
+    measured, for the two turn the same: counted from elsewhere, the prediction would be out of square by
+    their difference at the very place where it is known. Else of an angle the mean. Of a position nothing.
+
+    `zero_at`: Where the squareness error was measured, m; None where nobody says it.
     """
     if curve.is_single or (curve.name in TRANSLATIONS and curve.name[1] == curve.axis):
         return curve
@@ -177,6 +181,10 @@ def remove_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
     columns = [np.ones(count)]
     if curve.name in TRANSLATIONS:
         columns.append(curve.nodes - curve.nodes.mean())
+    elif zero_at is not None and curve.nodes[0] <= zero_at <= curve.nodes[-1]:
+        there = [np.interp(zero_at, curve.nodes, node) for node in np.eye(count)]
+        left = np.eye(len(curve.values)) - np.tile(there, repeats) / repeats
+        return replace(curve, values=left @ curve.values, factor=left @ curve.factor)
     base, _ = np.linalg.qr(np.tile(np.column_stack(columns), (repeats, 1)))
     left = np.eye(len(curve.values)) - base @ base.T
     return replace(curve, values=left @ curve.values, factor=left @ curve.factor)

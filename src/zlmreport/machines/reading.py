@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,7 +25,7 @@ from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.curve import AxisErrorCurve, remove_alignment
 from zlmreport.machines.keys import MachineFileKeys, StatedKeys
-from zlmreport.machines.kinematics import Chain
+from zlmreport.machines.kinematics import SQUARENESS, Chain
 from zlmreport.machines.machine import MachineModel, list_missing_errors
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.study import CircleStudy
@@ -134,7 +134,7 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
     machine = MachineModel(
         chain,
         (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3),
-        tuple(remove_alignment(each) for each in curves.values()),
+        tuple(remove_alignment(each, _find_zero(each, curves)) for each in curves.values()),
         list_missing_errors(curves, bounds),
     )
     return MachineFile(
@@ -142,6 +142,12 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
         (*_list_of_every_bar(effects, [each.circle for each in circles], registry), *effects),
         registry.circle_effects,
     )  # fmt: skip
+
+
+def _find_zero(curve: AxisErrorCurve, curves: Mapping[str, AxisErrorCurve]) -> float | None:
+    """Return where on the axis of an angle the squareness error about the same direction was measured, m."""
+    square = (curves[name] for name in SQUARENESS if name in curves and name[0] == curve.name[1])
+    return next((each.line.others.get(curve.axis) for each in square), None)
 
 
 def _list_of_every_bar(

@@ -16,6 +16,7 @@ from model.hidden_effect import CONFIG, LAST, job, written
 from model.test_statements import LEFT
 from zlmreport import pipeline
 from zlmreport.document.subjects.annex import Modelled
+from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.plugin import Language, same_in_all_languages
@@ -69,6 +70,15 @@ def failure(test: ResidualTest, where: str = "somewhere") -> Failure:
 
 def composed(loaded: Job) -> Certificate:
     return pipeline.compose(loaded, registry())
+
+
+def test_annex_that_expects_what_earlier_tests_say_rests_on_them_too() -> None:
+    priors = PriorsKeys(schema="zlmreport/priors/1", kind="linear", tests=4, noise={}, effects={})
+    study = replace(modelled().study, job=replace(modelled().study.job, priors=priors))
+    assert "readings of this document alone" in text(modelled())
+    said = text(replace(modelled(), study=study))
+    assert "readings of this document alone" not in said
+    assert "on what earlier tests say of scatter and of the sizes of effects" in said
 
 
 @pytest.mark.parametrize("language", [Language.ENGLISH, Language.GERMAN])

@@ -57,8 +57,10 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert written == pytest.approx(np.loadtxt(DATA / loaded), abs=1.1e-6)
         sheet = PdfReader(folder / f"out{kind}" / "LOOP-1-compensation.pdf")
         text = " ".join(" ".join(page.extract_text() for page in sheet.pages).split())
-        assert "Worked row: at 300 mm the axis was off by +50.39" in text
-        assert "If it doubles, the sign is wrong" in text
+        assert "Worked row: at 300 mm the axis without a table is off by +50.39" in text
+        assert "which leaves +0.000 ↑, +0.00" in text
+        assert "Rows 11 (0 mm … 300 mm)" in text
+        assert "If the deviation doubles, the sign is wrong" in text
 
 
 @pytest.mark.parametrize(("sign", "drawn", "missing"), [("-", "C↓", "C↑"), ("+", "C↑", "C↓")])

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from environments import ROOT
 from model.axis_tests import EFFECTS, INSTALLED, noise
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.planning.deciding import (
     collect_experiment,
     plan_deciding_experiment,
+    plan_experiment_of_tie,
     write_deciding_text,
 )
-from zlmreport.model.planning.experiment import Experiment
+from zlmreport.model.planning.experiment import Experiment, choose_option
 from zlmreport.model.planning.methods import Method, find_half_way
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause, propose
 from zlmreport.model.planning.planned_test import choose_model_of
@@ -77,6 +81,38 @@ def test_who_follows_the_advice_learns_the_truth(truth: str) -> None:
     named = {leading.identifier, *leading.equals}
     assert truth in named
     assert not named & ({"scale-error", "scale-expansion"} - {truth})
+
+
+@pytest.mark.parametrize(
+    ("decides", "chosen"),
+    [
+        ((0.74, 0.76), 0),  # so many simulated tests do not tell the two apart
+        ((0.60, 0.76), 1),
+        ((0.94, 0.96), 1),  # the one is taken to decide, the other is not
+        ((0.96, 0.99), 0),
+    ],
+)
+def test_longer_plan_is_advised_where_it_decides_more_often(
+    decides: tuple[float, float], chosen: int
+) -> None:
+    options = [
+        SimpleNamespace(decides=each, plan=SimpleNamespace(duration=minutes * 60.0))
+        for each, minutes in zip(decides, (25, 45), strict=True)
+    ]
+    assert choose_option(options) is options[chosen]
+
+
+@pytest.mark.long
+def test_experiment_of_what_a_diagnosis_leaves_open_is_the_one_that_it_states() -> None:
+    path = ROOT / "configs" / "second-test" / "cool.yaml"
+    job = load(path, REGISTRY)
+    study = Study.of(job, pipeline.read(job, REGISTRY), REGISTRY.effects)
+    stated = plan_experiment_of_tie(study, study.diagnose(REGISTRY.effects), REGISTRY.effects)
+    assert stated is not None
+    assert len(stated.effects) > 1
+    standards = pipeline.choose_standards(job, REGISTRY)
+    asked = plan_deciding_experiment(stated.effects[::-1], job, study, REGISTRY.effects, standards)
+    assert _said(asked) == _said(stated)
 
 
 def test_what_no_plan_decides_is_said_with_what_would() -> None:

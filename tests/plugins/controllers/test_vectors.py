@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from decimal import Decimal
 
 import numpy as np
 import pytest
@@ -56,6 +57,19 @@ def test_siemens_eec_is_an_ini_file_with_m17() -> None:
     ]
     assert [float(line.partition("=")[2]) for line in lines[13:17]] == [30, 0, 300, 0]
     assert lines[-1] == "M17"
+
+
+@pytest.mark.parametrize(
+    ("name", "file", "axis"), [("siemens-840d", "_EEC.INI", "0,X1"), ("siemens-840d-cec", "_CEC.INI", "1")]
+)
+def test_siemens_finds_room_for_every_row_between_first_and_last(name: str, file: str, axis: str) -> None:
+    rows = np.linspace(-413.0, 200.0, 24)  # 26.652173913… mm apart, which is written rounded up
+    text = written(name, table(rows.tolist(), [0.0] * 24))[file]
+    step, first, last = (
+        Decimal(text.split(f"_{key}[{axis}]=")[1].split()[0]) for key in ("STEP", "MIN", "MAX")
+    )
+    assert (last - first) / step == 23
+    assert abs(last - 200) < Decimal("0.0001")
 
 
 def test_siemens_cec_has_a_table_for_each_direction() -> None:

@@ -44,6 +44,11 @@ _BASIS = Words(
     "It rests on the readings of this document alone: a model of physical effects was fitted to them. "
     "What the model explains is not proved to be the cause."
 )
+_BASIS_AND_EARLIER = Words(
+    "It rests on the readings of this document, and on what earlier tests say of scatter and of the sizes of "
+    "effects: a model of physical effects was fitted to the readings. What the model explains is not proved "
+    "to be the cause."
+)
 _SYMBOLS = Words(
     "P: target position; d: +1 approaching in the positive direction, −1 in the negative; t: time; s: "
     "distance since the last reversal; ΔT: temperature less 20 °C; the other symbols are parameters."
@@ -93,11 +98,13 @@ def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     said = {each.key: tuple(_head_facts(each)) for each in sections}
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
     table, *moving = lay_out_fall(modelled.history, next(iter(modelled.forecasts), None), writer).blocks
-    yield Notice(writer.say(OPINION), (writer.say(_BASIS),))
+    basis = _BASIS_AND_EARLIER if modelled.study.job.priors else _BASIS
+    yield Notice(writer.say(OPINION), (writer.say(basis),))
     yield from said.pop("verdict")
     yield from said.pop("remainder", ())
     yield lay_out_equations(whole.fit, writer.language)
     yield Paragraph(writer.say(_SYMBOLS))
+    yield from said.pop("faults", ())
     yield from said.pop("assumed", ())
     yield from said.pop("model", ())
     yield Graph(draw_over_position(diagram))

@@ -51,9 +51,9 @@ _CONFIDENCE = {
     "unconfirmed": Words("not confirmed: sign or format may be another"),
 }
 _CHECK = Words(
-    "Load the table, reference the axis, and measure this row again: its deviation must vanish. If it "
-    "doubles, the sign is wrong: take the table out. A backlash parameter of the control must not correct "
-    "the same play a second time."
+    "Load the table, reference the axis, and measure the worked row again: what is left must be no more than "
+    "it says. If the deviation doubles, the sign is wrong: take the table out. A backlash parameter of the "
+    "control must not correct the same play a second time."
 )
 _NO_MEASUREMENT = Words(
     "A forecast is no measurement: the axis with its table needs a test of its own "
@@ -146,7 +146,8 @@ def _list_facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str
     names = ", ".join(f"{job.keys.certificate.number}{end}" for end in made.files)
     yield say(Words("Files")), names
     yield say(Words("Format")), say(_CONFIDENCE[made.controller.confidence])
-    yield say(Words("Rows")), str(len(made.decoded.positions))
+    first, last = (_write_length(float(made.decoded.positions[end]), writer) for end in (0, -1))
+    yield say(Words("Rows")), f"{len(made.decoded.positions)} ({first} … {last})"
     yield (
         say(Words("Active during the test")),
         active.name if isinstance(active, Path) else say(none),
@@ -330,10 +331,11 @@ def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
         up, down = (_write_signed(unit.from_si(float(each[0])), writer) for each in values)
         return f"{up} ↑, {down} ↓ {unit.symbol}"
 
+    stood, taken = made.meant.at(at), made.decoded.at(at)
     worked = Words(
-        "Worked row: at {at} the axis was off by {stood} (actual − target, ↑ moving forward, "
-        "↓ moving back); the table takes away {taken}."
-    ).given(at=writer.length(float(at[0])), stood=both(made.meant.at(at)), taken=both(made.decoded.at(at)))
+        "Worked row: at {at} the axis without a table is off by {stood} (actual − target, ↑ moving forward, "
+        "↓ moving back); this table takes away {taken}, which leaves {left}."
+    ).given(at=writer.length(float(at[0])), stood=both(stood), taken=both(taken), left=both(stood - taken))
     return (
         Paragraph(say(worked)),
         Notice(
@@ -411,5 +413,6 @@ def _write_number(value: float, writer: Writer) -> str:
 
 
 def _write_signed(value: float, writer: Writer) -> str:
-    text = write_fixed_number(value, 3, writer.language.decimal_sign)
-    return text if value < 0 else f"+{text}"
+    rounded = round(value, 3)
+    text = write_fixed_number(rounded, 3, writer.language.decimal_sign)
+    return text if rounded < 0 else f"+{text}"

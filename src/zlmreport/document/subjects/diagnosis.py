@@ -40,7 +40,11 @@ from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import select_serious_candidates, write_verdict_statement
+from zlmreport.model.diagnosis.report import (
+    list_further_faults,
+    select_serious_candidates,
+    write_verdict_statement,
+)
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Effect
@@ -63,6 +67,8 @@ _ACROSS_THE_MOTION = Words(
 EXPERIMENT = Words("The next experiment")
 NOT_TRIED = Words("Effects that this test could not try")
 _ASSUMED = Words("Taken for granted")
+_FAULTS = Words("The data look wrong")
+_FAULT = Words("{statement}. Remedy: {remedy}.")
 _NO_FAILURE = Words(
     "No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
     "run, time and the logged conditions."
@@ -153,6 +159,7 @@ class DiagnosisRows:
     failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
     candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
     not_excluded: tuple[str, ...]  #: Effects that could not be tried, and that nothing speaks against.
+    faults: tuple[str, ...]  #: What looks wrong in the data, beside what the verdict states.
     remarks: tuple[str, ...]  #: What was taken for granted.
     #: Whether the verdict is that the first candidate, or one of its equals, is missing.
     names_candidates: bool
@@ -184,6 +191,10 @@ class DiagnosisRows:
             failures=tuple(make_failure_row(each, language) for each in diagnosis.failures),
             candidates=rows(diagnosis.candidates),
             not_excluded=tuple(diagnosis.not_excluded),
+            faults=tuple(
+                _FAULT.given(statement=each.statement, remedy=each.remedy).in_language(language)
+                for each in list_further_faults(diagnosis)
+            ),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
             names_candidates=diagnosis.verdict is DiagnosisVerdict.MISSING,
             remainder=_lay_out_remainder(diagnosis, language),
@@ -198,8 +209,8 @@ def lay_out_diagnosis(
 ) -> tuple[Section, ...]:
     """Return what is said of a diagnosis, whoever says it; what is not to be said is left out.
 
-    The sections are ``verdict``, ``remainder``, ``assumed``, ``model``, ``failures``, ``candidates``,
-    ``improbable``, ``remedy`` and ``experiment``.
+    The sections are ``verdict``, ``remainder``, ``faults``, ``assumed``, ``model``, ``failures``,
+    ``candidates``, ``improbable``, ``remedy`` and ``experiment``.
 
     `titles`: What effects are called, by identifier.
     `experiment`: What to measure next; None where nothing is to be decided.
@@ -214,6 +225,7 @@ def lay_out_diagnosis(
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
+        section("faults", _FAULTS, notice(_FAULTS, rows.faults)),
         section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
         section("model", EFFECTS, lay_out_parameters(fit, language) if fit.model.terms else None),
         section(

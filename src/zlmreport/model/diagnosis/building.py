@@ -21,6 +21,7 @@ from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.model.fitting.sessions import SessionZeros
 
 #: Diagnoses of one build: each adds a whole set, so a second mostly finds nothing more.
 _MOST_ROUNDS = 6
@@ -83,25 +84,28 @@ class Built:
 
     @property
     def needless(self) -> tuple[str, ...]:
-        """Effects that stood in a model that describes the readings, and that may not be there.
-
-        Nothing of them exceeds its uncertainty. A zero is none of them.
-        """
-        last, before = self.last.fit, self.first.fit.model.identifiers
-        if self.last.verdict is not DiagnosisVerdict.ADEQUATE:
-            return ()
-        pairs = zip(last.model.terms, last.solution.thetas, strict=True)
-        moving = [term for term, theta in pairs if np.ptp(term.effect.columns(last.design, theta)) > 0]
-        return tuple(
-            each.effect.identifier
-            for each in moving
-            if each.effect.identifier in before and not is_outstanding(each.effect.identifier, last)
-        )
+        """Effects that stood in the model from the beginning, and that may not be there."""
+        before = self.first.fit.model.identifiers
+        return tuple(each for each in list_needless(self.last) if each in before)
 
     @property
     def questions(self) -> tuple[Words, ...]:
         """What is asked of the effects that were added: values far from usual, or against the job."""
         return tuple(list_questions(self.last.fit, {each.identifier for each in self.added}))
+
+
+def list_needless(diagnosis: AxisDiagnosis) -> tuple[str, ...]:
+    """Return the effects of a model that describes the readings, and that may not be there.
+
+    Nothing of them exceeds its uncertainty. A zero is none of them, and that of a session no effect of a job.
+    """
+    fitted = diagnosis.fit
+    if diagnosis.verdict is not DiagnosisVerdict.ADEQUATE:
+        return ()
+    pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
+    moving = [term for term, theta in pairs if np.ptp(term.effect.columns(fitted.design, theta)) > 0]
+    names = (each.effect.identifier for each in moving if not isinstance(each.effect, SessionZeros))
+    return tuple(each for each in names if not is_outstanding(each, fitted))
 
 
 def is_outstanding(identifier: str, fitted: Fit) -> bool:

@@ -15,7 +15,7 @@ from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
+from zlmreport.model.effects.effect import Dimension, Effect, Parameter, find_unit_of
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.effects.sizes import ask_of, find_usual_range
 from zlmreport.model.fitting.estimate import ParameterEstimate
@@ -197,17 +197,31 @@ def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | N
     off = abs(estimate.value - estimate.expected)
     if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
         return None
-    kind, parameter = design.axis.kind, estimate.parameter
-    unit = find_unit_of(parameter.dimension, kind, time_is_counted=design.time_is_counted)
-    fitted, stated = (
-        _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
-        for value in (estimate.value, estimate.expected)
-    )
+    parameter = estimate.parameter
     if parameter.dimension is Dimension.RATIO:
         return _NOT_AS_MEANT.given(
-            effect=estimate.effect, name=parameter.name, fitted=fitted, meaning=parameter.description
+            effect=estimate.effect,
+            name=parameter.name,
+            fitted=_write_value(parameter, estimate.value, design),
+            meaning=parameter.description,
         )
-    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=parameter.description)
+    return _say_other_value(estimate, estimate.expected, design)
+
+
+def say_other_value(estimate: ParameterEstimate, stated: float, design: Design) -> Words:
+    """Return what the readings say of a parameter beside the value that the job gives, with its effect."""
+    return ask_about(estimate.effect, _say_other_value(estimate, stated, design))
+
+
+def _say_other_value(estimate: ParameterEstimate, stated: float, design: Design) -> Words:
+    parameter = estimate.parameter
+    fitted, given = (_write_value(parameter, value, design) for value in (estimate.value, stated))
+    return _JOB_SAYS.given(fitted=fitted, stated=given, name=parameter.description)
+
+
+def _write_value(parameter: Parameter, value: float, design: Design) -> Words:
+    unit = find_unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+    return _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
 
 
 def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:

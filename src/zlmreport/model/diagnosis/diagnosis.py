@@ -22,6 +22,7 @@ from zlmreport.model.diagnosis.error_numbers import (
 )
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_gaps
 from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, find, fit_with_member
+from zlmreport.model.diagnosis.given_values import list_contradicted
 from zlmreport.model.diagnosis.remainder import Remainder, find_irregular_remainder, make_remainder_of_run
 from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
 from zlmreport.model.diagnosis.residuals import Failure, find_residuals_of
@@ -46,9 +47,6 @@ _FEWEST_DEGREES = 6
 _LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
-
-
-_LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
 
 
 class DiagnosisVerdict(StrEnum):
@@ -90,6 +88,7 @@ class AxisDiagnosis:
     #: The noise floor with that which lasts over a few readings, m or rad; None without repeats.
     lasting_noise: float | None
     faults: tuple[DataFault, ...] = ()  #: What looks wrong in the data.
+    contradicted: tuple[Words, ...] = ()  #: Of values that the job gives, what the readings say instead.
 
     @property
     def leaves_noise(self) -> bool:
@@ -229,8 +228,10 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
     rivals = [complete] if together else []
     faults = find_faults_of(observed, fitted, rivals, asked.effects, changes=finding.changes)
     left = held.left
-    if any(each.comes_first for each in faults):
-        # No cause is sought before the data are right: what has no name may be the fault.
+    # Where an effect is named, it may be what pulls at the given value.
+    contradicted = list_contradicted(fitted) if left is not None and not together else ()
+    if contradicted or any(each.comes_first for each in faults):
+        # No cause is sought before data and given values are right: what has no name may be the fault.
         together, candidates, complete, left = (), (), fitted, None
     tests = run_residual_tests(find_residuals_of(fitted, finding.noise))
     stand_off = report_flagged(observed.design, aside)
@@ -238,7 +239,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
     return AxisDiagnosis(
         fit=fitted,
         error=held.error,
-        verdict=_decide_verdict(left, together, faults),
+        verdict=DiagnosisVerdict.UNEXPLAINED if contradicted else _decide_verdict(left, together, faults),
         p_value=finding.p_value.value,
         tests=tests,
         failures=find_failures(tests) + ((stand_off,) if stand_off else ()),
@@ -254,10 +255,10 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
         remarks=(
             *observed.remarks,
             *find_gaps(observed.design),
-            *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
         lasting_noise=estimate_lasting_floor(fitted.design, choose_scattering(fitted)),
         faults=faults,
+        contradicted=contradicted,
     )
 
 

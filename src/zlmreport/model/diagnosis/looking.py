@@ -13,14 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.language import Words
+from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.random_curves import Along, Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 
 #: Into how many parts the distance of the targets is divided where a remainder is smooth, and where it is
-#: not: a period has to be caught by four steps and more.
-_CLOSER, _FINE = 4.0, 10.0
+#: not: a period has to be caught by four steps and more. No whole numbers: steps that go into the distance
+#: are blind to what goes into them, and so to the very periods to which the targets were blind.
+_CLOSER, _FINE = 4.1, 9.1
+#: The longest step of a fine run, mm or °: a quarter of the teeth of common belts and of the turns of common
+#: screws, from 5 mm upwards, and of none of them a whole part.
+_LONGEST_FINE = 1.1
 
 _OVER_POSITION = Words("the residuals over the position, {where}")
 _REVERSAL_OVER_POSITION = Words("the difference of the two directions over the position, {where}")
@@ -113,7 +118,7 @@ def look_for(remainder: Remainder, design: Design) -> WhereToLook:
         given = {
             "first": wording.position(axis, first),
             "last": wording.position(axis, last),
-            "step": wording.length(axis, step / (_FINE if course.is_irregular else _CLOSER)),
+            "step": wording.length(axis, _choose_step(step, axis, is_fine=course.is_irregular)),
         }
     elif course.along is Along.TIME:
         given = {"duration": wording.span_of_time(design, design.duration)}
@@ -132,3 +137,10 @@ def _choose_stretch(remainder: Remainder, design: Design) -> tuple[float, float,
         middle = min(max(remainder.peak, targets[0] + step), targets[-1] - step)
         first, last = middle - step, middle + step
     return max(float(targets[0]), first), min(float(targets[-1]), last), step
+
+
+def _choose_step(distance: float, axis: Axis, *, is_fine: bool) -> float:
+    """Return the step of a run that is to show more than targets at a distance do, both m or rad."""
+    if not is_fine:
+        return distance / _CLOSER
+    return min(distance / _FINE, axis.position_unit.to_si(_LONGEST_FINE))

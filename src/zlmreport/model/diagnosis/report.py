@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from functools import reduce
 from math import isfinite
 from typing import Any
 
@@ -51,6 +52,9 @@ _ONE_OF = Words("({names})")
 _GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
     "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
+)
+_GIVEN = Words(
+    "The readings contradict what the job gives, and no cause is sought before it is right: {statements}"
 )
 _ADEQUATE_SO_FAR = Words(
     "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
@@ -124,6 +128,7 @@ def report(
             }
             for each in diagnosis.faults
         ],
+        "contradicted": [each.in_language(language) for each in diagnosis.contradicted],
         "outliers": diagnosis.outliers.tolist(),
         "remarks": [each.in_language(language) for each in diagnosis.remarks],
     }
@@ -359,10 +364,10 @@ def write_verdict_statement(diagnosis: AxisDiagnosis) -> Words:
     if diagnosis.remainder is not None:
         beside = _describe_remainder(_BESIDE, diagnosis.remainder, diagnosis.fit.design.axis)
         statement = _TWO.given(one=statement, other=beside)
-    unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
-    if unit is None:
+    fault = find_stated_fault(diagnosis)
+    if fault is None:
         return statement
-    return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
+    return _IN_DOUBT.given(statement=fault.statement, remedy=fault.remedy, verdict=statement)
 
 
 def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Words:
@@ -432,10 +437,26 @@ def find_leading_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
     return first
 
 
+def find_stated_fault(diagnosis: AxisDiagnosis) -> DataFault | None:
+    """Return the fault of the data that the verdict states, in place of causes or before them; or None."""
+    if diagnosis.verdict is DiagnosisVerdict.MISSING:
+        return next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
+    return find_leading_fault(diagnosis)
+
+
+def list_further_faults(diagnosis: AxisDiagnosis) -> tuple[DataFault, ...]:
+    """Return what looks wrong in the data beside the fault that the verdict states."""
+    stated = find_stated_fault(diagnosis)
+    return tuple(each for each in diagnosis.faults if each is not stated)
+
+
 def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     fault = find_leading_fault(diagnosis)
     if fault is not None:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
+    if diagnosis.contradicted:
+        statements = reduce(lambda one, other: _TWO.given(one=one, other=other), diagnosis.contradicted)
+        return _GIVEN.given(statements=statements)
     if diagnosis.remainder is None:
         return _UNEXPLAINED
     words = _SHAPE if diagnosis.remainder.instead is None else _UNSURE

@@ -53,6 +53,10 @@ _KEY = "model.effects"
 _SESSIONS = "model.sessions"
 #: What a table of positions, one for each direction, can take away; the rest changes with time or run.
 BY_TABLE = frozenset({Shape.POSITION, Shape.DIRECTION})
+_EXPECTED = Words(
+    "Scatter and sizes of effects are expected to be as {number} earlier test says (model.priors).",
+    plural="Scatter and sizes of effects are expected to be as {number} earlier tests say (model.priors).",
+)
 _CORRECTED = Words("Predicted: less what the error model explains by {effects}")
 
 
@@ -138,10 +142,7 @@ class Study:
     def diagnose(self, effects: Sequence[Effect], told: Told = tell_nobody) -> AxisDiagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
-            tried = self.list_tried(effects)
-            return diagnose(
-                self.model, self.together, tried, self.assumptions, self._find_expectation(), told=told
-            )
+            return self._diagnose(self.model, self.list_tried(effects), told)
         except ModelError as error:
             raise InputError(self._list_problems(error)) from error
 
@@ -150,13 +151,22 @@ class Study:
         tried = self.list_tried(effects)
 
         def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> AxisDiagnosis:
-            expected = self._find_expectation()
-            return diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
+            return self._diagnose(model, tried, told, may_go)
 
         try:
             return build(self.model, diagnosing, told)
         except ModelError as error:
             raise InputError(self._list_problems(error)) from error
+
+    def _diagnose(
+        self, model: AxisModel, tried: Sequence[Effect], told: Told, may_go: frozenset[str] = frozenset()
+    ) -> AxisDiagnosis:
+        """Return the diagnosis of a model of this job, with what earlier tests say where it names them."""
+        stated, expected = self.job.priors, self._find_expectation()
+        found = diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
+        if stated is None:
+            return found
+        return replace(found, remarks=(*found.remarks, _EXPECTED.given(number=stated.tests)))
 
     def _find_expectation(self) -> PriorExpectation | None:
         """Return what the job says that earlier tests say."""

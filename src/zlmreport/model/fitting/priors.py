@@ -20,6 +20,7 @@ from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, Sourc
 from zlmreport.job.yaml_text import write_in_a_line
 from zlmreport.measurement.arrays import FloatArray, compute_left_beside
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurand import ANGLE, POSITIONING
 from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import NoiseSource, combine_levels, list_noise_parts
@@ -97,6 +98,7 @@ class Lesson:
     """What one test teaches whose model describes its readings."""
 
     kind: AxisKind  #: Of its axis.
+    measurand: str  #: What it measured, by its identifier.
     #: Root mean square size of each effect that the rest of the model cannot imitate, micrometres or arc
     #: seconds.
     sizes: Mapping[str, float]
@@ -114,12 +116,15 @@ class Lesson:
         criterion = space.make_criterion(contrast)
         criteria = np.array([criterion(ratios)[0] for ratios in combine_levels([*levels.values()])])
         sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _list_sizes(fitted)}
-        return cls(axis.kind, sizes, levels, np.exp(-0.5 * (criteria - criteria.min())))
+        return cls(
+            axis.kind, axis.measurand.identifier, sizes, levels, np.exp(-0.5 * (criteria - criteria.min()))
+        )
 
     def as_json(self) -> dict[str, Any]:
         """Return it with as many digits as matter, so that no rounding of a processor shows."""
         return {
             "kind": self.kind,
+            "measurand": self.measurand,
             "sizes": {name: _write_short(size) for name, size in self.sizes.items()},
             "levels": {_NAMES[source]: list(levels) for source, levels in self.levels.items()},
             "likelihoods": [_write_short(each) for each in self.likelihoods],
@@ -129,7 +134,8 @@ class Lesson:
     def from_json(cls, kept: Mapping[str, Any]) -> Self:
         """Return what `as_json` gave."""
         levels = {source: kept["levels"][name] for source, name in _NAMES.items() if name in kept["levels"]}
-        return cls(kept["kind"], kept["sizes"], levels, np.array(kept["likelihoods"]))
+        measurand = kept.get("measurand", POSITIONING.identifier)  # what older ledgers do not say
+        return cls(kept["kind"], measurand, kept["sizes"], levels, np.array(kept["likelihoods"]))
 
 
 def _write_short(number: float) -> float:
@@ -143,7 +149,7 @@ def learn_priors(lessons: Sequence[Lesson]) -> PriorsKeys:
     population from which the tests come, by the maximum of their common likelihood, beside one imagined test
     that knows nothing.
 
-    `lessons`: Of axes of one kind; at least one.
+    `lessons`: Of one measurand of axes of one kind; at least one.
     """
     sizes: dict[str, list[float]] = defaultdict(list)
     for lesson in lessons:
@@ -152,6 +158,7 @@ def learn_priors(lessons: Sequence[Lesson]) -> PriorsKeys:
     return PriorsKeys(
         schema="zlmreport/priors/1",
         kind=lessons[0].kind,
+        measurand=lessons[0].measurand,
         tests=len(lessons),
         noise={
             _NAMES[source]: NoiseKeys(ratios=levels.tolist(), probabilities=weights.tolist())
@@ -194,13 +201,16 @@ def write_priors(found: PriorsKeys, origin: str) -> str:
 
 
 def _write_lines(found: PriorsKeys, origin: str) -> Iterator[str]:
-    unit = "µm" if found.kind == "linear" else "″"
+    is_angle = found.kind == "rotary" or found.measurand == ANGLE.identifier
+    unit = "″" if is_angle else "µm"
     tests, say = count_in_words(found.tests, "test"), "says" if found.tests == 1 else "say"
     # A folder may have any name, and a line that ends in a comment ends the comment.
     named = origin if origin.isprintable() else json.dumps(origin)
     yield f"# What {tests} in {named} {say} of noise and sizes of effects: model.priors of a job."
     yield f"schema: {found.schema_}"
     yield f"kind: {found.kind}"
+    if found.measurand != POSITIONING.identifier:
+        yield f"measurand: {found.measurand}"
     yield f"tests: {found.tests}"
     yield "noise: # how probable each ratio of a shared variance to that of a single reading is"
     for source, keys in found.noise.items():

@@ -181,6 +181,7 @@ def _collect_direction(surface: Surface, axis: Axis, points: Sequence[tuple[floa
         "along": [axis.position_unit.from_si(end) for end in surface.along],
         "across": [axis.position_unit.from_si(end) for end in surface.across],
         "error": report_error(surface.error, axis),
+        "missed": unit.from_si(surface.missed),
         **_collect_coefficients(surface, axis),
         "interaction": {
             "value": unit.from_si(interaction.value),

@@ -9,6 +9,7 @@ The paper fits means of known variance; here single readings are fitted, with th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -18,7 +19,7 @@ from zlmreport.language import same
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import LARGEST_RATIO, ErrorNumbers
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
@@ -221,6 +222,17 @@ class Surface:
     #: The product of both positions, when it is added: the deviation at the corners of the plane that
     #: equation (13) has no term for, m.
     interaction: ParameterEstimate
+
+    @property
+    def missed(self) -> float:
+        """What the polynomial misses of what the lines show beyond their scatter, root mean square, m.
+
+        0 where the error is no larger than that scatter, or nothing tells it.
+        """
+        error = self.error
+        if error.chi2_per_dof is None or error.noise_rms is None or error.chi2_per_dof <= LARGEST_RATIO:
+            return 0.0
+        return math.sqrt(max(0.0, error.rms**2 - error.noise_rms**2))
 
     @property
     def along(self) -> tuple[float, float]:

@@ -89,6 +89,8 @@ def plan_deciding_experiment(
 ) -> Experiment:
     """Return the experiment that tells effects apart that somebody names, or shows the one that is named.
 
+    Where a diagnosis of the readings leaves just these open, it is the experiment that the diagnosis states.
+
     `study`: Of its readings; None if there are none yet: then the effects are taken to be three times as
         large as the repeatability that the plan expects.
 
@@ -103,6 +105,9 @@ def plan_deciding_experiment(
         model = model.without(name)
     if study is None:
         return _plan_unmeasured(job, model, chosen, effects, standards)
+    stated = _plan_stated_tie(names, study, effects)
+    if stated is not None:
+        return stated
     base = replace(study, model=model).fit_whole().fit
     fits = [_fit_best_form(base, each) for each in chosen]
     sizes = [0.0 if each is None else _estimate_size(base, each) for each in fits]
@@ -116,6 +121,17 @@ def plan_deciding_experiment(
     return _plan_of_study(
         study, base, make_question_of(base, rivals, [each for each in fits if each]), effects
     )
+
+
+def _plan_stated_tie(names: Sequence[str], study: Study, effects: Sequence[Effect]) -> Experiment | None:
+    """Return the experiment that a diagnosis of the readings states for just these effects; None without."""
+    if len(names) < 2 or {*names} & {*study.model.identifiers}:
+        return None
+    diagnosis = study.diagnose(effects)
+    question = find_question_of_tie(diagnosis)
+    if question is None or {*question.names} != {*names}:
+        return None
+    return _plan_of_study(study, diagnosis.fit, question, effects)
 
 
 def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
