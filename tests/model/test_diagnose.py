@@ -27,10 +27,11 @@ from model.axis_tests import (
 )
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
+from zlmreport.model.diagnosis.finding import ContestFinding, find
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.model_error import ModelError
-from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin import FloatArray, Language
 from zlmreport.plugin.effect import Design
@@ -415,6 +416,20 @@ def test_a_set_that_the_readings_do_not_determine_is_not_adequate(monkeypatch: p
     found = diagnose(USUAL, observations(DESIGN, readings), INSTALLED)
     assert found.together == ()
     assert found.verdict is DiagnosisVerdict.UNEXPLAINED
+
+
+def test_what_only_a_curve_without_a_name_would_replace_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    design = linear_test(11, 3)
+
+    def find_curve_instead(
+        fitted: Fit, *tried: Any, may_go: frozenset[str] = frozenset(), **rest: Any
+    ) -> ContestFinding:
+        return replace(find(fitted, *tried, **rest), makeshift=tuple(may_go))
+
+    monkeypatch.setattr("zlmreport.model.diagnosis.diagnosis.find", find_curve_instead)
+    lost = observations(design, 2e-6 * design.direction + noise(design))
+    found = diagnose(model_of("offset", "backlash"), lost, INSTALLED, may_go=frozenset({"backlash"}))
+    assert (found.verdict, found.remainder) == (DiagnosisVerdict.ADEQUATE, None)
 
 
 def test_a_first_run_that_is_in_the_model_is_no_noise() -> None:

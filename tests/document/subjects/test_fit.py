@@ -77,6 +77,11 @@ def test_a_value_without_uncertainty_says_how_it_is_known(
         assert write_in_a_sentence(row, language) == expected
 
 
+def test_a_value_of_which_the_readings_say_nothing_is_not_written() -> None:
+    row = replace(make_parameter_rows(example_history()[-1].fit, ENGLISH)[0], uncertainty="∞")
+    assert write_in_a_sentence(row, ENGLISH) == f"{row.name} not determined by these readings"
+
+
 def test_a_sign_of_seconds_touches_the_value_and_follows_both_numbers_of_a_pair() -> None:
     (row,) = [
         each for each in make_parameter_rows(example_history()[-1].fit, ENGLISH) if each.effect == "backlash"

@@ -68,7 +68,8 @@ _DOUBTS = {
 _WEIGHTED = Words("Readings are weighted, for they scatter unequally: a single one by {least} to {largest}")
 _SCOPE = Words("Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself")
 #: SI, or times the value: an uncertainty as large is none.
-_UNDETERMINED = 1e5
+_UNDETERMINED, _INFINITE = 1e5, "∞"
+_OPEN = Words("not determined by these readings")
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MOVES = Words(
     "{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
@@ -253,6 +254,8 @@ def _say_how_it_is_known(row: ParameterRow) -> Words:
 
 def write_in_a_sentence(row: ParameterRow, language: Language) -> str:
     """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
+    if row.uncertainty == _INFINITE:
+        return f"{row.name} {_OPEN.in_language(language)}"
     number = f"{row.value} ± {row.uncertainty}" if row.uncertainty else row.value
     notes = (f"({each})" for each in say_notes(row, language))
     return " ".join((row.name, with_unit(number, row.unit).rstrip(), *notes))
@@ -362,6 +365,6 @@ def _round_with_uncertainty(
     sign = language.decimal_sign
     if expanded > _UNDETERMINED * max(abs(value), 1.0):
         # Columns that hang together to the last digit: the readings say nothing of it.
-        return write_general_number(unit.from_si(value), sign), "∞", float(f"{unit.from_si(value):.6g}")
+        return write_general_number(unit.from_si(value), sign), _INFINITE, float(f"{unit.from_si(value):.6g}")
     printed, half = round_pair(unit.from_si(value), unit.from_si(expanded), sign)
     return printed, half, float(printed.replace(MINUS, "-").replace(sign, "."))
