@@ -164,9 +164,10 @@ class SetSearch:
         """Return where climbs lead in which two names have the place of one, as long as one ends higher.
 
         Lost motion that settles after each reversal, and a constant one, are much like a bow of it: beside
-        that bow neither is needed, and neither by itself takes its place.
+        that bow neither is needed, and neither by itself takes its place. Beside what has no name, two names
+        more would only describe that.
         """
-        while True:
+        while not self.has_nameless(now):
             tried = (
                 self._climbs.look_ahead_by_pairs(now.without(number), _FIRSTS, now.score + PROMISING)
                 for number, each in enumerate(now.members)
@@ -175,8 +176,9 @@ class SetSearch:
             settled = (self._sets.settle(each, self._whole.levels) for each in chain.from_iterable(tried))
             better = next((each for each in settled if each.score < now.score - GAIN), None)
             if better is None:
-                return now
+                break
             now = min(better, self._climb(better, self._whole), key=find_score)
+        return now
 
     def _begin_anew(self, best: EffectSet, scopes: Sequence[Scope]) -> EffectSet:
         """Return the best of a set and of where climbs lead that begin with nothing.
