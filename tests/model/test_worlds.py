@@ -143,6 +143,16 @@ def test_given_value_is_not_blamed_for_an_effect_that_is_missing() -> None:
     assert [each.identifier for each in found.together] == ["screw-pitch"]
 
 
+def test_value_that_is_given_for_the_readings_do_not_tell_it_contradicts_nothing() -> None:
+    terms = model_of("offset", "scale-error", "cosine-error").terms
+    given = {"scale-error": {"slope": 1e-5}}
+    model = AxisModel(tuple(replace(each, fixed=given.get(each.effect.identifier, {})) for each in terms))
+    ragged = 6e-6 * np.random.default_rng(3).uniform(-1, 1, 15)[_DESIGN.target] + 1e-5 * _DESIGN.position
+    found = diagnosed(model, _DESIGN, ragged + noise(_DESIGN))
+    assert found.verdict is DiagnosisVerdict.UNEXPLAINED
+    assert found.contradicted == ()
+
+
 def test_ratio_that_is_not_as_its_effect_means_it_is_said_with_that_meaning() -> None:
     targets = _DESIGN.target_positions
     between = np.random.default_rng(4).uniform(0, 20e-6, len(targets))  # no whole increments

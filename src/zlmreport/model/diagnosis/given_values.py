@@ -8,6 +8,7 @@ from dataclasses import replace
 from zlmreport.language import Words
 from zlmreport.model.diagnosis.candidate import say_other_value
 from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 
 #: By how many of its own U the readings' value differs from the given one before they contradict it.
@@ -22,12 +23,11 @@ def list_contradicted(fitted: Fit) -> tuple[Words, ...]:
     """
     if not any(_list_given(term) for term in fitted.model.terms):
         return ()
-    freed = fit(
-        AxisModel(tuple(_free(term) for term in fitted.model.terms)),
-        fitted.design,
-        fitted.deviation,
-        fitted.assumptions,
-    )
+    model = AxisModel(tuple(_free(term) for term in fitted.model.terms))
+    try:
+        freed = fit(model, fitted.design, fitted.deviation, fitted.assumptions)
+    except ModelError:  # it is given because the readings do not tell it from another
+        return ()
     return tuple(_find_contradictions(fitted, freed))
 
 
