@@ -331,24 +331,13 @@ def needs_pause(design: Design) -> Words | None:
 
 def list_moments_after_pauses(design: Design) -> FloatArray:
     """Return the moments of the first readings after the three longest pauses, the longest first, s."""
-    return _find_pauses(design)[0]
-
-
-def measure_time_of_readings(design: Design) -> float:
-    """Return the duration of a test without its three longest pauses, s."""
-    return float(design.duration - _find_pauses(design)[1].sum())
-
-
-def _find_pauses(design: Design) -> tuple[FloatArray, FloatArray]:
-    """Return when the three longest pauses end, the longest first, and how long they are, s."""
     moments = np.unique(design.time)
     gaps = np.diff(moments)
     if not len(gaps):
-        return np.empty(0), np.empty(0)
+        return np.empty(0)
     least = max(_PAUSE_OF_GAPS * float(np.median(gaps)), _PAUSE_OF_TEST * design.duration)
     longest = np.argsort(-gaps, kind="stable")[:_MOST_PAUSES]
-    longest = longest[gaps[longest] > least]
-    return np.asarray(moments[1:][longest], dtype=np.float64), np.asarray(gaps[longest], dtype=np.float64)
+    return np.asarray(moments[1:][longest[gaps[longest] > least]], dtype=np.float64)
 
 
 def needs_moments(design: Design) -> Words | None:

@@ -12,20 +12,16 @@ import numpy as np
 from zlmreport.job.formula_keys import Search
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import (
-    Dimension,
-    Parameter,
-    list_moments_after_pauses,
-    measure_time_of_readings,
-)
+from zlmreport.model.effects.effect import Dimension, Parameter, list_moments_after_pauses
 
 #: Values of searched parameters that are tried: at most all together, of one alone, in each of its periods.
 _MOST, _FEWEST, _PER_PERIOD = 400, 12, 4
 #: Of the travel: a shorter length ends before the second target, a longer one is a straight line.
 _FADING = np.geomspace(0.01, 0.2, 10)
-#: How many time constants, and of the duration the shortest, which ends with the first readings, the longest,
-#: and one over which there is a straight line.
-_CONSTANTS, _SHORTEST, _LONGEST, _STRAIGHT = 12, 0.05, 1.5, 5.0
+#: Of the duration: a shorter one ends with the first readings, a longer one is a straight line.
+_WARMING = np.geomspace(0.05, 1.5, 12)
+#: The same of a drift, and a time constant over which it is straight.
+_DRIFTING = np.append(_WARMING, 5.0)
 #: Fewer waves in the travel are a bow; steps by which a wave shifts a quarter of a period over the travel.
 _FEWEST_WAVES, _STEPS_PER_WAVE = 1.3, 4
 #: Waves within the test: fewer are a drift, more are taken for noise.
@@ -118,17 +114,6 @@ def _list_moments(design: Design) -> FloatArray:
     return np.asarray(between[chosen], dtype=np.float64)
 
 
-def _list_time_constants(design: Design) -> FloatArray:
-    """Return times from a part of that in which readings are taken to more than the duration of the test."""
-    shortest = _SHORTEST * measure_time_of_readings(design)
-    return np.geomspace(shortest, _LONGEST * design.duration, _CONSTANTS)
-
-
-def _list_drift_times(design: Design) -> FloatArray:
-    """Return time constants, and one over which a drift is steady."""
-    return np.append(_list_time_constants(design), _STRAIGHT * design.duration)
-
-
 def _list_teeth(design: Design) -> FloatArray:
     """Return whole numbers of waves a turn that the targets can tell."""
     turns = design.length / _TURN
@@ -146,8 +131,8 @@ def _list_fixed_points(design: Design) -> FloatArray:
 _WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
     {
         Search.FADING_LENGTH: lambda design: design.length * _FADING,
-        Search.TIME_CONSTANT: _list_time_constants,
-        Search.DRIFT_TIME: _list_drift_times,
+        Search.TIME_CONSTANT: lambda design: design.duration * _WARMING,
+        Search.DRIFT_TIME: lambda design: design.duration * _DRIFTING,
         Search.WAVE_LENGTH: _list_waves_along,
         Search.WAVE_TIME: lambda design: design.duration / _WAVES_IN_TIME,
         Search.JOINT: _list_gaps,
