@@ -11,6 +11,7 @@ import numpy as np
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet, find_score, list_beside, make_member
 from zlmreport.model.diagnosis.families import Family
+from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE
 
 
 def list_pairs(contest: Contest, now: EffectSet, firsts: int) -> list[EffectSet]:
@@ -25,7 +26,7 @@ def list_pairs(contest: Contest, now: EffectSet, firsts: int) -> list[EffectSet]
     for amplitudes in dict.fromkeys((contest.as_noise(now.amplitudes), contest.quiet)):
         first = contest.scan(amplitudes, now.columns)
         criterion = np.where(named, first.criterion, np.inf)
-        for number in np.argsort(criterion, kind="stable")[:firsts].tolist():
+        for number in np.argsort(np.round(criterion, DIGITS_OF_SCORE), kind="stable")[:firsts].tolist():
             family = contest.families[number]
             if not np.isfinite(criterion[number]):
                 break
