@@ -27,7 +27,8 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.methods import Method, plan_path
+from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import Approach
 from zlmreport.plugin.instrument import DatumMoved, DatumTaken, Fault, LiveReading, ZeroLost
 
@@ -543,17 +544,51 @@ def test_a_turn_that_few_readings_see_is_not_held_for_a_longer_stay(step: float,
         assert {event.visit.number for event in filed} >= {1, 2, 3}
 
 
-def _read_with_lost_motion(speed: float, step: float, begin: float) -> Iterator[LiveReading]:
-    """Yield the readings of a run at a speed, mm/s, of an axis that stays 2 µm behind the way it came."""
-    corners = [-5, -5, 0, 0, 100, 100, 200, 200, 205, 200, 200, 100, 100, 0, 0, -5, -5]
+@pytest.mark.parametrize("method", Method)
+def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
+    speed, step = 50 / 3, 0.17
+    settings = replace(SETTINGS, dwell=0.8, turn=2 * 5 / (1.5 * speed), feed=speed * MM)
+    visits = listed(method, targets=(0, 20, 40), runs=2)
+    assert step < settings.beyond < 2 * step  # at the largest feed one reading alone may see it
+    for begin in np.linspace(0, step, 7, endpoint=False):
+        readings = _read_with_lost_motion(speed, step, begin, planned(method, targets=(0, 20, 40), runs=2))
+        events = happened(readings, following(visits, settings=settings))
+        filed = [event for event in events if isinstance(event, Recorded)]
+        assert [event.visit for event in filed] == list(visits)
+        assert all(event.deviation * event.visit.approach > 0 for event in filed)
+
+
+def _read_with_lost_motion(
+    speed: float, step: float, begin: float, plan: AxisPlan | None = None
+) -> Iterator[LiveReading]:
+    """Yield the readings of a test at a speed, mm/s, of an axis that stays 2 µm behind the way it came."""
+    plan = plan or planned()
+    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    rests = [0.0 if stop.target is None else 3.0 for stop in stops[1:]]
+    corners = np.repeat([stop.position / MM for stop in stops], 2)
     ways = np.diff(corners)
-    times = np.cumsum([0, *np.where(ways, abs(ways) / speed, 3.0)])
-    headings = np.sign(ways)
-    headings[headings == 0] = np.roll(headings, 1)[headings == 0]
-    headings[0] = 1
-    for time in np.arange(begin, times[-1], step):
-        heading = headings[np.searchsorted(times, time, side="right") - 1]
+    ways[::2] = 0.0
+    headings = np.repeat(np.sign(ways[1::2]), 2)
+    durations = zip(abs(ways[1::2]) / speed, rests, strict=True)
+    times = np.cumsum([0.0, 3.0, *chain.from_iterable(durations)])
+    for time in np.arange(begin, times[-1] - step, step):
+        heading = np.append(headings[0], headings)[np.searchsorted(times, time, side="right") - 1]
         yield LiveReading(np.interp(time, times, corners) * MM + 2 * UM * heading, 100 + time)
+
+
+def test_a_gap_in_which_the_axis_cannot_have_come_from_elsewhere_loses_no_visit() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0), axis.turn(91)), follower)
+    assert SETTINGS.beyond < 0.095 < SETTINGS.largest_hole
+    axis.unseen(0.085, position=100)
+    assert kinds(happened(axis.stand(), follower)) == ["visit 2"]
+
+
+def test_a_gap_in_which_the_axis_may_have_turned_round_leaves_its_direction_unknown() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0), axis.turn(100.9)), follower)
+    axis.unseen(0.085, position=100)
+    assert kinds(happened(axis.stand(), follower)) == ["WrongDirection"]
 
 
 def test_a_single_damaged_reading_is_no_motion() -> None:

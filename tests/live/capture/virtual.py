@@ -92,6 +92,8 @@ class InStep(Iterator[LiveReading]):
 
     def end(self) -> None: ...
 
+    def give_up(self) -> None: ...
+
 
 @contextmanager
 def inhabited(world: World) -> Iterator[World]:

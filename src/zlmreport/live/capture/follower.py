@@ -47,7 +47,7 @@ from zlmreport.live.capture.stops import (
     name_elsewhere,
     name_out_of_turn,
 )
-from zlmreport.live.capture.visits import ListedVisit, Settings
+from zlmreport.live.capture.visits import FASTEST, ListedVisit, Settings
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
 
@@ -253,7 +253,8 @@ class Follower:
         gap = self._pace.measure_gap(latest.time, reading.time, self._lost)
         if self._pace.shortest > largest:
             yield TooSlow(self._pace.shortest, largest)
-        if gap <= largest:
+        is_hole = largest < gap <= self._settings.largest_hole
+        if gap <= largest or (is_hole and not self._may_have_turned(latest, reading, gap)):
             return
         has_stayed = self._has_stayed(latest, reading)
         if not (has_stayed and gap < self._settings.still and self._window.holds(reading.value)):
@@ -266,6 +267,24 @@ class Follower:
             self._track.forget()
             self._route.lose(gap)
             self._ahead.forget()
+
+    def _may_have_turned(self, latest: LiveReading, reading: LiveReading, gap: float) -> bool:
+        """Tell whether the axis may have come to where it is from the other side than it seems, unseen.
+
+        For that it must have gone over it, turned round at the overrun of a target, and come back.
+        """
+        settings, zero = self._settings, self.progress.zero
+        if zero is None or not settings.feed:
+            return True
+        moved, ends = reading.value - latest.value, (latest.value + zero, reading.value + zero)
+        ways = (
+            [(target - end) * side + settings.overrun for end in ends]
+            for side in Approach
+            if moved * side >= -settings.tolerance
+            for target, _ in self._targets
+        )
+        reach = FASTEST * settings.feed * gap
+        return any(min(way) >= 0 and sum(way) <= reach for way in ways)
 
     def _has_stayed(self, latest: LiveReading, reading: LiveReading) -> bool:
         """Tell whether the axis, seen to arrive, cannot have left and come back from elsewhere since."""
@@ -298,10 +317,18 @@ class Follower:
         turns = len(self._route.turns)
         self._route.follow(before, reading, zero, seen, self._settings)
         is_seldom = 2 * (reading.time - before.time) > self._settings.beyond
-        if is_seldom and self._stay is not None and len(self._route.turns) > turns:
+        has_turned = len(self._route.turns) > turns
+        stay = self._stay if is_seldom and has_turned else None
+        if stay is not None and self._is_seen_beyond_once(stay, seen):
             self._stay = self._stood_at = None
             self._track.forget()
             self._ahead.forget()
+
+    def _is_seen_beyond_once(self, stay: Stay, seen: float) -> bool:
+        """Tell whether the axis turned round beyond its target, not at it to leave, and was seen so once."""
+        target = self.progress.visits[stay.index].position
+        is_beyond = abs(self._route.turns[-1] - target) > self._settings.tolerance
+        return is_beyond and not self._has_left(stay, seen)
 
     def _follow_way(self, time: float) -> Iterator[Event]:
         """Follow the axis away from where it stood, into the tolerance of what is next, and through it."""

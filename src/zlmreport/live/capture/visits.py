@@ -92,7 +92,17 @@ class Settings:
     @property
     def largest_gap(self) -> float:
         """How far apart readings may be that count as without a gap, s: one at least sees the axis turn."""
-        return min(_LARGEST_GAP * min(self.dwell, self.still), self.beyond)
+        return min(self.largest_hole, self.beyond)
+
+    @property
+    def largest_hole(self) -> float:
+        """How far apart they may be now and then, s: where the axis is too far away to turn meanwhile."""
+        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn)
+
+    @property
+    def overrun(self) -> float:
+        """How far beyond a target the axis turns round, m or rad; 0 if its feed is not known."""
+        return FASTEST * self.feed * self.turn / 2
 
     @property
     def beyond(self) -> float:
