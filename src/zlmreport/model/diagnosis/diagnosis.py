@@ -1,4 +1,4 @@
-"""Runs a diagnosis: its verdict, its thresholds, where the model fails, what it lacks, what is next."""
+"""Runs a diagnosis: its verdict, where the model fails, what it lacks, what is next."""
 
 from __future__ import annotations
 
