@@ -579,9 +579,25 @@ def _read_with_lost_motion(
 def test_a_gap_in_which_the_axis_cannot_have_come_from_elsewhere_loses_no_visit() -> None:
     axis, follower = Axis(), following(listed())
     happened(chain(axis.stand(), axis.go(0), axis.turn(91)), follower)
-    assert SETTINGS.beyond < 0.095 < SETTINGS.largest_hole
+    assert SETTINGS.beyond < 0.095 < SETTINGS.turn
     axis.unseen(0.085, position=100)
     assert kinds(happened(axis.stand(), follower)) == ["visit 2"]
+
+
+def test_a_gap_too_short_to_turn_round_loses_no_visit_however_short_the_dwell_is() -> None:
+    axis, brief = Axis(), replace(SETTINGS, dwell=0.15)
+    follower = following(listed(), settings=brief)
+    happened(chain(axis.stand(), axis.go(0), axis.turn(97)), follower)
+    assert brief.largest_gap < 0.08 < brief.beyond
+    axis.unseen(0.07, position=100)
+    assert kinds(happened(axis.stand(), follower)) == ["visit 2"]
+
+
+def test_a_gap_in_which_an_axis_at_rest_could_turn_round_does_not_delay_its_datum() -> None:
+    axis, follower = Axis(), following(listed(), datum=-5 * MM)
+    early = happened(axis.stand(0.7), follower)
+    axis.unseen(0.2)
+    assert kinds(early + happened(axis.stand(0.2), follower)) == ["DatumTaken"]
 
 
 def test_a_gap_in_which_the_axis_may_have_turned_round_leaves_its_direction_unknown() -> None:

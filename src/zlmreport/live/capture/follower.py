@@ -249,38 +249,43 @@ class Follower:
 
     def _look_at_gap(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
         """Look at how long nothing came: what may have gone unseen is not relied on."""
-        largest = self._settings.largest_gap
+        settings, zero = self._settings, self.progress.zero
         gap = self._pace.measure_gap(latest.time, reading.time, self._lost)
-        if self._pace.shortest > largest:
-            yield TooSlow(self._pace.shortest, largest)
-        is_hole = largest < gap <= self._settings.largest_hole
-        if gap <= largest or (is_hole and not self._may_have_turned(latest, reading, gap)):
+        if self._pace.shortest > settings.largest_gap:
+            yield TooSlow(self._pace.shortest, settings.largest_gap)
+        ends = None if zero is None else (latest.value + zero, reading.value + zero)
+        is_followed = ends is None or not self._may_have_turned(*ends, gap)
+        if is_followed and gap <= settings.largest_pause:
             return
         has_stayed = self._has_stayed(latest, reading)
-        if not (has_stayed and gap < self._settings.still and self._window.holds(reading.value)):
+        if not (has_stayed and gap < settings.still and self._window.holds(reading.value)):
             self._window.clear()
         self._unchanging.forget()
-        if gap >= self._settings.stay:
+        if gap >= settings.stay:
             yield TrackLost(gap)
-        if self.progress.zero is not None and not has_stayed:
+        if not is_followed and not has_stayed:
             self._stay = None
             self._track.forget()
             self._route.lose(gap)
             self._ahead.forget()
 
-    def _may_have_turned(self, latest: LiveReading, reading: LiveReading, gap: float) -> bool:
+    def _may_have_turned(self, here: float, there: float, gap: float) -> bool:
         """Tell whether the axis may have come to where it is from the other side than it seems, unseen.
 
         For that it must have gone over it, turned round at the overrun of a target, and come back.
+
+        `here`, `there`: Where it was seen before and after a gap, m or rad.
+        `gap`: How long nobody saw it, s.
         """
-        settings, zero = self._settings, self.progress.zero
-        if zero is None or not settings.feed:
+        settings = self._settings
+        if gap <= settings.beyond or gap >= settings.stay:
+            return gap >= settings.stay
+        if gap > settings.turn or not settings.feed:
             return True
-        moved, ends = reading.value - latest.value, (latest.value + zero, reading.value + zero)
         ways = (
-            [(target - end) * side + settings.overrun for end in ends]
+            [(target - end) * side + settings.overrun for end in (here, there)]
             for side in Approach
-            if moved * side >= -settings.tolerance
+            if (there - here) * side >= -settings.tolerance
             for target, _ in self._targets
         )
         reach = FASTEST * settings.feed * gap
