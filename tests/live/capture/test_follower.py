@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import chain, takewhile
+from itertools import chain, pairwise, takewhile
 from math import exp
 
 import numpy as np
@@ -27,6 +27,7 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.visits import visit_list
 from zlmreport.model.planning.methods import Method, plan_path
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import Approach
@@ -556,6 +557,22 @@ def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
         filed = [event for event in events if isinstance(event, Recorded)]
         assert [event.visit for event in filed] == list(visits)
         assert all(event.deviation * event.visit.approach > 0 for event in filed)
+
+
+def test_a_line_that_another_overtook_is_no_turn() -> None:
+    speed, step = 22, 0.1
+    settings = replace(SETTINGS, dwell=0.8, turn=2 * 5 / (1.5 * speed), feed=speed * MM)
+    plan = planned(Method.QUASI_PILGRIM, targets=(0, 20), runs=2)
+    readings = list(_read_with_lost_motion(speed, step, 0.03, plan))
+    moves = [
+        place for place, (here, there) in enumerate(pairwise(readings)) if abs(there.value - here.value) > MM
+    ]
+    for place in moves[50:]:
+        late, other = readings[place : place + 2]
+        overtaken = [other, replace(late, time=other.time + 0.01)]
+        lines = [*readings[:place], *overtaken, *readings[place + 2 :]]
+        events = happened(lines, following(visit_list(plan), settings=settings))
+        assert [event.visit for event in events if isinstance(event, Recorded)] == list(visit_list(plan))
 
 
 def _read_with_lost_motion(

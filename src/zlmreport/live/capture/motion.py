@@ -30,12 +30,13 @@ class Route:
         self.last: float | None = None
         self._threshold = threshold
         self._lowest = self._highest = 0.0
+        self._awaited: float | None = None
 
     def lose(self, seconds: float = 0.0) -> None:
         """Take note that nobody sees the axis, or saw it for some seconds."""
         self.breaks += 1
         self.silence += seconds
-        self.heading = self.first = self.last = None
+        self.heading = self.first = self.last = self._awaited = None
 
     def add(self, position: float) -> None:
         """Take note of where it is, m or rad."""
@@ -60,13 +61,16 @@ class Route:
     ) -> None:
         """Follow where the axis turns round: of readings that come seldom each counts that can be true.
 
+        That is one which the axis can have come to from the reading before, and left for the one after.
+
         `zero`: The position at which the display shows 0, m or rad.
         `seen`: Where the axis was last seen by several readings, m or rad.
         """
         elapsed = reading.time - before.time
         reach = FASTEST * settings.feed * elapsed + settings.motion
         can_be = abs(reading.value - before.value) <= reach
-        position = reading.value + zero if can_be else seen
+        awaited, self._awaited = self._awaited, reading.value + zero if can_be else None
+        position = awaited if can_be and awaited is not None else seen
         if self.last is not None:
             furthest = _RAPID * (elapsed + settings.largest_gap) + settings.tolerance
             if abs(position - self.last) > furthest:
