@@ -545,6 +545,17 @@ def test_a_turn_that_few_readings_see_is_not_held_for_a_longer_stay(step: float,
         assert {event.visit.number for event in filed} >= {1, 2, 3}
 
 
+def test_a_turn_that_readings_see_at_uneven_distances_is_not_held_for_a_longer_stay() -> None:
+    axis, settings = Axis(), replace(SETTINGS, turn=2 * 5 / 150)
+    follower = following(listed(Method.PENDULUM), settings=settings)
+    happened(chain(axis.stand(), axis.go(0)), follower)
+    seen = []
+    for elapsed, position in ((0.03, 0.6), (0.03, 4.9), (0.027, 0.85), (0.024, 0.0)):  # at 150 mm/s
+        axis.unseen(elapsed - axis.step, position)
+        seen.append(axis.reading())
+    assert kinds(happened(chain(seen, axis.stand()), follower)) == ["WrongDirection"]
+
+
 @pytest.mark.parametrize("method", Method)
 def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
     speed, step = 50 / 3, 0.17
@@ -557,6 +568,16 @@ def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
         filed = [event for event in events if isinstance(event, Recorded)]
         assert [event.visit for event in filed] == list(visits)
         assert all(event.deviation * event.visit.approach > 0 for event in filed)
+
+
+def test_gaps_in_which_the_axis_could_turn_round_hide_no_standstill() -> None:
+    axis, follower = Axis(), following(listed())
+    shown = [*axis.stand(), *axis.go(-3, stay=0.02)]
+    axis.position = 0.0
+    for _ in range(8):
+        axis.unseen(0.2)
+        shown += axis.stand(0.2)
+    assert kinds(happened(shown, follower)) == ["WrongDirection"]
 
 
 def test_a_line_that_another_overtook_is_no_turn() -> None:
@@ -624,9 +645,12 @@ def test_a_gap_in_which_the_axis_may_have_turned_round_leaves_its_direction_unkn
     assert kinds(happened(axis.stand(), follower)) == ["WrongDirection"]
 
 
-def test_a_single_damaged_reading_is_no_motion() -> None:
+@pytest.mark.parametrize("value", [0.9, 1.4 * MM])  # further than the axis goes in that time, and not
+@pytest.mark.parametrize("stay", [0.5, 3.0])
+def test_a_single_damaged_reading_is_no_motion(value: float, stay: float) -> None:
     axis, follower = Axis(), following(listed(Method.PENDULUM))
-    events = happened(chain(axis.stand(), axis.go(0), axis.stand(0.01, value=0.9), axis.stand(2)), follower)
+    damaged = axis.stand(0.01, value=value)
+    events = happened(chain(axis.stand(), axis.go(0, stay=stay), damaged, axis.stand(2)), follower)
     assert kinds(events) == ["visit 1"]
 
 

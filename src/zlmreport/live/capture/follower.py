@@ -255,10 +255,12 @@ class Follower:
             yield TooSlow(self._pace.shortest, settings.largest_gap)
         ends = None if zero is None else (latest.value + zero, reading.value + zero)
         is_followed = ends is None or not self._may_have_turned(*ends, gap)
-        if is_followed and gap <= settings.largest_pause:
+        is_pause = gap <= settings.largest_pause
+        if is_followed and is_pause:
             return
         has_stayed = self._has_stayed(latest, reading)
-        if not (has_stayed and gap < settings.still and self._window.holds(reading.value)):
+        is_same = has_stayed and gap < settings.still and self._window.holds(reading.value)
+        if not (is_pause or is_same):
             self._window.clear()
         self._unchanging.forget()
         if gap >= settings.stay:
@@ -316,15 +318,13 @@ class Follower:
     def _follow_turns(self, before: LiveReading, reading: LiveReading, zero: float, seen: float) -> None:
         """Follow where the axis turns round.
 
-        Where readings come so seldom that one alone may see it beyond its target, that is too little to say
-        from which side it came back, and too much to hold a stop there for the one before.
+        Beyond its target one reading alone may have seen it: too little to say from which side it came back,
+        and too much to hold a stop there for the one before.
         """
         turns = len(self._route.turns)
         self._route.follow(before, reading, zero, seen, self._settings)
-        is_seldom = 2 * (reading.time - before.time) > self._settings.beyond
         has_turned = len(self._route.turns) > turns
-        stay = self._stay if is_seldom and has_turned else None
-        if stay is not None and self._is_seen_beyond_once(stay, seen):
+        if has_turned and self._stay is not None and self._is_seen_beyond_once(self._stay, seen):
             self._stay = self._stood_at = None
             self._track.forget()
             self._ahead.forget()
@@ -527,7 +527,7 @@ class Follower:
         A program that ends where it stands, and an axis that goes elsewhere, are not waited for.
         """
         progress, settings = self.progress, self._settings
-        if progress.taken < len(progress.visits) or progress.question is not None or self._doubted:
+        if not progress.has_all or progress.question is not None or self._doubted:
             return
         visit = progress.visits[-1]
         last = progress.read.get((visit.target, visit.approach))

@@ -67,6 +67,16 @@ class Progress:
         return self.visits[min(self.taken, len(self.visits) - 1)]
 
     @property
+    def has_all(self) -> bool:
+        """Whether no visit is next: each is taken, or missed for good."""
+        return self.taken >= len(self.visits)
+
+    @property
+    def destination(self) -> float:
+        """Where the axis goes next, m or rad: to a visit, and after the last to the datum, if it has one."""
+        return self.datum if self.has_all and self.datum is not None else self.next.position
+
+    @property
     def attempt(self) -> int:
         """The number of the attempt at the part of the test that is next, from 1."""
         return self.attempts.get(self.next.part, 1)
