@@ -153,6 +153,7 @@ _SEVERAL_VOID = Words(
     "was taken before stays"
 )
 
+_LOOK_AGAIN = Words("let the program go on to {position}, for the closing look at the datum")
 _START = Words("start the program at visit {visit}: {position} {side}, run {run}")
 _START_AGAIN = Words("start the program at visit {visit}: {position} {side}, run {run}, attempt {attempt}")
 _GO_ON = Words("go on with the program at visit {visit}: {position} {side}, run {run}")
@@ -432,6 +433,8 @@ def _say_void(void: Sequence[ListedVisit], writer: AxisWriter) -> Words:
 
 def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
     """Return what an operator does, step by step, before the capture goes on."""
+    if progress.has_all and progress.datum is not None:
+        return [writer.say(_LOOK_AGAIN.given(position=writer.write_position(progress.datum)))]
     visit = progress.next
     first, again = (_GO_ON, _GO_ON_AGAIN) if progress.taken else (_START, _START_AGAIN)
     step = (again if progress.attempt > 1 else first).given(
