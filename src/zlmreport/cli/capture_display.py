@@ -343,12 +343,13 @@ def _show_panel(
 ) -> Iterator[str]:
     """Yield what is next, what the instrument reads, and how far the test has come."""
     progress = follower.progress
-    visit = progress.next
+    visit = progress.check or progress.next
     yield ""
     if progress.has_all and progress.datum is not None:
         yield f"next   {writer.write_position(progress.datum)}, the datum once more"
     else:
-        yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}"
+        why = ", to check the datum" if progress.check else ""
+        yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}{why}"
     yield f"now    {_write_moment(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)

@@ -20,6 +20,8 @@ from zlmreport.live.capture.events import (
     Passed,
     Recorded,
     Resumed,
+    Retake,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -684,6 +686,43 @@ def test_after_an_interruption_the_datum_is_held_against_an_earlier_reading() ->
     events = happened(chain(axis.turn(95), axis.go(100, 200)), follower)
     assert kinds(events) == ["DatumHolds", "visit 3"]
     assert events[0].difference == pytest.approx(3 * UM, abs=1e-12)
+
+
+def test_where_the_datum_is_checked_comes_next_and_a_way_there_that_nobody_saw_is_told_of() -> None:
+    axis, follower = _interrupted()
+    assert (follower.progress.check, follower.progress.destination) == (listed()[1], 100 * MM)
+    axis.position = 100.0
+    (told,) = happened(axis.stand(), follower)
+    assert told == WrongDirection(listed()[1], None)
+    happened(chain(axis.turn(95), axis.go(100)), follower)
+    assert (follower.progress.check, follower.progress.destination) == (None, 200 * MM)
+
+
+def test_an_order_to_take_a_visit_again_outlives_a_standstill_that_goes_on() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0, 100)), follower)
+    visits = follower.progress.visits
+    follower.take_order(Retake(visits[0], visits[0]))
+    axis.error = {100: 0.003}
+    events = happened(chain(axis.go(100), axis.turn(-5), axis.go(0, 200)), follower)
+    assert kinds(events) == ["visit 1", "visit 3"]
+
+
+@pytest.mark.parametrize(("method", "way"), [(Method.PENDULUM, (5, 0)), (Method.UNIDIRECTIONAL, (0, 20))])
+def test_a_program_that_begins_after_a_visit_that_is_left_out_repeats_none(
+    method: Method, way: tuple[float, float]
+) -> None:
+    """The way is that of a program that comes back to its last visit, too: the operator is asked."""
+    axis, follower = Axis(), following(listed(method, targets=(0, 20), runs=2))
+    corner, target = way
+    happened(chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(target)), follower)
+    follower.take_order(Skipped(follower.progress.next))
+    (asked,) = happened(chain(axis.turn(corner), axis.go(target)), follower)
+    assert isinstance(asked, Unclear)
+    (visit, share), *_ = asked.candidates
+    assert visit is not None
+    assert visit.number == 4
+    assert share == pytest.approx(1 / (1 + exp(-4.0)), abs=1e-3)
 
 
 def test_after_an_interruption_nothing_is_taken_before_the_datum_is_checked() -> None:

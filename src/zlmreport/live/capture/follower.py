@@ -28,6 +28,7 @@ from zlmreport.live.capture.events import (
     Repeated,
     Retake,
     ScaleChanged,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -146,9 +147,12 @@ class Follower:
     def _obey(self, order: Order) -> Iterator[Event]:
         if not isinstance(order, Commented):
             yield from self._let_doubted_go()
+            self._stay = None  # the axis has another visit ahead: no later standstill is of the last one
         yield order
         if isinstance(order, Retake):
             self._begin_here()
+        elif isinstance(order, Skipped):
+            self._place.let_begin(self.progress.taken, self._route)
         self._place.left_out = self.progress.skipped
 
     def _begin_here(self, last: float | None = None) -> None:
@@ -406,14 +410,14 @@ class Follower:
         """Say what a standstill at a target is, and take the reading if it is clear which visit that is."""
         progress = self.progress
         heading = self._route.heading or approach
-        if heading is None and (progress.must_check or not self._route.breaks):
-            if target == progress.next.target:
-                yield WrongDirection(progress.next, None)
+        is_unseen = heading is None and not self._route.breaks
+        if is_unseen or (progress.must_check and approach is None):
+            visit = progress.check or progress.next
+            if target == visit.target and not progress.has_all:
+                yield WrongDirection(visit, None)
             return
         stop = TargetStandstill(target, heading, approach, mean.value + zero, mean)
-        if progress.must_check:
-            if approach is None:
-                return
+        if progress.must_check and approach is not None:
             yield check_datum(target, approach, stop.position, progress, self._settings)
             following = self.progress.next
             if self.progress.must_check or (following.target, following.approach) != (target, approach):
@@ -428,7 +432,7 @@ class Follower:
         for stop, index, share in self._place.settle_stops():
             if self.progress.question is not None:
                 yield Placed(None if index is None else self.progress.visits[index])
-            elif index is not None and 1 - share > WORTH_SAYING:
+            elif index is not None and index + 1 not in self.progress.skipped and 1 - share > WORTH_SAYING:
                 yield Presumed(self.progress.visits[index], share)
             yield from self._file(stop, index)
 

@@ -447,9 +447,8 @@ def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None 
     steps = [writer.say(step)]
     if progress.zero is None and progress.datum is not None:
         steps.insert(0, writer.say(_STAND_STILL.given(position=writer.write_position(progress.datum))))
-    elif progress.must_check:
-        last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
-        position, side = writer.write_position(last.position), SIDES[last.approach]
+    elif progress.check:
+        position, side = writer.write_position(progress.check.position), SIDES[progress.check.approach]
         steps.insert(0, writer.say(_COME_BACK.given(position=position, side=side)))
     elif isinstance(event, ZeroLost | DatumMoved):
         steps.insert(0, writer.say(_SET_ZERO))

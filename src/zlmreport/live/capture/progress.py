@@ -72,9 +72,18 @@ class Progress:
         return self.taken >= len(self.visits)
 
     @property
+    def check(self) -> ListedVisit | None:
+        """The visit to which the axis is to come once more, to check the datum; None where it is not."""
+        if not self.must_check or (self.has_all and self.datum is not None):
+            return None
+        return max((each.visit for each in self.read.values()), key=lambda visit: visit.number)
+
+    @property
     def destination(self) -> float:
         """Where the axis goes next, m or rad: to a visit, and after the last to the datum, if it has one."""
-        return self.datum if self.has_all and self.datum is not None else self.next.position
+        if self.has_all and self.datum is not None:
+            return self.datum
+        return (self.check or self.next).position
 
     @property
     def attempt(self) -> int:
