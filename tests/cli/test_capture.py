@@ -159,6 +159,14 @@ def test_an_instrument_that_goes_leaves_what_was_taken_and_says_how_to_go_on(ben
     assert bench.taken() == 2
 
 
+def test_where_nothing_was_read_there_is_nothing_to_resume(bench: Bench) -> None:
+    bench.job("-5")
+    done = bench.run("capture", "job.yaml")
+    assert done.messages.endswith("; go on with: zlmreport capture job.yaml\n")
+    bench.job(WHOLE)
+    assert bench.run("capture", "job.yaml").code == 0
+
+
 def test_the_capture_goes_on_after_the_datum_was_checked(bench: Bench) -> None:
     bench.job("0 20")
     bench.run("capture", "job.yaml")
