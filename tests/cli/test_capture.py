@@ -159,6 +159,14 @@ def test_an_instrument_that_goes_leaves_what_was_taken_and_says_how_to_go_on(ben
     assert bench.taken() == 2
 
 
+def test_where_nothing_was_read_there_is_nothing_to_resume(bench: Bench) -> None:
+    bench.job("-5")
+    done = bench.run("capture", "job.yaml")
+    assert done.messages.endswith("; go on with: zlmreport capture job.yaml\n")
+    bench.job(WHOLE)
+    assert bench.run("capture", "job.yaml").code == 0
+
+
 def test_the_capture_goes_on_after_the_datum_was_checked(bench: Bench) -> None:
     bench.job("0 20")
     bench.run("capture", "job.yaml")
@@ -327,13 +335,13 @@ def test_going_on_and_closing_exclude_each_other(bench: Bench) -> None:
     assert (done.code, "take one of them" in done.messages) == (2, True)
 
 
-def _in_a_terminal(*arguments: str) -> str:
-    """Run a command in a terminal of 80 columns, press Enter when asked; return all that it wrote there."""
+def _in_a_terminal(*arguments: str, columns: int = 80) -> str:
+    """Run a command in a terminal, press Enter when asked; return all that it wrote there."""
     ours, theirs = pty.openpty()
-    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     with group(
         *(*ZLMREPORT, *arguments, "--plugin", PLUGIN),
-        env={**os.environ, "TERM": "xterm", "PYTHONPATH": str(ROOT / "tests")},
+        env={**os.environ, "TERM": "xterm", "COLUMNS": str(columns), "PYTHONPATH": str(ROOT / "tests")},
         stdin=theirs,
         stdout=theirs,
         stderr=theirs,
@@ -361,6 +369,15 @@ def test_at_a_terminal_the_main_job_captures_first_and_the_operator_sees_to_trou
     ]
     assert shown
     assert max(map(len, shown)) <= 80
+
+
+def test_a_narrow_terminal_ends_no_line_within_a_word_and_shows_the_way_to_the_datum(bench: Bench) -> None:
+    bench.job(WHOLE)
+    screen = _in_a_terminal("capture", "job.yaml", columns=50)
+    lines = [line.rpartition("\r")[2] for line in screen.replace("\x1b[J", "").split("\r\n")]
+    assert "2. start the program at visit 1: 0.000 mm from" in " ".join(lines)
+    assert any(line.startswith("   below, run 1") for line in lines)
+    assert any(line.startswith("next   −5.000 mm, the datum once more") for line in lines)
 
 
 @pytest.fixture

@@ -220,18 +220,24 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         display.wait()
         readings = ReadAhead(connection.readings())
         first = next(readings)  # an instrument that is not there leaves no journal
-        go_on = f"zlmreport capture {show_path(path)} --resume"
         with _open_journal(job, assignment, resume=resume, words=words) as journal:
             try:
                 _follow_sittings(readings, first, connection, assignment, journal, display)
             except KeyboardInterrupt:
                 journal.append(Interrupted("ended by the user"), _measure_elapsed(journal))
-                display.leave(f"ended; go on with: {go_on}")
+                display.leave(f"ended; go on with: {_name_command_to_go_on(path, journal)}")
                 raise
             except AccessError as error:
                 problem = error.problems[0]
                 journal.append(Interrupted(problem.message), _measure_elapsed(journal))
-                raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
+                message = f"{problem.message}; go on with: {_name_command_to_go_on(path, journal)}"
+                raise AccessError.at(problem.place, message) from error
+
+
+def _name_command_to_go_on(path: Path, journal: Journal) -> str:
+    """Return what goes on with a capture; of one that has read nothing there is nothing to resume."""
+    has_begun = journal.visited is not None or journal.progress.question is not None
+    return f"zlmreport capture {show_path(path)}{' --resume' if has_begun else ''}"
 
 
 def _demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = TypedAnswers()) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import shutil
 import sys
@@ -12,9 +13,10 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.cli.terminal import Colour, lay_out_heading, make_visible, write_duration
+from zlmreport.cli.terminal import Colour, hold_values, lay_out_heading, make_visible, write_duration
 from zlmreport.errors import AccessError, InputError, Place, count_in_words
 from zlmreport.job.job import Job
+from zlmreport.language.formatting import HELD
 from zlmreport.live.capture.events import (
     Commented,
     Elsewhere,
@@ -56,6 +58,8 @@ _KEYS = "r 17, r run 2 take again, b back by one, s skip, c TEXT comment"
 _BACKSPACE, _ESCAPE = "\x7f\b", "\x1b"
 _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
 _BAR = 24
+#: What a line begins with before its words: the number of a step, or what happened.
+_NAME = re.compile(r"\d+\. |\S+ {2,}")
 
 
 class Display(Protocol):
@@ -110,7 +114,7 @@ def order_of(line: str, progress: Progress) -> Order:
             return progress.make_retake(str(progress.taken), place)
         case ("b", _, ""):
             raise InputError.at(place, "nothing was taken yet")
-        case ("s", _, "") if progress.taken < len(progress.visits):
+        case ("s", _, "") if not progress.has_all:
             return Skipped(progress.next)
         case ("c", _, rest) if rest:
             return Commented(rest.strip())
@@ -258,7 +262,7 @@ class LiveDisplay(PlainLines):
         line = write_terminal_line(event, self._assignment, self._writer)
         is_wrong = isinstance(event, _WRONG) or (isinstance(event, Elsewhere) and event.factor is not None)
         if line:
-            self._write_line(Colour.RED.set(line) if is_wrong else line)
+            self._write_line(line, Colour.RED if is_wrong else None)
         if is_wrong or isinstance(event, Recorded):
             print(_BELL * (2 if is_wrong else 1), end="", flush=True)
 
@@ -306,15 +310,20 @@ class LiveDisplay(PlainLines):
             except EOFError as error:
                 raise KeyboardInterrupt from error
 
-    def _write_line(self, line: str) -> None:
-        print(self._make_way_back() + line, flush=True)
-        self._shown = 0
+    def _write_line(self, line: str, colour: Colour | None = None) -> None:
+        """Print a line; of one that is wider than the terminal, the rest below where its words began."""
+        name = _NAME.match(line)
+        indent = " " * (name.end() if name else 0)
+        width = shutil.get_terminal_size().columns - 1
+        for part in textwrap.wrap(hold_values(line), width, subsequent_indent=indent):
+            shown = part.replace(HELD, " ")
+            print(self._make_way_back() + (colour.set(shown) if colour else shown), flush=True)
+            self._shown = 0
         self._due = 0.0
 
     def _say(self, message: str) -> None:
         """Print a message that is to be heeded."""
-        for line in textwrap.wrap(make_visible(message), shutil.get_terminal_size().columns - 1):
-            self._write_line(Colour.RED.set(line))
+        self._write_line(make_visible(message), Colour.RED)
 
     def _make_way_back(self) -> str:
         """Return what takes the cursor to where the present moment is shown, and wipes that away."""
@@ -334,9 +343,13 @@ def _show_panel(
 ) -> Iterator[str]:
     """Yield what is next, what the instrument reads, and how far the test has come."""
     progress = follower.progress
-    visit = progress.next
+    visit = progress.check or progress.next
     yield ""
-    yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}"
+    if progress.has_all and progress.datum is not None:
+        yield f"next   {writer.write_position(progress.datum)}, the datum once more"
+    else:
+        why = ", to check the datum" if progress.check else ""
+        yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}{why}"
     yield f"now    {_write_moment(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
@@ -356,7 +369,7 @@ def _write_moment(
     )
     if status.position is None:
         return f"waiting for the datum: {still}"
-    away = status.position - progress.next.position
+    away = status.position - progress.destination
     position = writer.write_position(status.position, 4)
     if abs(away) > settings.tolerance:
         return f"{position:>14}  {writer.write_position(-away, 3)} to go"

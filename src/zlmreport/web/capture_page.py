@@ -90,7 +90,7 @@ class CapturePage:
             "file": self.path.name,
             "journal": assignment.options.journal.name,
             "visits": list(_list_rows(progress, history, writer)),
-            "next": None if progress.is_over else progress.next.number,
+            "next": None if progress.is_over or progress.has_all else progress.next.number,
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
             "steps": []
@@ -144,7 +144,7 @@ def _list_rows(progress: Progress, history: History | None, writer: AxisWriter) 
 
 
 def _describe_state(number: int, progress: Progress, *, is_read: bool) -> str:
-    if not progress.is_over and number == progress.next.number:
+    if not (progress.is_over or progress.has_all) and number == progress.next.number:
         return "next"
     if is_read:
         return "taken"
@@ -161,7 +161,7 @@ def _show_moment(
         return None
     # What is shown with a fault is no place of the axis.
     position, still = (None, 0.0) if now["message"] else (now["position"], now["still"])
-    away = None if position is None else position - progress.next.position
+    away = None if position is None else position - progress.destination
     is_near = away is not None and abs(away) <= assignment.settings.tolerance
     return {
         "position": None if position is None else writer.write_position(position, 4),

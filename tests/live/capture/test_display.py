@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import pairwise
+from itertools import chain, pairwise
 
 import pytest
 
@@ -69,6 +69,12 @@ def test_ten_readings_a_second_are_enough(since: float) -> None:
     events = happened(shown(lambda value: value / INCH, since, step=0.1), follower)
     assert any(isinstance(event, ScaleChanged) for event in events)
     assert filed(events)[1] == pytest.approx(6.25)
+
+
+def test_a_pause_not_quite_where_a_target_would_be_in_inches_is_a_pause() -> None:
+    axis = Axis()
+    events = happened(chain(axis.stand(), axis.go(0, 100.6 / INCH, 100)), following(listed()))
+    assert kinds(events) == ["visit 1", "Elsewhere", "visit 2"]
 
 
 def test_when_it_is_set_back_the_test_goes_on_where_it_was() -> None:

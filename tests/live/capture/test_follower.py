@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import chain, takewhile
+from itertools import chain, pairwise, takewhile
 from math import exp
 
 import numpy as np
@@ -20,6 +20,8 @@ from zlmreport.live.capture.events import (
     Passed,
     Recorded,
     Resumed,
+    Retake,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -27,6 +29,7 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.visits import visit_list
 from zlmreport.model.planning.methods import Method, plan_path
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import Approach
@@ -544,6 +547,17 @@ def test_a_turn_that_few_readings_see_is_not_held_for_a_longer_stay(step: float,
         assert {event.visit.number for event in filed} >= {1, 2, 3}
 
 
+def test_a_turn_that_readings_see_at_uneven_distances_is_not_held_for_a_longer_stay() -> None:
+    axis, settings = Axis(), replace(SETTINGS, turn=2 * 5 / 150)
+    follower = following(listed(Method.PENDULUM), settings=settings)
+    happened(chain(axis.stand(), axis.go(0)), follower)
+    seen = []
+    for elapsed, position in ((0.03, 0.6), (0.03, 4.9), (0.027, 0.85), (0.024, 0.0)):  # at 150 mm/s
+        axis.unseen(elapsed - axis.step, position)
+        seen.append(axis.reading())
+    assert kinds(happened(chain(seen, axis.stand()), follower)) == ["WrongDirection"]
+
+
 @pytest.mark.parametrize("method", Method)
 def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
     speed, step = 50 / 3, 0.17
@@ -556,6 +570,32 @@ def test_a_turn_that_two_readings_see_loses_no_visit(method: Method) -> None:
         filed = [event for event in events if isinstance(event, Recorded)]
         assert [event.visit for event in filed] == list(visits)
         assert all(event.deviation * event.visit.approach > 0 for event in filed)
+
+
+def test_gaps_in_which_the_axis_could_turn_round_hide_no_standstill() -> None:
+    axis, follower = Axis(), following(listed())
+    shown = [*axis.stand(), *axis.go(-3, stay=0.02)]
+    axis.position = 0.0
+    for _ in range(8):
+        axis.unseen(0.2)
+        shown += axis.stand(0.2)
+    assert kinds(happened(shown, follower)) == ["WrongDirection"]
+
+
+def test_a_line_that_another_overtook_is_no_turn() -> None:
+    speed, step = 22, 0.1
+    settings = replace(SETTINGS, dwell=0.8, turn=2 * 5 / (1.5 * speed), feed=speed * MM)
+    plan = planned(Method.QUASI_PILGRIM, targets=(0, 20), runs=2)
+    readings = list(_read_with_lost_motion(speed, step, 0.03, plan))
+    moves = [
+        place for place, (here, there) in enumerate(pairwise(readings)) if abs(there.value - here.value) > MM
+    ]
+    for place in moves[50:]:
+        late, other = readings[place : place + 2]
+        overtaken = [other, replace(late, time=other.time + 0.01)]
+        lines = [*readings[:place], *overtaken, *readings[place + 2 :]]
+        events = happened(lines, following(visit_list(plan), settings=settings))
+        assert [event.visit for event in events if isinstance(event, Recorded)] == list(visit_list(plan))
 
 
 def _read_with_lost_motion(
@@ -579,9 +619,25 @@ def _read_with_lost_motion(
 def test_a_gap_in_which_the_axis_cannot_have_come_from_elsewhere_loses_no_visit() -> None:
     axis, follower = Axis(), following(listed())
     happened(chain(axis.stand(), axis.go(0), axis.turn(91)), follower)
-    assert SETTINGS.beyond < 0.095 < SETTINGS.largest_hole
+    assert SETTINGS.beyond < 0.095 < SETTINGS.turn
     axis.unseen(0.085, position=100)
     assert kinds(happened(axis.stand(), follower)) == ["visit 2"]
+
+
+def test_a_gap_too_short_to_turn_round_loses_no_visit_however_short_the_dwell_is() -> None:
+    axis, brief = Axis(), replace(SETTINGS, dwell=0.15)
+    follower = following(listed(), settings=brief)
+    happened(chain(axis.stand(), axis.go(0), axis.turn(97)), follower)
+    assert brief.largest_gap < 0.08 < brief.beyond
+    axis.unseen(0.07, position=100)
+    assert kinds(happened(axis.stand(), follower)) == ["visit 2"]
+
+
+def test_a_gap_in_which_an_axis_at_rest_could_turn_round_does_not_delay_its_datum() -> None:
+    axis, follower = Axis(), following(listed(), datum=-5 * MM)
+    early = happened(axis.stand(0.7), follower)
+    axis.unseen(0.2)
+    assert kinds(early + happened(axis.stand(0.2), follower)) == ["DatumTaken"]
 
 
 def test_a_gap_in_which_the_axis_may_have_turned_round_leaves_its_direction_unknown() -> None:
@@ -591,9 +647,12 @@ def test_a_gap_in_which_the_axis_may_have_turned_round_leaves_its_direction_unkn
     assert kinds(happened(axis.stand(), follower)) == ["WrongDirection"]
 
 
-def test_a_single_damaged_reading_is_no_motion() -> None:
+@pytest.mark.parametrize("value", [0.9, 1.4 * MM])  # further than the axis goes in that time, and not
+@pytest.mark.parametrize("stay", [0.5, 3.0])
+def test_a_single_damaged_reading_is_no_motion(value: float, stay: float) -> None:
     axis, follower = Axis(), following(listed(Method.PENDULUM))
-    events = happened(chain(axis.stand(), axis.go(0), axis.stand(0.01, value=0.9), axis.stand(2)), follower)
+    damaged = axis.stand(0.01, value=value)
+    events = happened(chain(axis.stand(), axis.go(0, stay=stay), damaged, axis.stand(2)), follower)
     assert kinds(events) == ["visit 1"]
 
 
@@ -627,6 +686,43 @@ def test_after_an_interruption_the_datum_is_held_against_an_earlier_reading() ->
     events = happened(chain(axis.turn(95), axis.go(100, 200)), follower)
     assert kinds(events) == ["DatumHolds", "visit 3"]
     assert events[0].difference == pytest.approx(3 * UM, abs=1e-12)
+
+
+def test_where_the_datum_is_checked_comes_next_and_a_way_there_that_nobody_saw_is_told_of() -> None:
+    axis, follower = _interrupted()
+    assert (follower.progress.check, follower.progress.destination) == (listed()[1], 100 * MM)
+    axis.position = 100.0
+    (told,) = happened(axis.stand(), follower)
+    assert told == WrongDirection(listed()[1], None)
+    happened(chain(axis.turn(95), axis.go(100)), follower)
+    assert (follower.progress.check, follower.progress.destination) == (None, 200 * MM)
+
+
+def test_an_order_to_take_a_visit_again_outlives_a_standstill_that_goes_on() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0, 100)), follower)
+    visits = follower.progress.visits
+    follower.take_order(Retake(visits[0], visits[0]))
+    axis.error = {100: 0.003}
+    events = happened(chain(axis.go(100), axis.turn(-5), axis.go(0, 200)), follower)
+    assert kinds(events) == ["visit 1", "visit 3"]
+
+
+@pytest.mark.parametrize(("method", "way"), [(Method.PENDULUM, (5, 0)), (Method.UNIDIRECTIONAL, (0, 20))])
+def test_a_program_that_begins_after_a_visit_that_is_left_out_repeats_none(
+    method: Method, way: tuple[float, float]
+) -> None:
+    """The way is that of a program that comes back to its last visit, too: the operator is asked."""
+    axis, follower = Axis(), following(listed(method, targets=(0, 20), runs=2))
+    corner, target = way
+    happened(chain(axis.stand(), axis.go(0), axis.turn(5), axis.go(target)), follower)
+    follower.take_order(Skipped(follower.progress.next))
+    (asked,) = happened(chain(axis.turn(corner), axis.go(target)), follower)
+    assert isinstance(asked, Unclear)
+    (visit, share), *_ = asked.candidates
+    assert visit is not None
+    assert visit.number == 4
+    assert share == pytest.approx(1 / (1 + exp(-4.0)), abs=1e-3)
 
 
 def test_after_an_interruption_nothing_is_taken_before_the_datum_is_checked() -> None:

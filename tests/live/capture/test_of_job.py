@@ -170,6 +170,7 @@ def test_editors_know_the_keys_of_every_instrument() -> None:
         (("name: X", "name: Y"), "is the journal of axis X, and the job is on axis Y"),
         (("runs: 2", "runs: 3"), "holds another plan: 12 visits, linear, and the job's is 18, linear"),
         (("journal: x", "dwell: 0.5\n    journal: x"), "was begun with other limits"),
+        (("plugin: umd1", "plugin: umd2"), "was begun with the instrument umd1, and the job names umd2"),
     ],
 )
 def test_a_journal_of_another_test_is_not_gone_on_with(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from zlmreport.live.capture.display import DEGREES
@@ -27,7 +29,8 @@ from zlmreport.live.capture.events import (
     Unclear,
     WrongDirection,
 )
-from zlmreport.live.capture.operator_texts import AxisWriter, say_halted, tell_event
+from zlmreport.live.capture.operator_texts import AxisWriter, list_what_to_do, say_halted, tell_event
+from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.plugin import Approach, Axis, AxisKind, Language
 from zlmreport.plugin.instrument import BeamHeld, DatumHolds, DatumMoved, DatumTaken, ScaleChanged, ZeroLost
@@ -89,6 +92,13 @@ def test_a_line_is_in_the_language_that_is_asked_for(event: Event) -> None:
 @pytest.mark.parametrize("event", HALTED, ids=repr)
 def test_why_nothing_more_is_taken_is_in_the_language_that_is_asked_for(event: Event | None) -> None:
     english, german = (say_halted(event, each) for each in WRITERS)
+    assert german != english
+
+
+def test_after_the_last_visit_the_axis_goes_to_the_datum() -> None:
+    progress = replace(Progress.begin((FIRST, SECOND), 0.0), taken=2, zero=0.0)
+    (english,), (german,) = (list_what_to_do(progress, each) for each in WRITERS)
+    assert english == "let the program go on to 0.000 mm, for the closing look at the datum"
     assert german != english
 
 

@@ -28,6 +28,7 @@ from zlmreport.live.capture.events import (
     Repeated,
     Retake,
     ScaleChanged,
+    Skipped,
     TooSlow,
     TrackLost,
     Unclear,
@@ -146,9 +147,12 @@ class Follower:
     def _obey(self, order: Order) -> Iterator[Event]:
         if not isinstance(order, Commented):
             yield from self._let_doubted_go()
+            self._stay = None  # the axis has another visit ahead: no later standstill is of the last one
         yield order
         if isinstance(order, Retake):
             self._begin_here()
+        elif isinstance(order, Skipped):
+            self._place.let_begin(self.progress.taken, self._route)
         self._place.left_out = self.progress.skipped
 
     def _begin_here(self, last: float | None = None) -> None:
@@ -249,38 +253,45 @@ class Follower:
 
     def _look_at_gap(self, latest: LiveReading, reading: LiveReading) -> Iterator[Event]:
         """Look at how long nothing came: what may have gone unseen is not relied on."""
-        largest = self._settings.largest_gap
+        settings, zero = self._settings, self.progress.zero
         gap = self._pace.measure_gap(latest.time, reading.time, self._lost)
-        if self._pace.shortest > largest:
-            yield TooSlow(self._pace.shortest, largest)
-        is_hole = largest < gap <= self._settings.largest_hole
-        if gap <= largest or (is_hole and not self._may_have_turned(latest, reading, gap)):
+        if self._pace.shortest > settings.largest_gap:
+            yield TooSlow(self._pace.shortest, settings.largest_gap)
+        ends = None if zero is None else (latest.value + zero, reading.value + zero)
+        is_followed = ends is None or not self._may_have_turned(*ends, gap)
+        is_pause = gap <= settings.largest_pause
+        if is_followed and is_pause:
             return
         has_stayed = self._has_stayed(latest, reading)
-        if not (has_stayed and gap < self._settings.still and self._window.holds(reading.value)):
+        is_same = has_stayed and gap < settings.still and self._window.holds(reading.value)
+        if not (is_pause or is_same):
             self._window.clear()
         self._unchanging.forget()
-        if gap >= self._settings.stay:
+        if gap >= settings.stay:
             yield TrackLost(gap)
-        if self.progress.zero is not None and not has_stayed:
+        if not is_followed and not has_stayed:
             self._stay = None
             self._track.forget()
             self._route.lose(gap)
             self._ahead.forget()
 
-    def _may_have_turned(self, latest: LiveReading, reading: LiveReading, gap: float) -> bool:
+    def _may_have_turned(self, here: float, there: float, gap: float) -> bool:
         """Tell whether the axis may have come to where it is from the other side than it seems, unseen.
 
         For that it must have gone over it, turned round at the overrun of a target, and come back.
+
+        `here`, `there`: Where it was seen before and after a gap, m or rad.
+        `gap`: How long nobody saw it, s.
         """
-        settings, zero = self._settings, self.progress.zero
-        if zero is None or not settings.feed:
+        settings = self._settings
+        if gap <= settings.beyond or gap >= settings.stay:
+            return gap >= settings.stay
+        if gap > settings.turn or not settings.feed:
             return True
-        moved, ends = reading.value - latest.value, (latest.value + zero, reading.value + zero)
         ways = (
-            [(target - end) * side + settings.overrun for end in ends]
+            [(target - end) * side + settings.overrun for end in (here, there)]
             for side in Approach
-            if moved * side >= -settings.tolerance
+            if (there - here) * side >= -settings.tolerance
             for target, _ in self._targets
         )
         reach = FASTEST * settings.feed * gap
@@ -311,15 +322,13 @@ class Follower:
     def _follow_turns(self, before: LiveReading, reading: LiveReading, zero: float, seen: float) -> None:
         """Follow where the axis turns round.
 
-        Where readings come so seldom that one alone may see it beyond its target, that is too little to say
-        from which side it came back, and too much to hold a stop there for the one before.
+        Beyond its target one reading alone may have seen it: too little to say from which side it came back,
+        and too much to hold a stop there for the one before.
         """
         turns = len(self._route.turns)
         self._route.follow(before, reading, zero, seen, self._settings)
-        is_seldom = 2 * (reading.time - before.time) > self._settings.beyond
         has_turned = len(self._route.turns) > turns
-        stay = self._stay if is_seldom and has_turned else None
-        if stay is not None and self._is_seen_beyond_once(stay, seen):
+        if has_turned and self._stay is not None and self._is_seen_beyond_once(self._stay, seen):
             self._stay = self._stood_at = None
             self._track.forget()
             self._ahead.forget()
@@ -401,14 +410,14 @@ class Follower:
         """Say what a standstill at a target is, and take the reading if it is clear which visit that is."""
         progress = self.progress
         heading = self._route.heading or approach
-        if heading is None and (progress.must_check or not self._route.breaks):
-            if target == progress.next.target:
-                yield WrongDirection(progress.next, None)
+        is_unseen = heading is None and not self._route.breaks
+        if is_unseen or (progress.must_check and approach is None):
+            visit = progress.check or progress.next
+            if target == visit.target and not progress.has_all:
+                yield WrongDirection(visit, None)
             return
         stop = TargetStandstill(target, heading, approach, mean.value + zero, mean)
-        if progress.must_check:
-            if approach is None:
-                return
+        if progress.must_check and approach is not None:
             yield check_datum(target, approach, stop.position, progress, self._settings)
             following = self.progress.next
             if self.progress.must_check or (following.target, following.approach) != (target, approach):
@@ -423,7 +432,7 @@ class Follower:
         for stop, index, share in self._place.settle_stops():
             if self.progress.question is not None:
                 yield Placed(None if index is None else self.progress.visits[index])
-            elif index is not None and 1 - share > WORTH_SAYING:
+            elif index is not None and index + 1 not in self.progress.skipped and 1 - share > WORTH_SAYING:
                 yield Presumed(self.progress.visits[index], share)
             yield from self._file(stop, index)
 
@@ -522,7 +531,7 @@ class Follower:
         A program that ends where it stands, and an axis that goes elsewhere, are not waited for.
         """
         progress, settings = self.progress, self._settings
-        if progress.taken < len(progress.visits) or progress.question is not None or self._doubted:
+        if not progress.has_all or progress.question is not None or self._doubted:
             return
         visit = progress.visits[-1]
         last = progress.read.get((visit.target, visit.approach))

@@ -30,12 +30,14 @@ class Route:
         self.last: float | None = None
         self._threshold = threshold
         self._lowest = self._highest = 0.0
+        self._awaited: float | None = None
+        self._earlier: LiveReading | None = None
 
     def lose(self, seconds: float = 0.0) -> None:
         """Take note that nobody sees the axis, or saw it for some seconds."""
         self.breaks += 1
         self.silence += seconds
-        self.heading = self.first = self.last = None
+        self.heading = self.first = self.last = self._awaited = self._earlier = None
 
     def add(self, position: float) -> None:
         """Take note of where it is, m or rad."""
@@ -60,13 +62,19 @@ class Route:
     ) -> None:
         """Follow where the axis turns round: of readings that come seldom each counts that can be true.
 
+        That is one which the axis can have come to from the reading before, and left for the one after; and
+        not so soon for where it was before, that it had no time to turn round.
+
         `zero`: The position at which the display shows 0, m or rad.
         `seen`: Where the axis was last seen by several readings, m or rad.
         """
         elapsed = reading.time - before.time
         reach = FASTEST * settings.feed * elapsed + settings.motion
         can_be = abs(reading.value - before.value) <= reach
-        position = reading.value + zero if can_be else seen
+        awaited, self._awaited = self._awaited, reading.value + zero if can_be else None
+        earlier, self._earlier = self._earlier, before
+        is_damaged = not can_be or _is_back_at_once(earlier, reading, settings)
+        position = seen if awaited is None or is_damaged else awaited
         if self.last is not None:
             furthest = _RAPID * (elapsed + settings.largest_gap) + settings.tolerance
             if abs(position - self.last) > furthest:
@@ -77,6 +85,15 @@ class Route:
         if self.heading is not None:
             self.turns.append(at)
         self.heading = heading
+
+
+def _is_back_at_once(earlier: LiveReading | None, reading: LiveReading, settings: Settings) -> bool:
+    """Tell whether the axis is where it was at an earlier reading, too soon to have turned round since."""
+    return (
+        earlier is not None
+        and reading.time - earlier.time < settings.beyond
+        and abs(reading.value - earlier.value) <= settings.motion
+    )
 
 
 class TurningPoint(NamedTuple):

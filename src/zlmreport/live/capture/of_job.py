@@ -183,6 +183,9 @@ def _say_difference(header: Header, job: Job, assignment: Assignment) -> str:
             f"was begun with other limits: tolerance, stability, dwell or datum in {_SOURCE}, "
             "or capture.settle"
         )
+    begun, choice = header.instrument.get("plugin"), job.source.instrument
+    if choice is not None and begun != choice.identifier:
+        return f"was begun with the instrument {begun}, and the job names {choice.identifier}"
     return ""
 
 

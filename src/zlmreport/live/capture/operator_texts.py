@@ -153,6 +153,7 @@ _SEVERAL_VOID = Words(
     "was taken before stays"
 )
 
+_LOOK_AGAIN = Words("let the program go on to {position}, for the closing look at the datum")
 _START = Words("start the program at visit {visit}: {position} {side}, run {run}")
 _START_AGAIN = Words("start the program at visit {visit}: {position} {side}, run {run}, attempt {attempt}")
 _GO_ON = Words("go on with the program at visit {visit}: {position} {side}, run {run}")
@@ -432,6 +433,8 @@ def _say_void(void: Sequence[ListedVisit], writer: AxisWriter) -> Words:
 
 def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
     """Return what an operator does, step by step, before the capture goes on."""
+    if progress.has_all and progress.datum is not None:
+        return [writer.say(_LOOK_AGAIN.given(position=writer.write_position(progress.datum)))]
     visit = progress.next
     first, again = (_GO_ON, _GO_ON_AGAIN) if progress.taken else (_START, _START_AGAIN)
     step = (again if progress.attempt > 1 else first).given(
@@ -444,9 +447,8 @@ def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None 
     steps = [writer.say(step)]
     if progress.zero is None and progress.datum is not None:
         steps.insert(0, writer.say(_STAND_STILL.given(position=writer.write_position(progress.datum))))
-    elif progress.must_check:
-        last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
-        position, side = writer.write_position(last.position), SIDES[last.approach]
+    elif progress.check:
+        position, side = writer.write_position(progress.check.position), SIDES[progress.check.approach]
         steps.insert(0, writer.say(_COME_BACK.given(position=position, side=side)))
     elif isinstance(event, ZeroLost | DatumMoved):
         steps.insert(0, writer.say(_SET_ZERO))

@@ -117,6 +117,12 @@ class PlaceInProgram:
         if taken and last is not None:
             self._guesses.append(_Guess(taken - 1, _RAN_ON, last, 0, -1))
 
+    def let_begin(self, taken: int, route: Route) -> None:
+        """Take note that the operator may begin the program after so many visits, and not let it run on."""
+        best = max(self._guesses, key=lambda guess: guess.weight)
+        begun = replace(best, place=taken - 1, time=None, turns=len(route.turns), is_told=True)
+        self._guesses.append(replace(begun, breaks=route.breaks, is_heading_known=True))
+
     def add(self, stop: TargetStandstill, route: Route) -> None:
         """Take the next stop in."""
         before, self._before = self._before, (stop, len(route.turns), route.breaks)

@@ -67,6 +67,25 @@ class Progress:
         return self.visits[min(self.taken, len(self.visits) - 1)]
 
     @property
+    def has_all(self) -> bool:
+        """Whether no visit is next: each is taken, or missed for good."""
+        return self.taken >= len(self.visits)
+
+    @property
+    def check(self) -> ListedVisit | None:
+        """The visit to which the axis is to come once more, to check the datum; None where it is not."""
+        if not self.must_check or (self.has_all and self.datum is not None):
+            return None
+        return max((each.visit for each in self.read.values()), key=lambda visit: visit.number)
+
+    @property
+    def destination(self) -> float:
+        """Where the axis goes next, m or rad: to a visit, and after the last to the datum, if it has one."""
+        if self.has_all and self.datum is not None:
+            return self.datum
+        return (self.check or self.next).position
+
+    @property
     def attempt(self) -> int:
         """The number of the attempt at the part of the test that is next, from 1."""
         return self.attempts.get(self.next.part, 1)

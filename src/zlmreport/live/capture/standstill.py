@@ -200,7 +200,7 @@ class Window:
 #: How far a reading may depart from an earlier run's, and from the deviation at the target before, in
 #: stability ranges: 50 µm and 200 µm for 1 µm. Axes err by less from run to run and from target to target; a
 #: feed hold short of its target, a datum that slipped and a display that fails do not.
-FROM_RUN, _FROM_TARGET = 50, 200
+FROM_RUN, FROM_TARGET = 50, 200
 
 
 def expect_deviation(
@@ -223,4 +223,4 @@ def expect_deviation(
         ),
         default=None,
     )
-    return (0.0 if nearest is None else nearest.deviation), _FROM_TARGET * settings.stability
+    return (0.0 if nearest is None else nearest.deviation), FROM_TARGET * settings.stability

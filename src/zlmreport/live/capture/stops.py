@@ -21,7 +21,7 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.place import TargetStandstill
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.standstill import FROM_RUN, expect_deviation
+from zlmreport.live.capture.standstill import FROM_RUN, FROM_TARGET, expect_deviation
 from zlmreport.live.capture.visits import ListedVisit, Settings
 from zlmreport.measurement.approach import Approach
 
@@ -94,7 +94,9 @@ def name_elsewhere(
     following = progress.visits[progress.taken :]
     near = settings.tolerance
     right = zero if progress.datum is None else progress.datum
-    unit = find_misread_factor(mean.value, zero, right, following, near, UNITS)
+    furthest = max((abs(each.deviation) for each in progress.read.values()), default=0.0)
+    close = min(near, furthest + FROM_TARGET * settings.stability)
+    unit = find_misread_factor(mean.value, zero, right, following, close, UNITS)
     if unit is not None and progress.read:
         return ScaleChanged(unit, _find_visit_of_either_unit(zero, progress, settings))
     if offsets.is_lost(position, progress.taken):

@@ -91,13 +91,13 @@ class Settings:
 
     @property
     def largest_gap(self) -> float:
-        """How far apart readings may be that count as without a gap, s: one at least sees the axis turn."""
-        return min(self.largest_hole, self.beyond)
+        """How far apart readings may always be, s: they show a standstill, and one at least the axis turn."""
+        return min(self.largest_pause, self.beyond)
 
     @property
-    def largest_hole(self) -> float:
-        """How far apart they may be now and then, s: where the axis is too far away to turn meanwhile."""
-        return min(_LARGEST_GAP * min(self.dwell, self.still), self.turn)
+    def largest_pause(self) -> float:
+        """How far apart two neighbouring readings of a standstill may be, s."""
+        return _LARGEST_GAP * min(self.dwell, self.still)
 
     @property
     def overrun(self) -> float:
