@@ -62,9 +62,9 @@ def test_a_reading_is_reached_by_the_keyboard_too(window: Window, file: Path) ->
 
 def test_a_failure_points_at_its_readings_over_what_shows_them(window: Window, file: Path) -> None:
     page = window(file.as_uri())
-    page.get_by_label("over", exact=True).select_option(label="Run")
+    page.get_by_label("Residuals over", exact=True).select_option(label="Run")
     page.get_by_role("button", name="The means of the positions deviate").click()
-    expect(page.get_by_label("over", exact=True)).to_have_value("position")
+    expect(page.get_by_label("Residuals over", exact=True)).to_have_value("position")
     assert marked(page) == [5, 5]
 
 
@@ -119,6 +119,13 @@ def test_it_is_read_on_any_screen(window: Window, file: Path, width: int, scheme
     assert max(edges) <= width
     found = Axe().run(page)
     assert found.violations_count == 0, found.generate_report()
+
+
+def test_at_400_percent_a_long_name_of_a_condition_makes_no_page_wider(window: Window, file: Path) -> None:
+    page = window(file.as_uri(), viewport={"width": 320, "height": 844})
+    expect(page.locator(".plot .mark").first).to_be_visible()
+    page.locator(".linked option").first.evaluate("e => { e.textContent = 'Temperature of '.repeat(4) }")
+    assert page.evaluate("document.documentElement.scrollWidth") == 320
 
 
 def test_a_phone_shows_the_results_first(window: Window, file: Path) -> None:

@@ -38,7 +38,9 @@ def plots(page: Page) -> list[int]:
 def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
-    expect(page.get_by_text("Missing effect: screw-pitch, which explains the rest.")).to_be_visible()
+    expect(
+        page.locator(".verdict").get_by_text("Missing effect: screw-pitch, which explains the rest.")
+    ).to_be_visible()
     expect(page.locator(".wave .plot")).to_be_visible()
     assert page.locator(".wave .tick[text-anchor=end]").count() >= 3
     picture(page, "missing")
@@ -357,6 +359,57 @@ def test_the_page_can_be_used_by_everybody(address: str, window: Window) -> None
     assert [each.generate_report() for each in found if each.violations_count] == []
 
 
+def test_who_works_by_keys_keeps_the_place_and_is_told_the_verdict(address: str, window: Window) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    expect(page.locator("body > [role=status]")).to_have_text(
+        "Missing effect: screw-pitch, which explains the rest."
+    )
+    page.get_by_role("button", name="Fix backlash.lost_motion at this value").press("Enter")
+    expect(page.get_by_role("button", name="Estimate backlash.lost_motion from the readings")).to_be_focused()
+    page.keyboard.press("Enter")
+    expect(page.get_by_role("button", name="Fix backlash.lost_motion at this value")).to_be_focused()
+    diagnosed(page, "missing")
+    page.get_by_role("button", name="Add screw-pitch to the model").press("Enter")
+    diagnosed(page, "adequate")
+    # The candidates are gone, and the button with them.
+    expect(page.get_by_role("heading", name="Verdict")).to_be_focused()
+    expect(page.locator("body > [role=status]")).to_contain_text("The model describes the readings")
+
+
+def test_who_hears_the_page_is_told_which_table_it_is_and_what_is_chosen(
+    address: str, window: Window
+) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    heading = page.get_by_role("heading", level=1)
+    assert heading.evaluate("e => e.textContent").startswith("EXAMPLE-2026-0007 Axis X")
+    for name in ("How the error falls", "offset", "backlash"):
+        expect(page.get_by_role("table", name=name, exact=True)).to_be_visible()
+    expect(page.get_by_role("combobox", name="Residuals over")).to_be_visible()
+
+
+@pytest.mark.parametrize("locale", ["de-DE", "fr-FR"])
+def test_at_320_pixels_headings_of_columns_are_whole(address: str, window: Window, locale: str) -> None:
+    """As a screen of 1280 pixels shows it at 400 %."""
+    page = window(address, locale=locale, viewport={"width": 320, "height": 800})
+    diagnosed(page, "missing")
+    expect(page.locator(".fall tbody tr").first).to_be_visible()
+    broken = page.locator(".fall thead button").evaluate_all(
+        """all => all.flatMap(e => {
+            const text = document.createTreeWalker(e, NodeFilter.SHOW_TEXT).nextNode();
+            return [...text.data.matchAll(/\\S+/g)].filter(found => {
+                const range = document.createRange();
+                range.setStart(text, found.index);
+                range.setEnd(text, found.index + found[0].length);
+                return range.getClientRects().length > 1;
+            }).map(found => found[0]);
+        })"""
+    )
+    assert broken == []
+    assert page.evaluate("document.documentElement.scrollWidth") == 320
+
+
 def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Window) -> None:
     page = window(
         address,
@@ -367,7 +420,9 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     )
     diagnosed(page, "missing")
     expect(
-        page.get_by_text("Fehlender Einfluss: Periodischer Steigungsfehler der Spindel; er erklärt den Rest.")
+        page.locator(".verdict").get_by_text(
+            "Fehlender Einfluss: Periodischer Steigungsfehler der Spindel; er erklärt den Rest."
+        )
     ).to_be_visible()
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     controls = page.locator("button:visible, select:visible").all()

@@ -61,7 +61,7 @@ def test_what_no_test_of_such_an_axis_could_see_is_not_counted() -> None:
     of_rotary = [
         each
         for each in found.not_testable
-        if each.reason.in_language(Language.ENGLISH) == "it belongs to rotary axes"
+        if each.reason.in_language(Language.ENGLISH) == "for rotary axes only"
     ]
     assert of_rotary
     only = replace(found, not_testable=tuple(of_rotary), visibility=())

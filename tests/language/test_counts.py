@@ -40,8 +40,8 @@ _NEVER_OF_ONE = (
     "{count} readings one after another are the same, digit for digit",  # seven at least
     "{gone} of {before} jobs are gone since the last night; look whether that is meant",
     "{readings} readings were averaged",
-    "it needs at least {least} target positions; there are {found}",
-    "it needs at least {least} runs; there are {found}",
+    "at least {least} target positions are needed; there are {found}",
+    "at least {least} runs are needed; there are {found}",
     "take {count} targets with random fractions",
     "measure {runs} runs",
     "{value} readings",

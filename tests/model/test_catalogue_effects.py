@@ -134,7 +134,7 @@ def test_what_states_a_parameter_must_be_made_of_keys(stated: str, sentence: str
         ("a*air_index", {"conditions": {}}, "no columns air_temperature, air_pressure were"),
         ("a*oil", {}, "no column oil was logged"),
         ("a*t/(100*t + t^2/t)", {"time": np.zeros(len(_DESIGN.time))}, "no time passes"),
-        ("a*wave(P/turn)", {}, "it belongs to rotary axes"),
+        ("a*wave(P/turn)", {}, "for rotary axes only"),
     ],
 )
 def test_what_stands_in_the_formula_is_needed(formula: str, without: dict[str, Any], sentence: str) -> None:

@@ -293,7 +293,7 @@ def test_entrants_are_the_forms_that_the_test_can_show() -> None:
     orders = [len(form.linear) - 1 for form in found.forms if form.identifier == "polynomial"]
     assert orders == [4, 5]
     reasons = {each.effect: each.reason.in_language(Language.ENGLISH) for each in found.not_testable}
-    assert reasons["eccentricity"] == "it belongs to rotary axes"
+    assert reasons["eccentricity"] == "for rotary axes only"
     assert reasons["scale-error"] == "at these targets polynomial imitates it entirely"
     assert "backlash" not in reasons  # it is in the model
 

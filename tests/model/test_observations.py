@@ -112,6 +112,11 @@ def test_a_log_that_is_mostly_noise_is_doubted() -> None:
     assert "The log of axis_temperature is noisy" in _said(_logged(log))
 
 
+def test_noise_about_a_temperature_that_stays_is_not_told_with_digits_that_say_nothing() -> None:
+    log = 293.0 + 0.1 * (np.arange(len(TEST.deviation)) % 5)
+    assert "its noise is > 10 times its variation" in _said(_logged(log))
+
+
 def test_a_coarse_log_is_doubted() -> None:
     log = 293.0 + 0.1 * np.round(np.linspace(0, 4, len(TEST.deviation)))
     assert "The log of axis_temperature is coarse: its resolution is 0.25 of its range" in _said(_logged(log))

@@ -64,7 +64,7 @@ def test_what_cannot_be_tried_is_there_with_its_reason() -> None:
     found = _seen(DESIGN, "eccentricity")
     assert (found.share, found.smallest_rms) == (0.0, np.inf)
     assert found.reason is not None
-    assert found.reason.en == "it belongs to rotary axes"
+    assert found.reason.en == "for rotary axes only"
 
 
 @pytest.mark.parametrize("effect", ["backlash-bow", "screw-pitch", "thermal-drift"])

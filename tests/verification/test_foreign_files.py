@@ -54,7 +54,9 @@ def refusal(verified: Verify, pdf: bytes) -> str:
 
 
 def test_a_foreign_pdf_is_no_certificate(verified: Verify) -> None:
-    assert "is no certificate of zlmreport" in refusal(verified, blank())
+    said = refusal(verified, blank())
+    assert "is no certificate of zlmreport" in said
+    assert "printed to PDF, scanned, split or joined" in said
 
 
 def test_a_foreign_pdf_with_attachments_is_no_certificate(verified: Verify) -> None:
@@ -98,7 +100,9 @@ def test_glyphs_of_parts_without_end_are_no_glyphs_of_the_certificate(
 
 def test_an_encrypted_pdf_is_refused(issued: bytes, verified: Verify) -> None:
     pdf = altered(issued, lambda writer: writer.encrypt("password", algorithm="RC4-128"))
-    assert "is encrypted" in refusal(verified, pdf)
+    said = refusal(verified, pdf)
+    assert "is encrypted" in said
+    assert "qpdf --decrypt" in said
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9, 0.99])

@@ -17,7 +17,7 @@ from verification.issued import LABORATORY, altered, lay_out, with_digit
 from zlmreport.cli import main
 from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.plugin import Place
+from zlmreport.plugin import Language, Place, Words
 from zlmreport.verification.findings import CheckedCertificate, VerificationVerdict
 
 Verify = Callable[[bytes], CheckedCertificate]
@@ -82,6 +82,8 @@ def test_a_signed_certificate_that_was_altered_before_does_not_hold(
 ) -> None:
     found = verified(sign(with_digit(issued, "7.26", "7.96")))
     assert found.signature.verdict is VerificationVerdict.HOLDS
+    assert isinstance(found.signature.detail, Words)
+    assert "intacta, de " in found.signature.detail.in_language(Language.SPANISH)
     assert not found.holds
 
 
@@ -90,6 +92,7 @@ def test_one_bit_of_what_was_signed_is_found(issued: bytes, sign: Sign, verified
     pdf[pdf.index(b"%\xf0") + 1] ^= 1  # in a comment that no page shows
     found = verified(bytes(pdf))
     assert found.signature.verdict is VerificationVerdict.DIFFERS
+    assert say(found.signature.detail).endswith("ask for the file as it was issued")
     assert not found.holds
 
 

@@ -10,10 +10,12 @@ from typing import Any
 
 import pytest
 from fontTools.ttLib import TTFont
+from pikepdf import Array, Dictionary, Name, Pdf
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import DecodedStreamObject, DictionaryObject, FloatObject, NameObject, TextStringObject
 
 from installed import registry
+from verification.altering import Change, page_of, rewritten
 from verification.issued import (
     JOB,
     LABORATORY,
@@ -149,6 +151,34 @@ def test_a_picture_that_is_put_over_a_page_is_found(issued: bytes, verified: Ver
     found = verified(altered(issued, put))
     assert differing(found) == ["page 2", "structure of the file"]
     assert "draws by a form" in finding(found, "page 2").detail
+
+
+def comment(opened: Pdf) -> None:
+    note = Dictionary(Type=Name.Annot, Subtype=Name.Text, Rect=Array([9, 9, 29, 29]), Contents="OK")
+    held = [*page_of(opened).get("/Annots", []), opened.make_indirect(note)]
+    page_of(opened).Annots = Array(held)
+
+
+def turn(opened: Pdf) -> None:
+    page_of(opened).Rotate = 90
+
+
+def unlist(opened: Pdf) -> None:
+    del opened.Root.Names["/EmbeddedFiles"]
+
+
+@pytest.mark.parametrize(
+    ("change", "subject", "said"),
+    [
+        (comment, "page 1", "not as printed again: its links, notes or fields"),
+        (turn, "page 1", "not as printed again: its rotation"),
+        (unlist, "x-axis.csv", "is in no list of names: readers of PDF do not show it"),
+    ],
+)
+def test_what_differs_is_named_and_nothing_else(
+    issued: bytes, verified: Verify, change: Change, subject: str, said: str
+) -> None:
+    assert finding(verified(rewritten(issued, change)), subject).detail == said
 
 
 def with_font(pdf: bytes, change: Callable[[TTFont], None]) -> bytes:

@@ -139,7 +139,7 @@ NOTES: tuple[Words, ...] = (
         "The readings of both directions form one sample (2z − 1 degrees of freedom): the reversal is part "
         "of the spread and has no parameter of its own."
     ),
-    Words("The index mit marks a mean over the positions."),
+    Words("The index “mit” marks a mean over the positions."),
     Words(
         "Formulas as in the manual of the program ZLM Position, G 1.3; corrected: bar over X in the formulas "
         "of the parameters."

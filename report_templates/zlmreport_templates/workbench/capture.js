@@ -49,7 +49,7 @@ class CapturePage {
     this.found = found;
     document.body.dataset.state = found.runs ? "captures" : found.isOver ? "over" : "rests";
     this.#fillIfNew("header", this.header, [found.number], () => [
-      h("h1", {}, found.number, h("span", {}, found.subject)),
+      h("h1", {}, found.number, " ", h("span", {}, found.subject)),
       ROOT && h("a", { href: `/${location.search}` }, texts.allJobs),
       h("code", {}, found.file)]);
     this.#fillIfNew("now", this.now, [found.moment, found.steps, found.taken, found.minutes, found.runs, found.isOver], () => this.#now(found));

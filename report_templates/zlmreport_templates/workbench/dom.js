@@ -52,14 +52,24 @@ function space() {
   return document.documentElement.lang === "fr" ? "\u00a0" : "";
 }
 
-/** Fill an element anew; the control that had the focus has it again if it is still there. */
+const HEADING = "heading";
+
+/**
+ * Fill an element anew; the control that had the focus has it again if it is still there.
+ *
+ * Else the first control beside it has it; where none is left, the heading, or that of the page's first part: who
+ * works by keys goes on there, and not at the top of the page.
+ */
 export function fill(element, ...children) {
   const focused = element.contains(document.activeElement) ? document.activeElement.dataset.key : null;
   element.replaceChildren(...children.flat(Infinity).filter(Boolean));
-  if (focused) {
-    const again = [...element.querySelectorAll("[data-key]")].find((each) => each.dataset.key === focused);
-    const next = again ?? element.querySelector("button, a[href], select, input") ?? element.querySelector("h2");
-    if (next?.tagName === "H2") next.tabIndex = -1;
-    next?.focus();
+  if (!focused) return;
+  const again = [...element.querySelectorAll("[data-key]")].find((each) => each.dataset.key === focused);
+  const control = focused === HEADING ? null : element.querySelector("button, a[href], select, input");
+  const next = again ?? control ?? element.querySelector("h2") ?? document.querySelector("main h2");
+  if (next?.tagName === "H2") {
+    next.tabIndex = -1;
+    next.dataset.key = HEADING;
   }
+  next?.focus();
 }

@@ -17,7 +17,7 @@ export async function showEffect(texts, effect) {
   document.title = found.called === found.title ? found.title : `${found.called} · ${found.title}`;
   const plot = found.sketch && drawn(texts, found);
   document.body.replaceChildren(
-    h("header", {}, h("h1", {}, found.called, found.called !== found.title && h("span", {}, found.title)), back(texts)),
+    h("header", {}, h("h1", {}, found.called, found.called !== found.title && [" ", h("span", {}, found.title)]), back(texts)),
     h("main", { class: "effect" },
       h("section", { class: "panel" }, h("h2", {}, texts.look), h("p", {}, found.look),
         found.remedy && h("p", {}, h("strong", {}, named(texts.remedy)), found.remedy),
@@ -42,7 +42,7 @@ function back(texts) {
 
 function table(texts, found) {
   const range = (each) => (each.low === null && each.high === null ? "–" : `${each.low ?? "−∞"} … ${each.high ?? "∞"}`);
-  return h("table", {},
+  return h("table", { "aria-label": texts.parameters },
     h("thead", {}, h("tr", {}, [texts.parameters, "", texts.range].map((name, index) => (name ? h("th", { scope: "col", class: index === 2 ? "number" : false }, name) : h("td", {}))))),
     h("tbody", {}, found.parameters.map((each) => h("tr", {}, h("th", { scope: "row" }, symbol(each.symbol)), h("td", {}, each.description),
       h("td", { class: "number" }, withUnit(range(each), each.unit))))));

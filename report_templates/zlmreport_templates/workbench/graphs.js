@@ -35,7 +35,7 @@ export class Graphs {
     this.near = null;
     this.above = this.#plot("above", texts.measured);
     this.below = this.#plot("below", texts.residuals);
-    this.choice = h("select", { id: "over", change: () => this.#switch(this.choice.value) });
+    this.choice = h("select", { id: "over", "aria-label": `${texts.residuals} ${texts.over}`, change: () => this.#switch(this.choice.value) });
     this.colour = h("select", { id: "colour", change: () => { this.shade = this.colour.value; this.#draw(); } });
     this.whole = h("button", { type: "button", class: "quiet", hidden: true, "data-key": "whole", click: () => this.#zoom(null) }, texts.reset);
     this.reading = h("div", { class: "reading", role: "status" });

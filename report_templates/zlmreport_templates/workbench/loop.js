@@ -31,6 +31,7 @@ export class Loop {
       number: this.number,
     };
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
+    this.spoken = h("p", { class: "unseen", role: "status" });
     this.header = h("header", {}, this.all(), h("p", { role: "status" }, texts.working));
   }
 
@@ -60,7 +61,7 @@ export class Loop {
   heading(job) {
     const { texts } = this;
     return [
-      h("h1", {}, job.number, h("span", {}, job.subject)),
+      h("h1", {}, job.number, " ", h("span", {}, job.subject)),
       this.all(),
       h("code", {}, job.file),
       h("span", { class: "busy", "aria-hidden": "true" }, texts.working),
@@ -140,7 +141,10 @@ export class Loop {
       const waits = this.parts.verdict.querySelector(".progress span");
       if (this.diagnosis.seconds !== undefined && waits) waits.textContent = said(this.texts.underWay, { seconds: this.number(this.diagnosis.seconds), share: this.number(Math.round(100 * this.diagnosis.share)) });
       else this.showDiagnosis();
-      if (this.diagnosis.seconds === undefined) return;
+      if (this.diagnosis.seconds === undefined) {
+        this.spoken.textContent = this.diagnosis.diagnosis?.statement ?? "";
+        return;
+      }
       await new Promise((resolve) => { setTimeout(resolve, ASK); });
     }
   }

@@ -25,7 +25,7 @@ export class MachinePage extends Loop {
     this.parts = Object.fromEntries(PARTS.map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
     this.shown = h("div", {});
     const { verdict, fall, stairs, failures, candidates, found, hidden, tables, certificate, effects, steps, preview, sizes, test, machine } = this.parts;
-    document.body.replaceChildren(this.header, this.notice, h("main", {},
+    document.body.replaceChildren(this.header, this.notice, this.spoken, h("main", {},
       h("div", { class: "bench machine" }, h("div", { class: "always" }, verdict, fall),
         h("div", { class: "seen" }, preview, sizes, this.shown, test, effects, machine),
         h("div", { class: "findings" }, stairs, candidates, failures, found, hidden, tables, certificate, steps))));

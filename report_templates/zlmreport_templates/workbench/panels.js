@@ -153,7 +153,7 @@ export function effects(texts, job, actions) {
     h("ul", { class: "effects" }, job.effects.map((each) => h("li", {},
       h("div", { class: "heading" }, h("h3", {}, about(texts, each.effect, each.name)), title(each),
         button(texts.remove, said(texts.removeEffect, { effect: each.name }), `remove-${each.effect}`, () => actions.remove(each.effect))),
-      h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
+      h("table", { class: "parameters", "aria-label": each.name }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
         h("td", { class: "number" }, own.fixed && actions.fix ? value(each, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
         h("td", {}, notes(own)),
@@ -182,8 +182,8 @@ function fixing(texts, { effect, name }, own, actions) {
   const parameter = called(effect, name, own);
   if (own.given && !own.fixed) return null;
   return own.fixed
-    ? button(texts.free, said(texts.freeParameter, { parameter }), `free-${key}`, () => actions.free(effect, own.name))
-    : button(texts.fix, said(texts.fixParameter, { parameter }), `fix-${key}`, () => actions.fix(effect, own.name, own.number));
+    ? button(texts.free, said(texts.freeParameter, { parameter }), `hold-${key}`, () => actions.free(effect, own.name))
+    : button(texts.fix, said(texts.fixParameter, { parameter }), `hold-${key}`, () => actions.fix(effect, own.name, own.number));
 }
 
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
@@ -194,7 +194,7 @@ export function fall(texts, results, actions) {
     h("th", { scope: "row" }, label), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), cells.map((each) => h("td", { class: "number" }, each)));
   return [
     h("h2", {}, texts.fall),
-    h("table", { class: "fall" },
+    h("table", { class: "fall", "aria-label": texts.fall },
       h("thead", {}, h("tr", {}, h("th", { scope: "col" }, first.text), h("td", {}), heads.map((each) => h("th", { scope: "col", class: "number" }, explained(each.text, each.meaning))))),
       h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.label, each, undefined, step)),
         floor && row(explained(floor.label, texts.noiseFloorIs), floor, "floor"))),
@@ -362,7 +362,7 @@ function forecast(texts, values, position) {
   const unit = PRINTED[values.unit] ?? values.unit;
   const rounded = (value) => fixed(value, 2);
   return h("div", {},
-    h("table", {},
+    h("table", { "aria-label": texts.withTable },
       h("thead", {}, h("tr", {}, h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.now} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.withTable} (${unit})`))),
       h("tbody", {}, Object.keys(before).map((name) => h("tr", {}, h("th", { scope: "row" }, h("i", {}, name)), h("td", { class: "number" }, rounded(before[name])), h("td", { class: "number" }, rounded(after[name])))))),
     h("p", { class: "quiet" }, said(texts.betweenRows, { rows: values.rows, largest: withUnit(rounded(between.largest), unit), at: withUnit(rounded(between.at), position) }), " ", texts.noMeasurement));

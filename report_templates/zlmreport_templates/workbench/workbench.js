@@ -32,7 +32,7 @@ class Page extends Loop {
     this.parts = Object.fromEntries(["verdict", "fall", "stairs", "faults", "failures", "candidates", "experiment", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps", "preview"]
       .map((name) => [name, h("section", { class: NESTED.has(name) ? false : "panel", id: `part-${name}` })]));
     const { verdict, fall, stairs, faults, failures, candidates, experiment, hidden, compensation, lacking, certificate, effects, standards, excluded, steps, preview } = this.parts;
-    document.body.replaceChildren(this.header, this.notice, h("main", {},
+    document.body.replaceChildren(this.header, this.notice, this.spoken, h("main", {},
       h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), standards, h("div", { class: "seen" }, preview, this.graphs.element, this.comparison.element, effects),
       h("div", { class: "findings" }, stairs, faults, failures, candidates, experiment, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
   }

@@ -238,7 +238,9 @@ def _check_descriptions(file: Carried, again: Carried | None) -> Iterator[str]:
         return
     for key, what in _DESCRIBED.items():
         found, expected = getattr(file, key), getattr(again, key)
-        if found != expected:
+        if found != expected and not found and key == "listed":
+            yield "is in no list of names: readers of PDF do not show it"
+        elif found != expected:
             shown, right = (str(each)[:_LONGEST_TEXT] for each in (found, expected))
             yield f"its {what} is {shown!r} and should be {right!r}"
 

@@ -126,7 +126,11 @@ def _open_carrier(content: bytes, place: Place) -> Carrier:
     # Strictly: of a key that stands twice, also under another spelling, one viewer takes this and one that.
     reader = PdfReader(BytesIO(content), strict=True)
     if reader.is_encrypted:
-        raise InputError.at(place, "is encrypted, which no certificate is: verify the file as it was issued")
+        raise InputError.at(
+            place,
+            "is encrypted, which no certificate is: verify the file as it was issued, or save this one "
+            "without its password (qpdf --decrypt FILE NEW), and verify the new one",
+        )
     if len(reader.pages) > MOST_PAGES:
         raise InputError.at(place, f"has more than {MOST_PAGES} pages; no certificate has")
     carried: dict[str, Carried] = {}

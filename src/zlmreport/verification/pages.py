@@ -34,6 +34,12 @@ _PACKET = re.compile(rb"\s*<\?xpacket begin=[^?]*\?>(?:[^<]|<(?!\?))*<\?xpacket 
 _COLOURS = "/ColorSpace"
 #: What of a page is compared mark by mark, and link by link.
 _DRAWN = frozenset({"/Annots", "/Contents", "/Resources"})
+#: What else there is of a page, by the keys that say so.
+_FRAMING = {
+    **dict.fromkeys(("/MediaBox", "/CropBox", "/BleedBox", "/TrimBox", "/ArtBox"), "size"),
+    "/Rotate": "rotation",
+    "/UserUnit": "unit of length",
+}
 _RESOURCES = {"/Font": "fonts", "/XObject": "pictures", "/ColorSpace": "colours"}
 #: What a certificate consists of beside its pages and attachments, by the keys of the catalog and of its
 #: lists of names. A part that is not among them is none of a certificate, whoever prints it.
@@ -150,8 +156,9 @@ class _Comparison:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
         subject = _say_page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
+            differing = self._prints.list_framing_differences(number, self._prints_again, number_again)
             return CheckedStatement(
-                subject, VerificationVerdict.DIFFERS, "its size, its frame or its links differ"
+                subject, VerificationVerdict.DIFFERS, f"not as printed again: its {', its '.join(differing)}"
             )
         try:
             drawn, drawn_again = self._prints.list_marks(number), self._prints_again.list_marks(number_again)
@@ -252,8 +259,25 @@ class Prints:
             prints._fingerprints.compute_digest(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
             for prints, each in ((self, page), (other, page_of_other))
         )
-        links = [_read_links(each) for each in (page, page_of_other)]
-        return len(set(digests)) == 1 and self.is_like(links[0], other, links[1])
+        return len(set(digests)) == 1 and self._has_like_links(page, other, page_of_other)
+
+    def list_framing_differences(self, number: int, other: Prints, number_of_other: int) -> list[str]:
+        """Return in what two pages differ that are not framed alike."""
+        page, page_of_other = self._reader.pages[number], other._reader.pages[number_of_other]
+        differing = [
+            _FRAMING.get(key, key)
+            for key in sorted({*page, *page_of_other} - _DRAWN)
+            if self._digest_entry(page, key) != other._digest_entry(page_of_other, key)
+        ]
+        if not self._has_like_links(page, other, page_of_other):
+            differing.append("links, notes or fields")
+        return list(dict.fromkeys(differing)) or ["frame"]
+
+    def _digest_entry(self, page: Any, key: str) -> str | None:
+        return self._fingerprints.compute_digest(page.raw_get(key)) if key in page else None
+
+    def _has_like_links(self, page: Any, other: Prints, page_of_other: Any) -> bool:
+        return self.is_like(_read_links(page), other, _read_links(page_of_other))
 
     @cached_property
     def traits(self) -> frozenset[shape.Trait]:

@@ -147,7 +147,9 @@ def verify(
     if stated is None:
         if not carrier.creator.startswith(f"{_PROGRAM} "):
             raise InputError.at(
-                carrier.place, "is no certificate of zlmreport: it carries no results file to verify"
+                carrier.place,
+                "is no certificate of zlmreport: it carries no results file to verify; one that was printed "
+                "to PDF, scanned, split or joined with others has lost it: verify the file as it was issued",
             )
         lacking = CheckedStatement(
             "results file", VerificationVerdict.DIFFERS, "is not attached; every certificate carries one"

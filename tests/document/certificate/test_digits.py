@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -67,19 +69,29 @@ def test_an_uncertainty_by_itself_keeps_two_digits(micrometres: float, expected:
 
 
 TARGETS = range(0, 401, 40)
+ISO = {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}}
+VDI = {"standard": "vdi-dgq-3441", "tolerances": {"P": 150}}
 
 
 def _deviation(target: int, way: str, run: int) -> float:
     return 0.01 * target + 2.3137 * ((7 * run + target // 40) % 5) + (1.7 if way == "-" else 0.0)
 
 
-def _tables(folder: Path, decimals: int, expanded: float, runs: int = 5) -> list[Table]:
+def _tables(  # noqa: PLR0913 - the readings of a test
+    folder: Path,
+    decimals: int,
+    expanded: float,
+    runs: int = 5,
+    evaluated: Mapping[str, Any] = ISO,
+    *,
+    ways: str = "+-",
+) -> list[Table]:
     """Return the tables of the results of a test whose readings have so many decimals."""
     folder.mkdir(exist_ok=True)
     rows = [
         f"{target},{way},{run},{_deviation(target, way, run):.{decimals}f}"
         for run in range(1, runs + 1)
-        for way in "+-"
+        for way in ways
         for target in (TARGETS if way == "+" else reversed(TARGETS))
     ]
     (folder / "x.csv").write_text(
@@ -89,7 +101,9 @@ def _tables(folder: Path, decimals: int, expanded: float, runs: int = 5) -> list
     keys = having("axis", {"name": "X", "kind": "linear"}, keys)
     keys = having("instrument.expanded_uncertainty", expanded, keys)
     keys = having("certificate.layout", "full", keys)
-    (section,) = (each for each in certificate(folder, keys).sections if each.key == "iso230-2-2014")
+    keys = having("evaluate", [evaluated], keys)
+    key = evaluated["standard"].replace(":", "-")
+    (section,) = (each for each in certificate(folder, keys).sections if each.key == key)
     return [block for block in section.blocks if isinstance(block, Table)]
 
 
@@ -154,3 +168,15 @@ def test_a_mean_has_a_digit_more_than_readings_where_it_is_one(
     for row in _rows(by_position):
         assert {_decimals(row[name]) for name in ("x̄i↑", "x̄i↓", "Bi")} == {decimals}
         assert _decimals(row["x̄i"]) == 3  # of both directions, always of several
+
+
+def test_a_reversal_span_of_a_single_run_has_the_digits_of_its_readings(tmp_path: Path) -> None:
+    (by_position,) = (each for each in _tables(tmp_path, 2, 2.0, 1, VDI) if each.dense)
+    assert {_decimals(row["Uj"]) for row in _rows(by_position)} == {2}
+
+
+def test_a_table_tells_no_column_apart_that_it_does_not_have(tmp_path: Path) -> None:
+    (both,) = (each for each in _tables(tmp_path, 2, 2.0, 5, VDI) if each.dense)
+    (one,) = (each for each in _tables(tmp_path, 2, 2.0, 5, VDI, ways="+") if each.dense)
+    assert "Reversal span" in both.caption
+    assert "Reversal span" not in one.caption

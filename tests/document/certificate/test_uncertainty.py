@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, text_of
+from document.certificate.documents import COMPLETE, ROOT, certificate, having, text_of
 from refusals import messages
 from zlmreport.plugin import InputError, Language
 from zlmreport.plugin.renderer import Certificate, Explained, Graph, Notice, Section, Table
@@ -225,3 +225,14 @@ def test_two_measurements_whose_budgets_differ_have_both(tmp_path: Path) -> None
         "Uncertainty of measurement (as left, after the adjustment)",
         "Uncertainty of measurement (as found, before the adjustment)",
     ]
+
+
+def test_of_a_plate_no_axis_is_spoken_of(tmp_path: Path) -> None:
+    keys = {"extends": str(ROOT / "configs" / "flatness" / "certificate.yaml"), "schema": "zlmreport/job/1"}
+    document = certificate(tmp_path, keys)
+    said = text_of(document)
+    assert "The interval of another test holds" in said
+    assert "The scatter from run to run is not in U" in said
+    assert "Another test, 95\N{NO-BREAK SPACE}%" in said.replace("95 %", "95\N{NO-BREAK SPACE}%")
+    assert "Axis, 95" not in said
+    assert "of the axis itself" not in said

@@ -142,7 +142,7 @@ WRONG = {
         10,
         "effects: [{eccentricity: {sine: 1}}]",
         "10:11",
-        "eccentricity cannot act on this test: it belongs to rotary axes",
+        "eccentricity cannot act on this test: for rotary axes only",
     ),
     "negative noise": (
         11,

@@ -79,12 +79,12 @@ def test_one_direction_is_not_enough_for_a_gap_between_two(identifier: str) -> N
 
 @pytest.mark.parametrize("identifier", sorted(LINEAR_ONLY))
 def test_effect_of_lengths_is_none_of_rotary_axes(identifier: str) -> None:
-    assert _reason(identifier, design_for("eccentricity")) == "it belongs to linear axes"
+    assert _reason(identifier, design_for("eccentricity")) == "for linear axes only"
 
 
 @pytest.mark.parametrize("identifier", sorted(ROTARY_ONLY))
 def test_effect_of_a_turn_is_none_of_linear_axes(identifier: str) -> None:
-    assert _reason(identifier, design_for("offset")) == "it belongs to rotary axes"
+    assert _reason(identifier, design_for("offset")) == "for rotary axes only"
 
 
 @pytest.mark.parametrize(
@@ -95,13 +95,13 @@ def test_too_few_targets_are_counted(identifier: str, least: int) -> None:
     design = design_for(identifier)
     assert _reason(identifier, _only(design, design.target < least)) is None
     reason = _reason(identifier, _only(design, design.target < least - 1))
-    assert reason == f"it needs at least {least} target positions; there are {least - 1}"
+    assert reason == f"at least {least} target positions are needed; there are {least - 1}"
 
 
 def test_two_runs_do_not_tell_which_stands_off() -> None:
     design = design_for("first-run")
     reason = _reason("first-run", _only(design, design.run <= 2))
-    assert reason == "it needs at least 3 runs; there are 2"
+    assert reason == "at least 3 runs are needed; there are 2"
 
 
 @pytest.mark.parametrize("identifier", ["thermal-growth", "thermal-drift", "time-periodic", "datum-step"])

@@ -21,6 +21,7 @@ DOWN = [[0.0, 0.0], [1.0, 1.0], [-9.0, -5.0], [8.0, 8.0]]
 TEST = bidirectional_test(TARGETS, UP, DOWN)
 ONE_RUN = simulated_test(runs=1)
 UPWARDS = simulated_test(approaches=[Approach.POSITIVE])
+ONE_RUN_UPWARDS = simulated_test(runs=1, approaches=[Approach.POSITIVE])
 DOWNWARDS = simulated_test(approaches=[Approach.NEGATIVE])
 ROOT_2 = np.sqrt(2)  # s of two readings that differ by 2
 
@@ -309,7 +310,7 @@ def test_titles_name_the_axis_as_the_user_typed_it(identifier: str) -> None:
         (TEST, "limits at 2 standard deviations, largest reversal and repeatability"),
         (UPWARDS, "limits at 2 standard deviations"),
         (ONE_RUN, "largest reversal"),
-        (simulated_test(runs=1, approaches=[Approach.POSITIVE]), ""),
+        (ONE_RUN_UPWARDS, ""),
     ],
     ids=["whole", "one direction", "one run", "one reading"],
 )
@@ -320,3 +321,21 @@ def test_the_caption_of_the_means_names_what_they_show(measurements: Measurement
     drawn = {each.notation for each in figure.panels[0].arrows}
     assert ("B_{i}" in drawn) == ("reversal" in shown)
     assert ("R_{i}" in drawn) == ("repeatability" in shown)
+
+
+@pytest.mark.parametrize(
+    ("identifier", "key", "measurements", "said"),
+    [
+        ("vdi-dgq-3441", "means", ONE_RUN, "mean deviations and reversal span"),
+        ("vdi-dgq-3441", "overall", ONE_RUN, "position deviation and reversal span where they arise"),
+        ("vdi-vde-2617", "overall", ONE_RUN_UPWARDS, "position deviation where it arises"),
+        ("vdi-vde-2617", "overall", UPWARDS, "position uncertainty and position deviation where they arise"),
+        ("iso230-2:1988", "unidirectional", ONE_RUN, "mean deviations by direction"),
+        ("iso230-2:2014", "unidirectional", ONE_RUN, "unidirectional parameters and where they arise"),
+    ],
+)
+def test_a_caption_names_no_parameter_that_a_single_run_does_not_define(
+    identifier: str, key: str, measurements: MeasurementSet, said: str
+) -> None:
+    figure = figures(identifier, measurements)[key]
+    assert figure.title.in_language(Language.ENGLISH).endswith(f": {said}")

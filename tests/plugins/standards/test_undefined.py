@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import evaluated
-from zlmreport.plugin import Approach, Axis, AxisKind, MeasurementSet
+from zlmreport.plugin import Approach, Axis, AxisKind, Language, MeasurementSet
 from zlmreport.testing import bidirectional_test, simulated_test
 
 LONG = simulated_test(13, 1, length=3000)
@@ -124,3 +124,14 @@ def test_a_missing_reading_lowers_n_of_the_nmtba_sample_at_its_position() -> Non
     # Mean of 2, 4, 0, 2, 7 is 3; the squares about it are 1 + 1 + 9 + 1 + 16, on 4 degrees of freedom.
     assert found.column("X").tolist() == pytest.approx([3e-6])
     assert found.column("Ps").tolist() == pytest.approx([6e-6 * np.sqrt(28 / 4)])
+
+
+@pytest.mark.parametrize("identifier", ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "vdi-vde-2617"])
+def test_of_a_single_run_no_standard_deviation_is_spoken_of(identifier: str) -> None:
+    whole, single = (
+        " ".join(note.in_language(Language.ENGLISH) for note in evaluated(identifier, test).notes)
+        for test in (simulated_test(), ONE_RUN)
+    )
+    assert "standard deviations (n − 1)" in whole
+    assert "standard deviations (n − 1)" not in single
+    assert "No parameter is a ± value" in single

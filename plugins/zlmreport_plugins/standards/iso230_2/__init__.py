@@ -131,10 +131,8 @@ def _check_long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Fin
         yield mean_interval(measurements, _MEAN_INTERVAL_OF_LONG_AXIS, Basis.APPLIED)
 
 
-_FULL_WIDTHS = Words(
-    "No parameter is a ± value: spreads and ranges are full widths. The limits lie {k} standard deviations "
-    "(n − 1) to either side of the mean of one direction."
-)
+_FULL_WIDTHS = Words("No parameter is a ± value: spreads and ranges are full widths.")
+_LIMITS = Words("The limits lie {k} standard deviations (n − 1) to either side of the mean of one direction.")
 _REPEATABILITY = Words(
     "R is the largest bidirectional repeatability of a position; it contains the reversal there and can "
     "exceed both R↑ and R↓."
@@ -165,7 +163,7 @@ _OF_ANGLES = Words(
 
 def list_notes(edition: Edition) -> tuple[Words, ...]:
     """Return the notes of an edition."""
-    general = (_FULL_WIDTHS.given(k=edition.coverage_factor), _REPEATABILITY)
+    general = (_FULL_WIDTHS, _LIMITS.given(k=edition.coverage_factor), _REPEATABILITY)
     if edition.prints_reversal_as_negative_minus_positive:
         return (*general, _OPPOSITE_REVERSAL, _NOT_COMPARABLE, _SOURCE)
     return (*general, _REVERSAL)
@@ -176,7 +174,7 @@ _NOTES_ON: tuple[tuple[tuple[str, ...], Words], ...] = (
     (("R",), _REPEATABILITY),
     (("B", "B_mean"), _REVERSAL),
     (("B_mean",), _OPPOSITE_REVERSAL),
-    (("A", "A_fwd", "A_bwd", "R", "R_fwd", "R_bwd"), _NOT_COMPARABLE),
+    (_OF_SCATTER, _NOT_COMPARABLE),
 )
 
 
@@ -190,7 +188,6 @@ class Iso230Part2:
     title = Words("Accuracy and repeatability of positioning of numerically controlled axes")
     options = Options
     information = tuple(Information)
-    notes_on = _NOTES_ON
 
     measurands = (POSITIONING, ANGLE)
 
@@ -202,6 +199,7 @@ class Iso230Part2:
         self.position_index = edition.position_index
         self.quantities = editions.list_parameters(edition, of_angle=of_angle)
         self.position_quantities = editions.list_by_position(edition)
+        self.notes_on = (*_NOTES_ON, (_OF_SCATTER, _LIMITS.given(k=edition.coverage_factor)))
         self.notes = (*((_OF_ANGLES,) if of_angle else ()), *list_notes(edition))
 
     def of_error(self, error: ErrorSymbol | Measurand) -> Iso230Part2:

@@ -97,6 +97,8 @@ class _Graphs:
         """Return a panel for each direction that was measured, with its own parameters."""
         panels = [self._draw_direction(approach) for approach in self.diagram.approaches]
         title = Words("Axis {axis}: unidirectional parameters and where they arise")
+        if not any(panel.arrows or panel.brackets for panel in panels):
+            title = Words("Axis {axis}: mean deviations by direction")
         return self._make_figure("unidirectional", title, *panels)
 
     def _draw_direction(self, approach: Approach) -> Panel:

@@ -7,7 +7,16 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.plugin import MICROMETRE, MILLIMETRE, Axis, Evaluation, Figure, FloatArray, Words
+from zlmreport.plugin import (
+    MICROMETRE,
+    MILLIMETRE,
+    Axis,
+    Evaluation,
+    Figure,
+    FloatArray,
+    Words,
+    same_in_all_languages,
+)
 from zlmreport.plugin.standard import Curve, Note, Panel, Role, range_in_words
 from zlmreport_plugins.standards.union_jack.heights import Plate, find_plate_of
 from zlmreport_plugins.union_jack_lines import (
@@ -129,9 +138,9 @@ def _draw_plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
             written.append(place)
             east, north = _write_millimetres(place).tolist()
             notes.append(Note(east, north, _write_number(height)))
-    for name, words in _POINTS.items():
+    for name in ("NW", "NE", "SE", "SW"):
         east, north = _write_millimetres(np.array(_find_corner(plate, name))).tolist()
-        notes.append(Note(east, north, words, is_below=True))
+        notes.append(Note(east, north, same_in_all_languages(name), is_below=True))
     return Panel(curves=tuple(curves), notes=tuple(notes), projection="wire")
 
 
@@ -191,12 +200,6 @@ def _place(place: FloatArray) -> Words:
     return _AT.given(east=east, north=north)
 
 
-_POINTS = {
-    "NW": Words("NW"),
-    "NE": Words("NE"),
-    "SE": Words("SE"),
-    "SW": Words("SW"),
-}
 _HEIGHT = Words("Height")
 _HEIGHTS = Words("Heights")
 _WIRE = Words("The plate above its lowest point, drawn isometrically; heights in µm")

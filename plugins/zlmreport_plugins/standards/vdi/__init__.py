@@ -62,10 +62,10 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, list_quantities
 
-_WIDTHS = Words(
-    "No parameter is a ± value: spreads and ranges are full widths. The position spread is {k} times the sum "
-    "of the standard deviations (n − 1) of both directions; the limits lie half the sum of reversal span and "
-    "position spread to either side of the mean."
+_FULL_WIDTHS = Words("No parameter is a ± value: spreads and ranges are full widths.")
+_SPREAD = Words(
+    "The position spread is {k} times the sum of the standard deviations (n − 1) of both directions; the "
+    "limits lie half the sum of reversal span and position spread to either side of the mean."
 )
 _NOT_ACCURACY = Words(
     "P averages the scatter of both directions and therefore differs from the A of ISO 230-2, even at the "
@@ -76,16 +76,34 @@ _ONE_DIRECTION = Words(
     "position spread {times} times its standard deviation (n − 1), and the limits lie half of it to either "
     "side of the mean, without any reversal span. The formulas above are those for both directions."
 )
-_INDEX = Words("The reversal span is an amount without sign. The index mit marks a mean over the positions.")
-_INDEX_OF_SPREAD = Words("The index mit marks a mean over the positions.")
+_INDEX = Words(
+    "The reversal span is an amount without sign. The index “mit” marks a mean over the positions."
+)
+_INDEX_OF_SPREAD = Words("The index “mit” marks a mean over the positions.")
 _SOURCE = Words("Formulas as in the manual of the program ZLM Position, G 1.3.")
 
 _MEAN = Words("Mean deviation")
 _RUNS = 5
 _ONE_DIRECTION_ONLY = Words(
-    "the guideline does not provide for this: P, Pa and Ps are formed from this direction, U does not exist"
+    "the guideline does not provide for this: the parameters are formed from this direction alone; there is "
+    "no reversal span"
 )
 
+#: What the graphs show, by whether there is a spread, and both directions.
+_OF_MEANS = {
+    (True, True): Words("Axis {axis}: mean deviations, reversal span and position spread"),
+    (True, False): Words("Axis {axis}: mean deviations and position spread"),
+    (False, True): Words("Axis {axis}: mean deviations and reversal span"),
+    (False, False): Words("Axis {axis}: mean deviations"),
+}
+_OF_PARAMETERS = {
+    (True, True): Words(
+        "Axis {axis}: position uncertainty, position deviation and reversal span where they arise"
+    ),
+    (True, False): Words("Axis {axis}: position uncertainty and position deviation where they arise"),
+    (False, True): Words("Axis {axis}: position deviation and reversal span where they arise"),
+    (False, False): Words("Axis {axis}: position deviation where it arises"),
+}
 
 #: Notes that speak of parameters, with the symbols of which one must be reported.
 _NOTES_ON: tuple[tuple[tuple[str, ...], Words], ...] = (
@@ -100,7 +118,6 @@ class VdiGuideline:
     position_index = "j"
     options = Options
     position_quantities = BY_POSITION
-    notes_on = _NOTES_ON
 
     def __init__(self, guideline: Guideline) -> None:
         self.guideline = guideline
@@ -108,7 +125,9 @@ class VdiGuideline:
         self.designation = guideline.designation
         self.title = guideline.title
         self.quantities = list_quantities(guideline)
-        self.notes: tuple[Words, ...] = (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
+        spread = _SPREAD.given(k=guideline.factor)
+        self.notes_on = (*_NOTES_ON, (("Ps_max",), spread))
+        self.notes: tuple[Words, ...] = (_FULL_WIDTHS, spread, _NOT_ACCURACY, _INDEX, _SOURCE)
         #: Of a test in one direction the formulas for both do not hold.
         self.notes_of_one_direction: tuple[Words, ...] = (
             _ONE_DIRECTION.given(times=2 * guideline.factor),
@@ -201,13 +220,12 @@ class _Graphs:
         self.bidirectional = self.diagram.is_bidirectional
         self.mean = mean_deviation(self.statistics)
         self.reversal, self.spread = evaluation.column("U"), evaluation.column("Ps")
+        self.has_spread = bool(np.isfinite(self.spread).any())
         self.half = half_width(self.reversal, self.spread, self.statistics)
 
     def draw_means(self) -> Figure:
         """Return means, reversal and spread by position, with U_j/2 and P_sj/2 where the band is widest."""
-        title = Words("Axis {axis}: mean deviations, reversal span and position spread")
-        if not self.bidirectional:
-            title = Words("Axis {axis}: mean deviations and position spread")
+        title = _OF_MEANS[self.has_spread, self.bidirectional]
         shown = diagram_panel(
             bands=[self._draw_spread_band(), self._draw_reversal_band()],
             readings=self.diagram.readings(),
@@ -218,11 +236,7 @@ class _Graphs:
 
     def draw_overall(self) -> Figure:
         """Return P, P_a and U_max at the places where they arise."""
-        title = Words(
-            "Axis {axis}: position uncertainty, position deviation and reversal span where they arise"
-        )
-        if not self.bidirectional:
-            title = Words("Axis {axis}: position uncertainty and position deviation where they arise")
+        title = _OF_PARAMETERS[self.has_spread, self.bidirectional]
         shown = diagram_panel(
             bands=[self._draw_spread_band()],
             curves=self._draw_curves(),

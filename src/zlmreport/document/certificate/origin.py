@@ -82,7 +82,7 @@ _OF_LINE = Words("Readings of {name}, read by {source}")
 _READING_AID = Words(
     "Values were computed from the unrounded readings, and limits are compared with unrounded values; "
     "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
-    "readings."
+    "readings, in the tables by position to one more at most."
 )
 _TERMS = Words(
     "Parameters and requirements are named by this program's translation of the English editions; a national "

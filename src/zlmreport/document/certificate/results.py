@@ -32,6 +32,7 @@ from zlmreport.evaluation.evaluation import Basis, Finding, QuantityGroup
 from zlmreport.evaluation.uncertainty.wording import RAISED_TO
 from zlmreport.language import Words
 from zlmreport.language.formatting import write_plain
+from zlmreport.measurement.arrays import count_decimals_of
 
 if TYPE_CHECKING:
     from zlmreport.document.figures.figure import Figure
@@ -247,18 +248,27 @@ def _lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
     for arrows, expanded in _list_mean_uncertainties(evaluation):
         columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
         cells.append(tuple(write_uncertainty(float(value), writer) for value in expanded))
-    for column in evaluation.columns:
-        if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
-            add(column.quantity.notation, column.values)
+    shown = [column for column in evaluation.columns if not np.isnan(column.values).all()]
+    for column in shown:
+        add(column.quantity.notation, column.values, _choose_writing(column.values, measurements, writer))
     caption = Words("Results by target position")
     told, symbols = tell_columns_apart(
         caption,
-        (column.quantity for column in evaluation.columns),
+        (column.quantity for column in shown),
         has_uncertainty=evaluation.mean_uncertainty is not None,
         writer=writer,
     )
     rows = tuple(zip(*cells, strict=True))
     return Table(told, tuple(columns), (RowGroup(rows),), dense=True, symbols=symbols)
+
+
+def _choose_writing(
+    values: FloatArray, measurements: MeasurementSet, writer: Writer
+) -> Callable[[float], str]:
+    """Return what writes a standard's own column: of a single run with no digit that no reading has."""
+    in_unit, decimals = writer.deviation_unit.from_si(values), writer.deviation_decimals
+    is_read = len(measurements.runs) == 1 and count_decimals_of(in_unit, decimals + 1) <= decimals
+    return writer.deviation if is_read else writer.mean
 
 
 def _list_mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:

@@ -19,6 +19,7 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
 )
+from zlmreport.document.certificate.values import is_of_axis
 from zlmreport.document.figures.bars import draw_budget
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
@@ -42,6 +43,10 @@ _INTERVAL = Words(
     "{coverage} The interval of the axis holds, with the same probability, what another test of this "
     "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in "
     "it."
+)
+_INTERVAL_OF_ANOTHER_TEST = Words(
+    "{coverage} The interval of another test holds, with the same probability, what another test by the same "
+    "plan would find with the same set-up left in place; errors of the set-up are not in it."
 )
 _INCOMPLETE = Words("U incomplete: {missing} not considered")
 _INCOMPLETE_MEANS = Words(
@@ -81,6 +86,13 @@ _SCATTER = Words(
 _UNSEEN_SCATTER = Words(
     "The scatter of the axis itself is a property of the axis and no uncertainty of the measurement; a "
     "single run does not show it."
+)
+_SCATTERS_OF_RUNS = (
+    Words(
+        "The scatter from run to run is not in U: what it makes of a parameter is in the interval of another "
+        "test."
+    ),
+    Words("The scatter from run to run is not in U; a single run does not show it."),
 )
 _SCATTER_OF_THE_MACHINE = Words(
     "What the machine does otherwise from time to time is a property of the machine, and no uncertainty "
@@ -124,7 +136,8 @@ def say_uncertainty(
     elif budget.is_complete:
         parameters = [each for evaluation in evaluations for each in evaluation.parameters]
         has_interval = any(each.axis_interval is not None for each in parameters)
-        yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if has_interval else _COVERAGE))
+        interval = _INTERVAL if all(map(is_of_axis, evaluations)) else _INTERVAL_OF_ANOTHER_TEST
+        yield Paragraph(writer.say(interval.given(coverage=_COVERAGE) if has_interval else _COVERAGE))
     else:
         missing = join_parts(
             (writer.say(wording.name_contributor(name)) for name in budget.missing), writer.language
@@ -179,9 +192,9 @@ def _lay_out_blocks(
     if any(not usual_least <= factor <= usual_most for factor in factors if factor is not None):
         said.append(_FACTOR)
     yield Paragraph(" ".join(map(writer.say, said)))
-    scatters = any(len(each.runs) > 1 for each in measurements.lines)
-    of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
-    yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
+    unseen = all(len(each.runs) == 1 for each in measurements.lines)
+    of_item = (_SCATTER, _UNSEEN_SCATTER) if is_of_axis(evaluations[0]) else _SCATTERS_OF_RUNS
+    yield Paragraph(writer.say(of_item[unseen] if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
         yield from lay_out_own_blocks(budget, axis, writer, with_bars=with_bars)
     if budget.negligible:

@@ -25,11 +25,16 @@ if TYPE_CHECKING:
 _SYMBOL = Words("Symbol")
 _PARAMETER = Words("Parameter")
 _VALUE = Words("Value")
-_AXIS = Words("Axis, 95 %")
+_AXIS, _ANOTHER_TEST = Words("Axis, 95 %"), Words("Another test, 95 %")
 _LIMIT = Words("Limit")
 _CONFORMITY = Words("Conformity")
 _DECIMALS_OF_K = 2
 _TOLD_APART = Words("{caption}. U is the expanded uncertainty of measurement; {others}")
+
+
+def is_of_axis(evaluation: Evaluation) -> bool:
+    """Tell whether what is evaluated belongs to an axis, and not to an item that has none, as a plate."""
+    return evaluation.measurements.axis.measurand.item is None
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,17 +47,20 @@ class Values:
     has_uncertainty: bool
     has_limits: bool
     has_interval: bool = False
+    interval: Words = _AXIS  #: How its column is headed; what is no axis has none.
     is_mixed: bool = False  #: Whether they have different units: each value then has its own beside it.
 
     @classmethod
     def of(cls, evaluations: Iterable[Evaluation], writer: Writer, *, with_interval: bool = False) -> Values:
         """Return the columns for the parameters of evaluations, with the interval of the axis if wanted."""
+        evaluations = tuple(evaluations)
         parameters = [parameter for each in evaluations for parameter in each.parameters]
         return cls(
             writer,
             any(parameter.expanded_uncertainty is not None for parameter in parameters),
             any(parameter.limit is not None for parameter in parameters),
             with_interval and any(parameter.axis_interval is not None for parameter in parameters),
+            _AXIS if all(map(is_of_axis, evaluations)) else _ANOTHER_TEST,
             is_mixed(parameters, writer),
         )
 
@@ -66,7 +74,7 @@ class Values:
             yield Column(Symbol("U"), unit, Align.RIGHT)
             yield Column(Symbol("k"), align=Align.RIGHT)
         if self.has_interval:
-            yield Column(say(_AXIS), unit, Align.RIGHT)
+            yield Column(say(self.interval), unit, Align.RIGHT)
         if self.has_limits:
             yield Column(
                 say(_LIMIT) + self.writer.marks.write_after("evaluate.tolerances"), unit, Align.RIGHT

@@ -121,9 +121,13 @@ def _say_fault(signatures: tuple[Signature, ...]) -> str:
     if all(each.is_stamp for each in signatures):
         return "what is left of its signature cannot be found"
     if not all(signature.holds for signature in signatures):
-        return "it is not what was signed"
+        return (
+            "it is not what was signed: another program saved it again, or somebody changed it; ask for the "
+            "file as it was issued"
+        )
     if not signatures[-1].covers_file:
-        return f"something was added after it was signed: {signatures[-1].changes or 'what leads nowhere'}"
+        added = signatures[-1].changes or "bytes to which nothing leads"
+        return f"something was added after it was signed: {added}"
     changed = next((each.changes for each in signatures if each.changes), "")
     return f"it was changed after it was signed: {changed}" if changed else ""
 

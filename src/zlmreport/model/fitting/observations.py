@@ -18,6 +18,8 @@ from zlmreport.model.effects.readings import LOGS_OF_AIR
 
 #: Noise of a log, as a share of its variation, from which on effects cannot be told by it.
 _NOISY = 0.2
+#: The largest such share that is told as a number: the variation is next to nothing beyond it.
+_MOST_NOISE = 10
 #: Resolution of a log, as a share of its range, from which on its steps show.
 _COARSE = 0.1
 #: Share of a log that may be missing for the rest to tell it, and gaps that are named.
@@ -34,7 +36,7 @@ _FILLED = Words(
     "in time. Readings in the order of the file: {rows}."
 )
 _NOISE = Words(
-    "The log of {condition} is noisy: its noise is {share} of its variation. Effects that follow it may "
+    "The log of {condition} is noisy: its noise is {share} times its variation. Effects that follow it may "
     "be taken for others."
 )
 _RESOLUTION = Words("The log of {condition} is coarse: its resolution is {share} of its range.")
@@ -192,7 +194,8 @@ def _measure_since_reversal(position: FloatArray, direction: FloatArray, overrun
 def _find_doubts(name: str, log: FloatArray, noise: float, variation: float) -> Iterator[Words]:
     """Yield what makes a log doubtful."""
     if noise > _NOISY * variation:
-        share = round(noise / variation, 1) if variation > 0 else float("inf")
+        is_beyond = noise > _MOST_NOISE * variation
+        share = same(f"> {_MOST_NOISE}") if is_beyond else round(noise / variation, 1)
         yield _NOISE.given(condition=same(name), share=share)
     steps = np.diff(np.unique(log))
     if steps.size and steps.min() > _COARSE * np.ptp(log):

@@ -13,7 +13,7 @@ from hypothesis import given, strategies as st
 from installed import registry
 from plugins.standards.union_jack.plates import evaluated, line, read, values
 from zlmreport.measurement.measurement_set import join_lines
-from zlmreport.plugin import Axis, Language, MeasurementSet
+from zlmreport.plugin import Axis, Language, MeasurementSet, Words
 from zlmreport.plugin.extension import Acts, Contribution
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack.heights import find_plate_of
@@ -145,3 +145,11 @@ def test_a_line_of_one_reading_gives_no_flatness() -> None:
     """Its ends are all that it has; a plate of nothing but ends would be flat."""
     one = {**HOLLOW, "N-S": line("N-S", [5.0], foot=600.0)}
     assert values(one) == {}
+
+
+def test_corners_are_called_as_the_lines_through_them_in_every_language() -> None:
+    standard = registry().standard("union-jack")
+    _, plan = standard.figures(evaluated(moody()), standard.options())
+    words = [each.value for each in plan.panels[0].notes if isinstance(each.value, Words)]
+    for language in Language:
+        assert [each.in_language(language) for each in words] == ["NW", "NE", "SE", "SW"]
