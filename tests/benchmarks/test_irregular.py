@@ -9,7 +9,7 @@ from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 
 
 def test_a_drawn_axis_is_off_by_far_more_than_its_readings_scatter() -> None:
-    found = diagnose_drawn_axis(2001, 7)
+    found = diagnose_drawn_axis(2000, 7)
     assert found.error.noise_rms is not None
     assert found.error.rms > 2 * found.error.noise_rms
     assert found.verdict is DiagnosisVerdict.UNEXPLAINED

@@ -15,7 +15,7 @@ from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
-from zlmreport.plugin import Axis, AxisKind, FloatArray
+from zlmreport.plugin import FloatArray
 from zlmreport.plugin.effect import Design, Effect
 
 DESIGN = linear_test()
@@ -91,19 +91,6 @@ def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
 def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
     found = _found(_hiding(("backlash-bow", []), ("time-periodic", [290.0])))
     assert _names(found) == {"backlash-bow", "time-periodic"}
-
-
-@pytest.mark.parametrize("seed", [0, 1, 6])
-def test_a_bow_that_is_much_like_two_causes_makes_them_no_cheaper(seed: int) -> None:
-    # Of every target some geometry stays: a bow of the lost motion gains a little by it.
-    random = np.random.default_rng(seed)
-    places = np.round(np.sort(np.random.default_rng(5).uniform(0, 2 * np.pi, 31)), 3)
-    axis = Axis("C", kind=AxisKind.ROTARY, travel=(0.0, 2 * np.pi))
-    design = linear_test(31, 5, axis=axis, places=places)
-    lost_motion = 8 + 4 * np.sin(design.position + 2.2 * seed)
-    geometry = 0.5 * random.standard_normal(31)[design.target]
-    found = _found(SIGMA * (lost_motion * design.direction + geometry) + noise(design, seed), design)
-    assert _names(found) == {"backlash", "lost-motion-turn"}
 
 
 def test_what_came_in_first_goes_out_for_what_is_better_without_it() -> None:

@@ -29,8 +29,11 @@ _IRREGULAR = (NAMED_BESIDE, 2 * NAMED_BESIDE)
 TOLD_APART = 6.0
 #: What a rival may lack that is told of.
 BEHIND = 40.0
-#: How many names one curve without a name replaces, at odds up to 20 to 1, that they are not told.
-_MANY = 3
+#: Evidence that decides nothing: odds of 5 to 3.
+_TOSS_UP = 1.0
+#: How many names one curve without a name replaces, and what evidence the set with it may lack, that they are
+#: not told: of many at odds up to 20 to 1, of two where it is a toss-up.
+_REPLACED = ((3, TOLD_APART), (2, _TOSS_UP))
 
 
 def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
@@ -56,8 +59,8 @@ def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
             return _keep_sure(search, kept)
         kept = _drop_needless(search, alone)
     # With enough names any curve is described: several that one curve replaces are not told.
-    if not search.has_nameless(kept):
-        fewer = search.find_fewer_beside_curve(kept, _MANY, TOLD_APART)
+    for names, within in _REPLACED:
+        fewer = None if search.has_nameless(kept) else search.find_fewer_beside_curve(kept, names, within)
         kept = kept if fewer is None else _drop_needless(search, fewer)
     # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
     return kept

@@ -46,32 +46,31 @@ class SetCosts:
         variance = reduced.squares / contest.space.degrees
         solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
-        covariance = variance * inverse
-        ends = np.cumsum([len(each.columns) for each in members])
-        pairs = zip(members, ends.tolist(), strict=True)
-        slices = [slice(end - len(each.columns), end) for each, end in pairs]
-        cost = sum(each.family.price + each.spread for each in members)
-        for each, own in zip(members, slices, strict=True):
-            if each.family.is_named:
-                cost += self._weigh_unusual(each, solved[own], covariance[own, own])
-        for number, root, values in _take_in_turn(slices, solved, covariance):
-            square = contest.expected.find_square(members[number].identifier)
-            for explained, rank in self._by_size(members[number], root, values):
+        cost, first = 0.0, 0
+        for each in members:
+            own = slice(first, first + len(each.columns))
+            first = own.stop
+            square = contest.expected.find_square(each.identifier)
+            cost += each.family.price + each.spread
+            root = _find_root_of_inverse(variance * inverse[own, own])
+            for explained, rank in self._by_size(each, solved[own], root):
                 cost += contest.weigh_block(explained, rank, square)
+            if each.family.is_named:
+                cost += self._weigh_unusual(each, solved[own], variance * inverse[own, own])
         return cost
 
     def _by_size(
-        self, member: SetMember, root: FloatArray, values: FloatArray
+        self, member: SetMember, solved: FloatArray, root: FloatArray
     ) -> Iterator[tuple[float, int]]:
-        """Yield what a member explains beside those before it, in σ², and with how many columns.
+        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
 
         All its coefficients are of one size, but for an effect that contains others: a polynomial is a
         constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
         those before it leave.
 
         `root`: R, RᵀR the information on its coefficients.
-        `values`: What it explains, in the coordinates of R.
         """
+        values = root @ solved
         if not member.effect.contains:
             yield float(values @ values), member.rank
             return
@@ -108,28 +107,11 @@ class SetCosts:
         return self._turns[place]
 
 
-def _take_in_turn(
-    slices: Sequence[slice], solved: FloatArray, covariance: FloatArray
-) -> Iterator[tuple[int, FloatArray, FloatArray]]:
-    """Yield members in turn, the largest first: its place, the root of its information, what it explains.
-
-    What is explained is shared out among them, and with it what the readings determine: of two that are much
-    alike the second has little of its own, and makes the first no cheaper.
-    """
-    information = np.linalg.pinv(covariance, rcond=_DEPENDENT, hermitian=True)
-    moments = information @ solved
-    sizes = moments**2 / np.maximum(np.diagonal(information), np.finfo(float).tiny)
-    order = sorted(range(len(slices)), key=lambda number: -float(sizes[slices[number]].sum()))
-    places = np.concatenate([np.arange(slices[number].start, slices[number].stop) for number in order])
-    turned = information[np.ix_(places, places)]
-    turned[np.diag_indices_from(turned)] *= 1.0 + _DEPENDENT
-    lower = np.linalg.cholesky(turned)
-    values = np.linalg.solve(lower, moments[places])
-    first = 0
-    for number in order:
-        own = slice(first, first + slices[number].stop - slices[number].start)
-        first = own.stop
-        yield number, lower[own, own].T, values[own]
+def _find_root_of_inverse(covariance: FloatArray) -> FloatArray:
+    """Return R with RᵀR the inverse of a covariance; directions in which nothing is determined are zero."""
+    values, vectors = np.linalg.eigh(covariance)
+    is_seen = values > _DEPENDENT * values[-1]
+    return np.asarray((vectors / np.sqrt(np.where(is_seen, values, np.inf))).T)
 
 
 def weigh_size(

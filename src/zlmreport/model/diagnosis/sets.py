@@ -89,7 +89,7 @@ class SetSearch:
         if not self._list_loud(released):
             released = self._climb(released, self._whole, is_thorough=True)
             released = self._put_pairs_for_one(self._do_without_each(released, self._whole))
-            released = self._go_on_from_seen(self._put_forms_for_two(released))
+            released = self._put_forms_for_two(released)
             is_whole = 0 < len(released.named) <= _FEW and not self._climbs.is_coloured(released)
             if is_whole and min(self.compute_own_evidence(released)) > _SURE:
                 return released
@@ -101,7 +101,7 @@ class SetSearch:
         told(0.7)
         best = self._go_back_to_names(best, named)
         told(0.8)
-        best = self._go_on_from_seen(self._put_forms_for_two(self._go_on_without_each(best, named)))
+        best = self._put_forms_for_two(self._go_on_without_each(best, named))
         told(1.0)
         return best
 
@@ -159,12 +159,6 @@ class SetSearch:
                     end = self._release(self._do_without_each(each, scope))
                     best = min(best, self._climb(end, self._whole), key=find_score)
         return self._put_pairs_for_one(self._do_without_each(best, self._whole))
-
-    def _go_on_from_seen(self, best: EffectSet) -> EffectSet:
-        """Return where a climb leads from the best set that was looked at and not gone on from."""
-        while (seen := min(self._sets.best.values(), key=find_score)).score < best.score - GAIN:
-            best = min(seen, self._climb(self._release(seen), self._whole), key=find_score)
-        return best
 
     def _put_pairs_for_one(self, now: EffectSet) -> EffectSet:
         """Return where climbs lead in which two names have the place of one, as long as one ends higher.
