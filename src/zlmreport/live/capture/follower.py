@@ -284,8 +284,10 @@ class Follower:
         `gap`: How long nobody saw it, s.
         """
         settings = self._settings
-        if gap <= settings.beyond or gap >= settings.stay:
-            return gap >= settings.stay
+        if gap >= settings.stay:
+            return True
+        if gap <= settings.beyond:
+            return False
         if gap > settings.turn or not settings.feed:
             return True
         ways = (
