@@ -27,8 +27,6 @@ _FEWEST_WAVES, _STEPS_PER_WAVE = 1.3, 4
 #: Waves within the test: fewer are a drift, more are taken for noise; how many more where each has how many
 #: readings: a cooler switches often while an axis is measured for an hour.
 _WAVES_IN_TIME, _MOST_WAVES_IN_TIME, _READINGS_PER_WAVE = (1.3, 9.0), 24.0, 8
-#: Least share of a wave in time that is no matter of the place.
-_CHANGING = 0.25
 #: Closer to the ends a kink is hardly more than a single target that stands off.
 _KINKS = np.linspace(0.12, 0.88, 20) - 0.5
 #: Of the travel or the time, about the middle: where a hump may lie, and how wide it may be. What is narrower
@@ -108,21 +106,7 @@ def _list_waves_in_time(design: Design) -> FloatArray:
     fewest, most = _WAVES_IN_TIME
     most = float(np.clip(len(design.time) / _READINGS_PER_WAVE, most, _MOST_WAVES_IN_TIME))
     waves = np.linspace(fewest, most, 1 + round(_STEPS_PER_WAVE * (most - fewest)))
-    periods = np.asarray(design.duration / waves, dtype=np.float64)
-    changes = np.array([_compute_share_that_changes(design, each) for each in periods])
-    return periods[changes > _CHANGING] if changes.max() > _CHANGING else periods
-
-
-def _compute_share_that_changes(design: Design, period: float) -> float:
-    """Return the share of the variance of a wave in time that differs from run to run at the same target.
-
-    What repeats in every run is a matter of the place.
-    """
-    wave = np.exp(2j * np.pi * design.time / period)
-    visit = 2 * design.target + (design.direction > 0)
-    counts = np.maximum(np.bincount(visit), 1)
-    mean = (np.bincount(visit, wave.real) + 1j * np.bincount(visit, wave.imag)) / counts
-    return float(np.mean(np.abs(wave - mean[visit]) ** 2))
+    return np.asarray(design.duration / waves, dtype=np.float64)
 
 
 def _list_gaps(design: Design) -> FloatArray:
