@@ -297,26 +297,16 @@ class SetSearch:
     def find_fewer_beside_curve(self, found: EffectSet, names: int, within: float) -> EffectSet | None:
         """Return the best of all sets looked at in which curves without a name replace several names each.
 
-        Where another of no more parts is better, with names in the place of the curves, it is that one.
-
         `names`: How many one replaces at least; each further one replaces one more.
         `within`: What evidence it may lack; None where all lack more.
         """
-        known = self._sets.best.values()
         fewer = [
             each
-            for each in known
+            for each in self._sets.best.values()
             if 0 < self.count_nameless(each) <= len(found.named) - len(each.named) - names + 1
             and each.score < found.score + within
         ]
-        if not fewer:
-            return None
-        most = self._count_parts(min(fewer, key=find_score))
-        return min((each for each in known if self._count_parts(each) <= most), key=find_score)
-
-    def _count_parts(self, found: EffectSet) -> int:
-        """Return how many effects, forms and curves are in a set, beyond what noise may be."""
-        return len(found.named) + self.count_nameless(found)
+        return min(fewer, key=find_score, default=None)
 
     def find_irregular_instead(self, found: EffectSet, within: Sequence[float]) -> EffectSet | None:
         """Return the best of all sets looked at in which what is irregular has the place of names.
