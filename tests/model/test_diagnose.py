@@ -161,6 +161,26 @@ def test_a_wave_in_time_has_its_name_also_where_its_period_had_to_be_searched_fo
     assert found.remainder is None
 
 
+@pytest.mark.parametrize(("runs", "waves"), [(5, 21.4), (3, 14.2)])
+def test_a_cooler_that_switches_often_while_an_axis_is_measured_has_its_name(runs: int, waves: float) -> None:
+    design, model = linear_test(21, runs), model_of("offset")
+    causes = {"time-periodic": [design.duration / waves], "backlash": []}
+    parts = [hidden(design, name, theta, size=1.5, model=model) for name, theta in causes.items()]
+    found = diagnose(model, observations(design, np.sum(parts, axis=0) + noise(design)), INSTALLED)
+    assert {each.identifier for each in found.together} == set(causes)
+    assert found.remainder is None
+
+
+def test_waves_in_time_are_sought_as_far_as_each_has_eight_readings() -> None:
+    def count_waves(targets: int, runs: int) -> float:
+        design = linear_test(targets, runs)
+        return float(np.max(design.duration / EFFECTS["time-periodic"].grid(design)))
+
+    assert count_waves(21, 5) == pytest.approx(24)
+    assert count_waves(21, 3) == pytest.approx(126 / 8)
+    assert count_waves(9, 3) == pytest.approx(9)
+
+
 def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     place = DESIGN.position
     shape = (

@@ -86,7 +86,7 @@ class Search(StrEnum):
     TIME_CONSTANT = "time-constant"  #: Shares of the test's time, from a twentieth to one and a half.
     DRIFT_TIME = "drift-time"  #: The same, and so long a one that what drifts does so steadily.
     WAVE_LENGTH = "wave-length"  #: From one wave in the travel to half as many as there are targets.
-    WAVE_TIME = "wave-time"  #: From one wave in the test to nine.
+    WAVE_TIME = "wave-time"  #: From one wave in the test to nine, with many readings more, up to 24.
     JOINT = "joint"  #: Between any two targets but the outermost.
     MOMENT = "moment"  #: Between any two readings but the outermost.
     KINK = "kink"  #: Anywhere in the travel but near its ends.

@@ -51,7 +51,9 @@ def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
         kept = _drop_needless(search, alike)
     irregular = search.find_irregular_instead(kept, _IRREGULAR)
     if irregular is not None:
-        return _keep_sure(search, _drop_needless(search, irregular))
+        kept = _drop_needless(search, irregular)
+        # Beside a few names it may be needless: what then explains all is as sure as any set of names.
+        return _keep_sure(search, kept) if search.has_nameless(kept) else kept
     if search.has_nameless(found):
         # Beside names a form or a curve has to be better than a toss-up with one name more.
         alone = search.find_names_alone(kept, MENTION) if kept.named else None

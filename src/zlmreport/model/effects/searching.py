@@ -24,8 +24,9 @@ _WARMING = np.geomspace(0.05, 1.5, 12)
 _DRIFTING = np.append(_WARMING, 5.0)
 #: Fewer waves in the travel are a bow; steps by which a wave shifts a quarter of a period over the travel.
 _FEWEST_WAVES, _STEPS_PER_WAVE = 1.3, 4
-#: Waves within the test: fewer are a drift, more are taken for noise.
-_WAVES_IN_TIME = np.linspace(1.3, 9.0, 32)
+#: Waves within the test: fewer are a drift, more are taken for noise; how many more where each has how many
+#: readings: a cooler switches often while an axis is measured for an hour.
+_WAVES_IN_TIME, _MOST_WAVES_IN_TIME, _READINGS_PER_WAVE = (1.3, 9.0), 24.0, 8
 #: Closer to the ends a kink is hardly more than a single target that stands off.
 _KINKS = np.linspace(0.12, 0.88, 20) - 0.5
 #: Of the travel or the time, about the middle: where a hump may lie, and how wide it may be. What is narrower
@@ -100,6 +101,14 @@ def _list_waves_along(design: Design) -> FloatArray:
     return design.length / np.arange(_FEWEST_WAVES, most + 1e-9, 1 / _STEPS_PER_WAVE)
 
 
+def _list_waves_in_time(design: Design) -> FloatArray:
+    """Return periods in time, even in their inverse."""
+    fewest, most = _WAVES_IN_TIME
+    most = float(np.clip(len(design.time) / _READINGS_PER_WAVE, most, _MOST_WAVES_IN_TIME))
+    waves = np.linspace(fewest, most, 1 + round(_STEPS_PER_WAVE * (most - fewest)))
+    return np.asarray(design.duration / waves, dtype=np.float64)
+
+
 def _list_gaps(design: Design) -> FloatArray:
     """Return the middle of every gap between targets but the outer ones."""
     targets = design.target_positions
@@ -134,7 +143,7 @@ _WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
         Search.TIME_CONSTANT: lambda design: design.duration * _WARMING,
         Search.DRIFT_TIME: lambda design: design.duration * _DRIFTING,
         Search.WAVE_LENGTH: _list_waves_along,
-        Search.WAVE_TIME: lambda design: design.duration / _WAVES_IN_TIME,
+        Search.WAVE_TIME: _list_waves_in_time,
         Search.JOINT: _list_gaps,
         Search.MOMENT: _list_moments,
         Search.KINK: lambda design: design.middle + _KINKS * design.length,
