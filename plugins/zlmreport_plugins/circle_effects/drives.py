@@ -65,7 +65,7 @@ class ServoMismatch(CircleEffect):
                     low=-0.05,
                     high=0.05,
                     usual=1e-3,
-                    title=_LAG.given(one=one, other=other),
+                    title=Words("lag {one} − {other}").given(one=one, other=other),
                 )
             )
         return terms
@@ -90,7 +90,6 @@ def _list_axes(estimate: Estimate) -> list[str]:
     return estimate.name.replace("T_", "").split("-")
 
 
-_LAG = Words("lag {one} − {other}")
 _LAGS = Words("{late} lags behind {early} by {time} ± {u} ms")
 _ALIKE = Words("{one} and {other} follow alike: their lags differ by {time} ± {u} ms")
 

@@ -32,7 +32,6 @@ _RELATIVE = Words(
     "their mean"
 )
 _ON_EACH_LINE = Words("On each line: {requirement}")
-_ON_A_LINE = Words("{found} ({name})")
 #: Phases that agree within this part of a period show the same point of a periodic deviation.
 _SAME_PHASE = 0.01
 #: Intervals that agree within this part are alike: their digits were rounded.
@@ -393,5 +392,5 @@ def worst_of_lines(lines: Mapping[str, MeasurementSet], rule: Callable[[Measurem
     gravity = {False: 0, None: 1, True: 2}
     name = min(found, key=lambda each: gravity[found[each].met])
     worst = found[name]
-    said = _ON_A_LINE.given(found=worst.found, name=name)
+    said = Words("{found} ({name})").given(found=worst.found, name=name)
     return Finding(_ON_EACH_LINE.given(requirement=worst.requirement), said, worst.met, worst.basis)

@@ -50,7 +50,6 @@ _MORE_OUTLIERS = Words("{count} more readings lie as far from the others of thei
 _SPIKE = Words(
     "A single reading at {target} lies {distance} from those before and after it, and is in the results"
 )
-_STANDS = Words("All readings are equal: the sensor, or its display, may have stood still")
 _IDENTICAL = Words("Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter")
 _SAME_DIRECTIONS = Words(
     "Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the reversal"
@@ -78,7 +77,6 @@ _TOO_LARGE = Words(
     "All deviations together span {range} over {length}; if the file has another unit, "
     "state it under measurement.source.units"
 )
-_AS_LEFT = Words("The readings are in every digit those of the measurement as left")
 _MIRRORED = Words("Run {run} mirrors the others: the sign of its deviations seems to be turned")
 _INTERCHANGED = Words(
     "The reversal of run {run} is {reversal} in the mean, and {others} in the others: its directions seem to "
@@ -127,7 +125,7 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     if not there.any():
         return ()
     if there.sum() >= _FEWEST_EQUAL and not np.ptp(readings[there]):
-        return (_STANDS,)
+        return (Words("All readings are equal: the sensor, or its display, may have stood still"),)
     return (
         *_find_drift(job, measurements, readings),
         *_find_outliers(measurements, readings),
@@ -152,7 +150,7 @@ def find_lines_read_twice(tests: Mapping[str, MeasurementSet]) -> Iterator[Words
 def find_as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
     """Yield whether the readings before an adjustment are those after it."""
     if not as_found.tests and _are_identical(as_found.deviation, as_left.deviation):
-        yield _AS_LEFT
+        yield Words("The readings are in every digit those of the measurement as left")
 
 
 def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:

@@ -70,7 +70,6 @@ _LARGE_ANGLE = 1000 / 206264.80624709636
 _TURNING, _STRAIGHT = frozenset("ABC"), frozenset("XYZUVW")
 _PARTS_OF_A_TURN = (90.0, 180.0, 360.0)
 _OF_MACHINE = Words("Expansion coefficient of the machine")
-_OF_CORRECTION = Words("Expansion coefficient of the correction")
 _OF_COMPENSATION = Words("Expansion coefficient by which the instrument compensated")
 _OF_INSTRUMENT = Words("Expansion coefficient of the instrument")
 #: Of materials of scales and machines, µm/(m·K): Invar to aluminium and zinc; of glass ceramic it is about 0.
@@ -129,7 +128,7 @@ def _find_unlikely_expansion(job: Job) -> Iterator[Words]:
     compensates = instrument.compensates if instrument else None
     for name, value in (
         (_OF_MACHINE, environment and environment.expansion_coefficient),
-        (_OF_CORRECTION, material and material.expansion_coefficient),
+        (Words("Expansion coefficient of the correction"), material and material.expansion_coefficient),
         (_OF_COMPENSATION, compensates and compensates.material),
         (_OF_INSTRUMENT, instrument and instrument.expansion_coefficient),
     ):

@@ -48,7 +48,6 @@ class Coordinate(StrEnum):
 _UNITS = {Coordinate.LENGTH: MILLIMETRE, Coordinate.ANGLE: DEGREE, Coordinate.TIME: HOUR}
 _SPELLINGS = {Coordinate.LENGTH: LENGTH_UNITS, Coordinate.ANGLE: ANGLE_UNITS, Coordinate.TIME: TIMES}
 
-_NAME_WITH_SYMBOL = Words("{name} {symbol}")
 _OF_AXIS = Words("{name} of axis {axis}")
 _AXIS = Words("Axis {axis}")
 _TARGET = Words("Target position")
@@ -141,7 +140,7 @@ class Measurand:
 
     def named(self, axis: str, symbol: str | Words = "") -> Words:
         """Return what a document is about: ``Straightness EYX of axis X``."""
-        name = _NAME_WITH_SYMBOL.given(name=self.title, symbol=symbol) if symbol else self.title
+        name = Words("{name} {symbol}").given(name=self.title, symbol=symbol) if symbol else self.title
         return self.subject.given(name=name, axis=axis)
 
     def sign_of(self, letter: str) -> Words:

@@ -82,7 +82,6 @@ _OF_A_DOCUMENT = re.compile(
 _LONGEST = 80
 
 _STATED = Words("'{text}' is the laboratory's own word: no reading gives its numbers")
-_JUDGED = Words("'{text}' is the laboratory's own word: no decision rule gives such a verdict")
 _NUMBERED = Words(
     "'{text}' is the laboratory's own word: it numbers pages or documents where this one's number stands"
 )
@@ -130,7 +129,7 @@ def _find_claim(key: str, text: str, result: re.Pattern[str]) -> Words | None:
     if result.search(read) or (_AMOUNT.search(amounts) and _OF_LENGTHS.isdisjoint(steps)):
         claimed = _STATED
     elif _VERDICT.search(read):
-        claimed = _JUDGED
+        claimed = Words("'{text}' is the laboratory's own word: no decision rule gives such a verdict")
     elif key in _MARGINS and _OF_A_DOCUMENT.search(read):
         claimed = _NUMBERED
     else:

@@ -17,7 +17,6 @@ from zlmreport.model.diagnosis.asking import name_length
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
-_FULL_RANGE = Words("{name}: full range")
 _INSTRUMENT_U = "instrument.expanded_uncertainty"
 
 
@@ -136,7 +135,7 @@ def _list_lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Fiel
                 f"uncertainty.{name}",
                 name_contributor(name)
                 if name == "resolution"
-                else _FULL_RANGE.given(name=name_contributor(name)),
+                else Words("{name}: full range").given(name=name_contributor(name)),
                 "number",
                 _UNITS.get(name, unit),
                 f"uncertainty.negligible.{name}",

@@ -39,8 +39,6 @@ _SPAN_OF_ANGLE = Words(
     "The largest turn of the moving component between two positions on average over all runs: a full width, "
     "not ±."
 )
-_OF_ONE_DIRECTION = Words("The same of runs in one direction only, each about its own line.")
-_TURN_IN_ONE_DIRECTION = Words("The same of runs in one direction only.")
 
 
 def find_measurand(what: ErrorSymbol | Measurand) -> Measurand:
@@ -85,7 +83,7 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
                 name.given(name=_STRAIGHT),
                 systematic,
                 f"max(d̄_{{i}}{arrow}) − min(d̄_{{i}}{arrow})",
-                _OF_ONE_DIRECTION,
+                Words("The same of runs in one direction only, each about its own line."),
             )
             for way, (arrow, name) in _DIRECTIONS.items()
         ),
@@ -138,7 +136,7 @@ def _define_angles(symbol: str, notation: str) -> list[Quantity]:
                 name.given(name=_TURNED),
                 systematic,
                 f"max(x̄_{{i}}{arrow}) − min(x̄_{{i}}{arrow})",
-                _TURN_IN_ONE_DIRECTION,
+                Words("The same of runs in one direction only."),
             )
             for way, (arrow, name) in _DIRECTIONS.items()
         ),

@@ -55,7 +55,7 @@ def draw_figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, f
             sensors=same_in_all_languages(", ".join(tests)), largest=_say_largest(evaluation)
         ),
         x_title=_TIME,
-        y_title=_DISPLACEMENT,
+        y_title=Words("Displacement"),
         x_unit=HOUR.symbol,
         y_unit=unit.symbol,
         panels=tuple(panels),
@@ -79,7 +79,7 @@ def _draw_displacements(
         if evaluation.value(f"E_{name}") is not None:
             brackets.append(_make_bracket(f"E_{{{name}}}", line.positions, values, hours))
     return Panel(
-        heading=_DISPLACEMENTS,
+        heading=Words("Displacements"),
         curves=tuple(curves),
         brackets=tuple(brackets) if len(brackets) <= _MOST_BRACKETS else (),
     )
@@ -106,7 +106,7 @@ def _draw_tilts(
             brackets.append(_make_bracket(f"φ_{{{letter}}}", one.positions, values, hours))
     if curves:
         yield Panel(
-            heading=_TILTS,
+            heading=Words("Tilts"),
             curves=tuple(curves),
             brackets=tuple(brackets),
             y_title=_TILT,
@@ -124,7 +124,7 @@ def _draw_temperatures(tests: Mapping[str, MeasurementSet]) -> Iterator[Panel]:
                 found.setdefault(name, (at, values))
     if found:
         yield Panel(
-            heading=_OF_WHAT,
+            heading=Words("Temperatures"),
             curves=tuple(
                 Curve(_write_theta(name), _choose_role(number), at, values)
                 for number, (name, (at, values)) in enumerate(found.items())
@@ -171,9 +171,5 @@ _SEEN = Words(
 )
 _NOT_DEFINED = Words("not defined")
 _TIME = Words("Time")
-_DISPLACEMENT = Words("Displacement")
-_DISPLACEMENTS = Words("Displacements")
 _TILT = Words("Tilt")
-_TILTS = Words("Tilts")
 _TEMPERATURE = Words("Temperature")
-_OF_WHAT = Words("Temperatures")

@@ -80,8 +80,6 @@ _WORK = {
     ),
 }
 _NOT_ALIKE = Words("The two measurements are not alike; differences between them may come from that")
-_OTHER_TARGETS = Words("Other target positions")
-_OTHER_APPROACHES = Words("Other directions of approach")
 _OTHER_RUNS = Words("Other number of runs: {before} before, {after} after")
 _LABELLED = Words("{title} ({state})")
 #: Evaluations of both measurements by one standard: as found, as left.
@@ -221,9 +219,9 @@ def _find_differences(before: MeasurementSet, after: MeasurementSet, writer: Wri
     """Yield what hinders a comparison of like with like."""
     found = []
     if not np.array_equal(before.target_positions, after.target_positions):
-        found.append(_OTHER_TARGETS)
+        found.append(Words("Other target positions"))
     if before.approaches != after.approaches:
-        found.append(_OTHER_APPROACHES)
+        found.append(Words("Other directions of approach"))
     if len(before.runs) != len(after.runs):
         found.append(_OTHER_RUNS.given(before=len(before.runs), after=len(after.runs)))
     if found:

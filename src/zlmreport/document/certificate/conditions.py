@@ -44,7 +44,6 @@ AXIS_KINDS = {
     AxisKind.ROTARY: Words("rotary axis"),
 }
 
-_NO_TABLE = Words("none")
 _NO_INFLUENCE = Words("The laboratory names no environmental condition that influenced the results.")
 _CAPTION = Words("Corrections applied to the readings")
 _ALL_CORRECTED = Words(
@@ -228,7 +227,7 @@ def _write_table(stated: str | Path | None, writer: Writer) -> str | None:
     """Write the table that was active during the test; the word for none."""
     if isinstance(stated, Path):
         return stated.name
-    return writer.say(_NO_TABLE) if stated else None
+    return writer.say(Words("none")) if stated else None
 
 
 def _list_measurement_facts(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:

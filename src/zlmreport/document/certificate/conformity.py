@@ -81,9 +81,7 @@ _WITHOUT_UNCERTAINTY = Words(
     "{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
     "conformity is therefore not decided."
 )
-_SPECIFICATION = Words("{rule} Limits{mark}: {names}.")
 _OF_STANDARD = Words("{specification} ({standard})")
-_NO_SPECIFICATION = Words("{rule} Limits as ordered; their source is not stated.")
 _NONE = Words("none")
 _CAPTION = Words(
     "Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
@@ -120,7 +118,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
     limited = [each for each in evaluations if any(one.limit is not None for one in each.parameters)]
     named = dict.fromkeys(each.specification for each in limited if each.specification)
     if not named:
-        return _NO_SPECIFICATION
+        return Words("{rule} Limits as ordered; their source is not stated.")
     some = len({each.specification for each in limited}) > 1
     names = join_parts(
         (
@@ -133,7 +131,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
         writer.language,
     )
     mark = writer.marks.write_after("evaluate.specification")
-    return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
+    return Words("{rule} Limits{mark}: {names}.").given(names=names if some else next(iter(named)), mark=mark)
 
 
 def lay_out_conformity(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:

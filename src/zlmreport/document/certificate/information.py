@@ -55,11 +55,8 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
 )
 _STATED = Words("stated")
 _LACKING = Words("not stated: {lacking}")
-_UNKNOWN_TEMPERATURE = Words("the temperature or the coefficient is not known")
-_NOT_CORRECTED = Words("not at 20 °C, and not corrected")
 _IN_U = Words("not corrected; U holds the expansion whole")
 _FAR_IN_U = Words("{difference} K from 20 °C, and not corrected; U holds the expansion whole")
-_BY_INSTRUMENT = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)")
 #: Instruments that have a straight line of their own.
 _BEAM = re.compile(r"laser|interf\w*met|autoco?l+imat|telescop|fernrohr|lunette|cannocchiale", re.IGNORECASE)
 _LEFT_BY_INSTRUMENT = Words("{corrected}; the machine has {stated} µm/(m·K), and {left} µm are left")
@@ -98,7 +95,7 @@ def _check_reference_temperature(
     if coefficient is not None:
         return Finding(requirement, _CORRECTED.given(coefficient=coefficient), met=True)
     if budget.uncorrected_expansion is None:
-        return Finding(requirement, _UNKNOWN_TEMPERATURE, met=None)
+        return Finding(requirement, Words("the temperature or the coefficient is not known"), met=None)
     by_instrument = find_compensated_by_instrument(job, measurements).material
     if by_instrument is not None:
         coefficient = float(f"{by_instrument / MICROMETRE_PER_METRE_KELVIN:.6g}")
@@ -106,7 +103,7 @@ def _check_reference_temperature(
     if not budget.uncorrected_expansion:
         return Finding(requirement, _AT_REFERENCE, met=True)
     if not isinstance(budget, Budget):
-        return Finding(requirement, _NOT_CORRECTED, met=False)
+        return Finding(requirement, Words("not at 20 °C, and not corrected"), met=False)
     is_near = abs(budget.difference) <= _NEAR
     difference = float(f"{budget.difference:.3g}")
     return Finding(requirement, _IN_U if is_near else _FAR_IN_U.given(difference=difference), met=is_near)
@@ -118,7 +115,7 @@ def _judge_compensation(coefficient: float, job: Job, budget: Budget | NoBudget)
     `coefficient`: By which it did, µm/(m·K). What another one of the machine leaves counts as so many kelvins
     of an expansion that nobody has corrected.
     """
-    found = _BY_INSTRUMENT.given(coefficient=coefficient)
+    found = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)").given(coefficient=coefficient)
     stated = job.keys.environment.expansion_coefficient if job.keys.environment else None
     if not isinstance(stated, float) or not stated or not isinstance(budget, Budget):
         return found, True

@@ -65,7 +65,6 @@ _SUPPLIED = Words(
     "the validity of the results."
 )
 _DEVIATIONS = Words("Additions to, deviations and exclusions from the method")
-_EXTERNAL = Words("{mark} Results from external providers")
 _ONE = Words("{count} reading was set aside and did not enter the results")
 _SEVERAL = Words("{count} readings were set aside and did not enter the results")
 _READING = Words("target {target} {arrow}, run {run}, read {deviation}: {reason}")
@@ -84,8 +83,6 @@ _AMENDMENT = {
     "certificate": Words("Amendment to Calibration Certificate {number}"),
     "report": Words("Amendment to Measuring Report {number}"),
 }
-_AMENDMENT_OF_OWN_TITLE = Words("Amendment to {title} {number}")
-_RUNNING_AMENDMENT = Words("Amendment {number}")
 
 _AMENDS = Words("This document amends {number}, which remains valid in all that is not changed here")
 _REPLACES = Words("This document replaces {number}, which is no longer valid")
@@ -93,7 +90,6 @@ _REASON = Words("Reason: {reason}")
 _CHANGE = Words("Changed: {change}")
 #: Above every opinion of a document.
 OPINION = Words("Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement")
-_OPINIONS = Words("Opinions and interpretations")
 _RESTS = Words("Each is stated by an authorised person and rests on what is named as its basis.")
 
 
@@ -109,7 +105,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
         yield Notice(
-            writer.say(_EXTERNAL.given(mark=EXTERNAL)),
+            writer.say(Words("{mark} Results from external providers").given(mark=EXTERNAL)),
             tuple(
                 writer.say(named(each.results, ", ".join(filter(None, (each.provider, each.reference)))))
                 for each in keys.external
@@ -207,10 +203,7 @@ def write_document_title(keys: CertificateKeys) -> Words:
         return usual if keys.title is None else Words("{title}").given(title=keys.title)
     if keys.title is None:
         return _AMENDMENT[keys.kind].given(number=amends.number)
-    return _AMENDMENT_OF_OWN_TITLE.given(title=keys.title, number=amends.number)
-
-
-_BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})")
+    return Words("Amendment to {title} {number}").given(title=keys.title, number=amends.number)
 
 
 def name_subject_of(job: Job) -> Words:
@@ -218,14 +211,16 @@ def name_subject_of(job: Job) -> Words:
     axis = job.axis
     if not axis.error or job.keys.measurement.symbols == "iso230-1":
         return axis.subject
-    both = _BY_VDI.given(symbol=axis.error, vdi=find_error_named(axis.error).vdi)
+    both = Words("{symbol} (VDI/VDE 2617-3: {vdi})").given(
+        symbol=axis.error, vdi=find_error_named(axis.error).vdi
+    )
     return axis.measurand.named(axis.name, both)
 
 
 def write_running_title(keys: CertificateKeys) -> Words:
     """Return what stands on every page: what the document is, with its number."""
     if keys.amends and keys.amends.kind == "amendment":
-        return _RUNNING_AMENDMENT.given(number=keys.number)
+        return Words("Amendment {number}").given(number=keys.number)
     return Words("{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
 
 
@@ -263,7 +258,7 @@ def lay_out_opinions(keys: JobKeys, writer: Writer) -> Section:
         )
         for opinion in keys.opinions
     )
-    title = writer.say(_OPINIONS)
+    title = writer.say(Words("Opinions and interpretations"))
     return Section("opinions", title, (apart, Table(title, columns, (RowGroup(rows),))))
 
 

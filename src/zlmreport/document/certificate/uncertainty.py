@@ -104,7 +104,6 @@ _CAPTION = Words(
 )
 _COMBINED = Words("all contributions together")
 _KNOWN = Words("known errors, not corrected: in no u, and in every U whole")
-_OF_KNOWN_SIZE = Words("known")
 _AT_THE_END = Words(" at the end of the measured length, where every contribution has its full effect")
 _COMBINED_OF = Words("A single reading at the end of the measured length")
 _SINGLE = Words("A single reading")
@@ -254,7 +253,7 @@ def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
         Symbol(f"b_{{{number}}}"),
         Explained(writer.say(error.name), writer.say(error.source)),
         writer.say(error.stated),
-        writer.say(_OF_KNOWN_SIZE),
+        writer.say(Words("known")),
         "",
         "",
     )

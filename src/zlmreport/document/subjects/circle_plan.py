@@ -29,12 +29,10 @@ _BESIDE = Words(
     "{arc}° of the circle before and behind it; the tool comes up from {run_up} mm outside, and rests "
     "{rest} s between two turns"
 )
-_FEEDS = Words("Feeds")
 _SLOWER = Words(
     "a control that allows less acceleration runs slower than it is told; the readings then tell their "
     "own time"
 )
-_TO_READ = Words("To read the circle")
 _SOURCE = Words("source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}")
 
 
@@ -56,8 +54,8 @@ def lay_out_circle_plan(job: Job, paths: Sequence[CirclePath], language: Languag
     arc = write_stated_number(paths[0].turns[0].arc)
     return (
         Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _describe_path(job, paths[0]))),
-        Section("feeds", say(_FEEDS), tuple(_lay_out_feeds(paths, language))),
-        Section("reading", say(_TO_READ), (Paragraph(say(_SOURCE.given(arc=arc))),)),
+        Section("feeds", say(Words("Feeds")), tuple(_lay_out_feeds(paths, language))),
+        Section("reading", say(Words("To read the circle")), (Paragraph(say(_SOURCE.given(arc=arc))),)),
     )
 
 

@@ -43,7 +43,6 @@ _HALF_SEEN = Words(
     "check: all targets lie at two phases of {period}: of what repeats with it, a part stays hidden that "
     "no share below counts; choose targets with a random fraction"
 )
-_VISITS = Words("Visits")
 _METHOD = Words("{method} method{assumed}")
 _ASSUMED = Words(" (assumed)")
 _SEQUENCES = {
@@ -64,23 +63,16 @@ _ASKED = Words("What the standards ask")
 _MET = Words("met: {standard}")
 _NOT_MET = Words("not met: {standard}: {requirement}: {found}")
 _SEEN = Words("What this plan can see beside {model}{assumed}")
-_NO_EFFECT = Words("nothing")
-_LOG_NEEDED = Words("needs a log")
 _IF = Words("if single readings scatter by {scatter} (standard deviation{assumed}), and {rise}")
-_SCATTER_ASSUMED = Words(", assumed")
 _HIDDEN = Words("What it cannot see")
 _SHARE = Words("{share} % visible")
 _THEN = Words("{shares}, then {share} %")
 _HARDLY = Words("{shares}; found only from {size}, hardly plausible")
-_NO_REMEDY = Words("no other targets or sequence that were tried would show")
 _REMEDY = Words("{reason}; {advice}")
 _NEEDS_LOG = Words("cannot be tried without the logged column {columns}")
-_UNTRIED = Words("cannot be tried")
-_LOGS = Words("What to log beside the readings")
 _TIME = Words("time: else the number of the reading stands for it ({effects})")
 _TO_TELL = Words("{columns}: to be able to tell {effects}")
 _PARAMETER = Words("{name} {size}{unit}")
-_RMS = Words("{size} rms")
 
 
 def say_size_of_plan(planned: PlannedTest) -> Words:
@@ -92,10 +84,10 @@ def say_size_of_plan(planned: PlannedTest) -> Words:
 def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[Section, ...]:
     """Return what is said of a plan: ``targets``, ``visits``, ``asked``, ``seen``, ``hidden``, ``logs``."""
     said = _Plan(job, planned, language)
-    model = " + ".join(planned.model.identifiers) or said.say(_NO_EFFECT)
+    model = " + ".join(planned.model.identifiers) or said.say(Words("nothing"))
     sections = (
         Section("targets", said.say(_TARGETS), tuple(said.lay_out_targets())),
-        Section("visits", said.say(_VISITS), tuple(said.lay_out_visits())),
+        Section("visits", said.say(Words("Visits")), tuple(said.lay_out_visits())),
         Section("asked", said.say(_ASKED), tuple(said.lay_out_requirements())),
         Section(
             "seen",
@@ -103,7 +95,7 @@ def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[S
             tuple(said.lay_out_seen()),
         ),
         Section("hidden", said.say(_HIDDEN), tuple(said.lay_out_hidden())),
-        Section("logs", said.say(_LOGS), tuple(said.lay_out_logs())),
+        Section("logs", said.say(Words("What to log beside the readings")), tuple(said.lay_out_logs())),
     )
     return tuple(each for each in sections if each.blocks)
 
@@ -183,7 +175,7 @@ class _Plan:
                 each.effect.identifier,
                 self.write_percent(each.visibility.share),
                 self.say(self.say_smallest(each)),
-                self.say(_LOG_NEEDED) if each.logs else "",
+                self.say(Words("needs a log")) if each.logs else "",
             )
             for each in self.planned.seen_effects
             if each.sight is Sight.VISIBLE
@@ -198,7 +190,7 @@ class _Plan:
         expected, assumed = self.planned.proposal.expected, self.planned.proposal.assumed
         words = _IF.given(
             scatter=wording.deviation(self.axis, expected.sigma),
-            assumed=_SCATTER_ASSUMED if "plan.repeatability" in assumed else "",
+            assumed=Words(", assumed") if "plan.repeatability" in assumed else "",
             rise=ASSUMPTION.given(rise=expected.temperature_change),
         )
         yield Paragraph(self.say(words))
@@ -231,7 +223,7 @@ class _Plan:
         unexpected = [column for column in seen.logs if column not in self.planned.design.conditions]
         if unexpected:
             return _NEEDS_LOG.given(columns=", ".join(unexpected))
-        return seen.visibility.reason or _UNTRIED
+        return seen.visibility.reason or Words("cannot be tried")
 
     def lay_out_logs(self) -> Iterator[Block]:
         timed = [
@@ -251,7 +243,7 @@ class _Plan:
         """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
         seen = found.visibility
         if seen.smallest is None:
-            return _RMS.given(size=wording.deviation(self.axis, seen.smallest_rms))
+            return Words("{size} rms").given(size=wording.deviation(self.axis, seen.smallest_rms))
         parameter, value = seen.smallest
         unit = find_unit_of(parameter.dimension, self.axis.kind)
         size = write_significant(value * unit.per_si, 2)
@@ -263,7 +255,7 @@ class _Plan:
 
 def _say_what_to_do(remedy: Remedy | None) -> Words:
     if remedy is None:
-        return _NO_REMEDY
+        return Words("no other targets or sequence that were tried would show")
     return _REMEDY.given(reason=remedy.reason, advice=remedy.advice) if remedy.reason else remedy.advice
 
 

@@ -57,7 +57,7 @@ def say_verdict_after_build(diagnosis: MachineDiagnosis) -> Words:
         left = diagnosis.remainder
         return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
     if diagnosis.is_tied and diagnosis.found:
-        return _STILL_TIED
+        return Words("Something is still missing: this plan cannot tell what, so nothing more is named.")
     return say_verdict(diagnosis) if diagnosis.is_tied else _ADEQUATE
 
 
@@ -174,7 +174,7 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
         note = "" if each.is_plausible else say(_IMPOSSIBLE)
         if each.indistinguishable_from:
             equals = [say(titles[name]) for name in each.indistinguishable_from]
-            note = say(_EQUALS.given(effects=", ".join(equals)))
+            note = say(Words("not to be told from {effects}").given(effects=", ".join(equals)))
         rows.append(
             (
                 say.explain_effect(each.effect),
@@ -273,7 +273,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
         first_run = planned.proposals[0]
         return _NEXT_RUN.given(run=first_run.what, number=round(first_run.minutes))
     if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
-        return _NEXT_DOCUMENT
+        return Words("Next: nothing is missing; write the document.")
     return _NEXT_LOOK
 
 
@@ -292,7 +292,6 @@ _NEXT_RUN = Words(
     "Next: run {run}, {number} minute; then one of them can be named.",
     plural="Next: run {run}, {number} minutes; then one of them can be named.",
 )
-_NEXT_DOCUMENT = Words("Next: nothing is missing; write the document.")
 _NEXT_LOOK = Words(
     "Next: repeat the run. If it comes again, look at the machine where the residual stands out: no "
     "effect of the catalogue has its shape."
@@ -300,7 +299,6 @@ _NEXT_LOOK = Words(
 _ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
 _MISSING = Words("Missing: {effects}.")
 _TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.")
-_STILL_TIED = Words("Something is still missing: this plan cannot tell what, so nothing more is named.")
 _UNEXPLAINED = Words("Something is left that no effect explains: {shape}, root mean square {size} µm.")
 _BESIDE = Words("Beside it something without a name is left: {shape}, root mean square {size} µm.")
 _TWO = Words("{one} {other}")
@@ -312,7 +310,6 @@ _NOT_FOUND = Words("Looked for and, beside all that, not found")
 _EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
 _EVIDENCE, _RMS_AFTER = Words("evidence"), Words("RMS after", context="machine")
 _IMPOSSIBLE = Words("impossible values")
-_EQUALS = Words("not to be told from {effects}")
 _TELL_APART = Words("To tell them apart: {how}.")
 _MODEL = Words("Effects of drives and structure")
 _PARAMETERS = Words("Parameters of the effects")

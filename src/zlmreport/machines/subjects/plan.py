@@ -14,7 +14,7 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
     between = [each.title for each in found.between]
     heading = _NOTHING
     if between:
-        heading = _DECIDE.given(effects=list_in_words(between))
+        heading = Words("To tell {effects} apart:").given(effects=list_in_words(between))
     runs: list[tuple[Cell, ...]] = [
         (
             say(each.what),
@@ -47,7 +47,6 @@ def lay_out_plan(found: NextRun, say: Sayer) -> Section:
 
 _NEXT = Words("The next run")
 _NOTHING = Words("Nothing is to be decided; runs that would add to this:")
-_DECIDE = Words("To tell {effects} apart:")
 _RUN, _MINUTES = Words("run"), Words("minutes")
 _DECIDES = Words("decides")
 _VISIBLE = Words("Smallest size that these circles show half of the time:")
