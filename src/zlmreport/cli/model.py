@@ -9,8 +9,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport.cli.model_build import build_lines
-from zlmreport.cli.model_lines import change_lines, fit_lines, tell_diagnosis, tell_history, write_point_lines
+from zlmreport.cli.model_lines import (
+    build_lines,
+    change_lines,
+    fit_lines,
+    tell_diagnosis,
+    tell_history,
+    write_point_lines,
+)
 from zlmreport.cli.model_values import (
     ModelChange,
     change_values,

@@ -1,10 +1,11 @@
-"""``zlmreport plan``: a test before it is done, and what it will not be able to see."""
+"""``zlmreport plan``: a test before it is done, and what it will not be able to see; of circles, too."""
 
 from __future__ import annotations
 
 import os
 from argparse import Namespace
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -18,20 +19,26 @@ from zlmreport.cli.part_programs import (
     tell_written,
     write_program_of,
 )
-from zlmreport.cli.plan_circle import plan_circle
 from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.figures.sequence import draw_sequence
-from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
+from zlmreport.document.subjects.plan import (
+    collect_circle_plan,
+    lay_out_circle_plan,
+    plan_sections,
+    say_size_of_circle,
+    say_size_of_plan,
+)
 from zlmreport.document.subjects.plan_values import plan_values
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
-from zlmreport.job.choices import ExtensionChoice
+from zlmreport.job.choices import Choice, ExtensionChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.live.capture.of_job import find_options_of
 from zlmreport.measurement.measurand import is_for
 from zlmreport.model.diagnosis.study import Study
+from zlmreport.model.planning.circle_path import CirclePath, plan_circle_path
 from zlmreport.model.planning.deciding import (
     collect_experiment,
     make_deciding_number,
@@ -42,6 +49,7 @@ from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_
 from zlmreport.model.planning.programs import Motion, plan_motion_of
 from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.plugin.extending import Extension, ExtensionPlan
+from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.plugin.registry import Registry, find_plugins
 
 DECISION = "zlmreport/decision/1"
@@ -256,3 +264,50 @@ def _list_readings(job: Job, planned: PlannedTest) -> Iterator[str]:
     for visit in planned.visits:
         cells = [f"{targets[visit.target]:.12g}", visit.approach.sign, str(visit.run)]
         yield ",".join([*cells, "", *("" for _ in logs)])
+
+
+def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
+    """Write and print the path of a circular test: a program for each control and each feed."""
+    programs = choose_programs(options, job.programs, registry.part_program, registry.list_programs_for())
+    demand_file(options, programs)
+    keys, number = job.keys, job.keys.certificate.number
+    stated = keys.plan.circle.feeds if keys.plan.circle else []
+    place = job.place_of("circle")
+    paths = [plan_circle_path(job, place, feed) for feed in stated or (None,)]
+    documents: list[Document] = []
+    for path in paths if options.output else ():
+        of_run = path if options.run is None else replace(path, place=RUN).of_run(options.run)
+        parts = [
+            number,
+            *([] if options.run is None else [f"run-{options.run}"]),
+            *([f"F{path.feed:g}"] if len(paths) > 1 else []),
+        ]
+        documents += make_program_files(
+            options.output,
+            "-".join(parts),
+            partial(_write_program, registry, of_run),
+            programs,
+            registry.part_program,
+        )
+    written = write_new(tuple(documents))
+    if options.json:
+        print_json(collect_circle_plan(job, paths, written))
+        return 0
+    size = say(say_size_of_circle(paths[0]))
+    print(*lay_out_heading(number, f"plane {job.axis.name}: {size}"), sep="\n")
+    print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
+    print()
+    tell_written(options, programs, written)
+    print(f"next: measure, then zlmreport {show_path(options.job)}")
+    return 0
+
+
+def _write_program(registry: Registry, path: CirclePath, program: PartProgram, choice: Choice) -> str:
+    """Return the program of a circle; raise `InputError` where its writer writes none."""
+    write = find_circle_writer(program)
+    if write is None:
+        known = [each.identifier for each in registry.list_programs_for() if find_circle_writer(each)]
+        raise InputError.at(
+            choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
+        )
+    return write(replace(path, place=choice.place), choice.options)

@@ -26,7 +26,7 @@ from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.residual import centre, compute_root_mean_square
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: A part of the tables is taken for 1, ½, 0 or −1 within this, or within its own uncertainty.

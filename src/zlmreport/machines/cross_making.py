@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.files import Document
 from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, is_held, plan_tables
 from zlmreport.machines.reading import MachineFile
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: Height of a trial value, m: an indicator shows it, and no axis is hurt by it.

@@ -14,7 +14,7 @@ from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import CrossForecast, forecast, plan_worthwhile
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: A part of tables is told to no more than this.

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.model.compensation.cross import CrossTable
-from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.model.compensation.curve import CompensationTable, CrossTable
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import require_all_of, require_finite, require_kind
 
