@@ -140,7 +140,6 @@ def _take_triple(vector: FloatArray) -> tuple[float, float, float]:
 
 
 def _take_from_stack(blocks: Block, index: int) -> Block:
-    """Return one block of a stack."""
     return Block(
         *(
             each[index]

@@ -72,11 +72,9 @@ class PointJournal:
             self._append(*self._make_head())
 
     def __enter__(self) -> Self:
-        """Return the journal."""
         return self
 
     def __exit__(self, *_raised: object) -> None:
-        """Close the file."""
         self._file.close()
 
     @property

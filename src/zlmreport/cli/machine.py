@@ -178,7 +178,6 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
 
 
 def _find_next_after_build(found: MachineDiagnosis, *, is_tried: bool) -> str:
-    """Return the action that follows a build."""
     if found.found and is_tried:
         return "build"
     if found.is_tied:

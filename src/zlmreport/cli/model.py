@@ -164,7 +164,6 @@ def _add(session: _Session, options: Namespace) -> _Answer:
 
 
 def _remove(session: _Session, options: Namespace) -> _Answer:
-    """Take an effect out of the job's model."""
     text, present = options.effect, [choice.identifier for choice in session.job.effects]
     if text not in present:
         raise InputError.at(

@@ -164,7 +164,6 @@ def _say_what_comes_first(diagnosis: AxisDiagnosis) -> str:
 
 
 def _quote_for_shell(argument: str) -> str:
-    """Return an argument as a shell takes it."""
     return f"'{argument}'" if set(argument) & set(" :{") else argument
 
 

@@ -183,7 +183,6 @@ def _show_plan(
     registry: Registry,
     found: tuple[Extension, ExtensionChoice, ExtensionPlan],
 ) -> int:
-    """Write and print a plan."""
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
     known = registry.list_programs_for(extension.takes) if extension.takes else ()

@@ -154,7 +154,6 @@ def _report_no_effect(item: Node, within: str) -> Problem:
 def _choose_formula(
     item: Keys, registry: Installed, problems: list[Problem], within: str
 ) -> EffectChoice | None:
-    """Return an effect that is written as a formula."""
     keys = validate(FormulaKeys, item, problems, within=within)
     if keys is None:
         return None
@@ -187,7 +186,6 @@ def choose_candidates(
 
 
 def _name_effect(item: Node) -> tuple[str, Keys] | None:
-    """Return an effect's name and its keys."""
     if isinstance(item, Scalar) and not item.is_nothing:
         return item.text, make_keys_of(item.place)
     if isinstance(item, Keys) and len(item.entries) == 1:

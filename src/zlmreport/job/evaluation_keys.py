@@ -254,7 +254,6 @@ class StandardKeys(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _bare_identifier(cls, value: Any) -> Any:
-        """Take a bare identifier for the standard without further keys."""
         return {"standard": value} if isinstance(value, str | int | float) else value
 
 
@@ -273,7 +272,6 @@ class DecisionRuleKeys(JobPart):
     @model_validator(mode="before")
     @classmethod
     def _bare_rule(cls, value: Any) -> Any:
-        """Take a bare identifier for the rule without further keys."""
         return {"rule": value} if isinstance(value, str | int | float) else value
 
 
@@ -373,7 +371,6 @@ class ProgramKeys(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _bare_identifier(cls, value: Any) -> Any:
-        """Take a bare identifier for the part program without further keys."""
         return {"program": value} if isinstance(value, str | int | float) else value
 
 

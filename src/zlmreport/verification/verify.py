@@ -467,7 +467,6 @@ def _find_on_signatures(state: SignatureState, *, is_required: bool) -> CheckedS
 
 
 def _join_statements(parts: Sequence[Words]) -> Words:
-    """Return statements in a row."""
     return same(PartRow(tuple(parts)))
 
 

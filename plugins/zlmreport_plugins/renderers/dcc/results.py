@@ -227,7 +227,6 @@ def _make_measurement_result(
 
 
 def _make_used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWriter) -> ET.Element:
-    """Return the standards and methods by which something was measured."""
     return dcc(
         "usedMethods",
         *(

@@ -176,7 +176,6 @@ def _say_counted_from(options: ChannelsCsvOptions) -> Words:
 
 
 def _read_channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
-    """Return the channels of the table that the keys name."""
     table = add_dates(options.read_table(lambda name: _is_column_name(name, options)), options)
     # The decimal sign is that of all numbers: which columns have any is known only with it.
     numbers = [

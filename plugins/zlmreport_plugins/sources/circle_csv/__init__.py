@@ -149,7 +149,6 @@ class CircleCsv:
 
 
 def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
-    """Return the cells of a table, and which columns it has."""
     table = options.read_table()
     layout = find_circle_columns(table, options, context)
     return options.cells_of(table, [column.index for column in layout.list_number_columns()]), layout

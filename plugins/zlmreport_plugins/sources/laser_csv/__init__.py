@@ -80,7 +80,6 @@ class LaserCsv:
 
 
 def _join_days(days: Sequence[ReadingDays]) -> ReadingDays:
-    """Return the first and the last day of several tables."""
     first, last = min(each.first for each in days), max(each.last for each in days)
     return ReadingDays(first, last, is_utc=any(each.is_utc for each in days))
 

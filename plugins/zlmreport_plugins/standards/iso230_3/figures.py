@@ -153,7 +153,6 @@ def _make_bracket(notation: str, times: FloatArray, values: FloatArray, hours: H
 
 
 def _say_largest(evaluation: Evaluation) -> Words:
-    """Return the largest drift in words."""
     found = [each for each in evaluation.parameters if each.quantity.unit is None]
     if not found:
         return _NOT_DEFINED

@@ -63,7 +63,6 @@ def draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
 
 
 def _make_figure(key: str, title: Words, axis: Axis, plate: Plate, panel: Panel, below: Words) -> Figure:  # noqa: PLR0913, PLR0917 - the parts of a figure
-    """Return a figure of one picture."""
     heights, points = plate.heights - plate.heights.min(), plate.points
     low, high = int(heights.argmin()), int(heights.argmax())
     alternative = _SEEN.given(

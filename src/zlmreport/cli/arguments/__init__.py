@@ -26,10 +26,7 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProx
             "write a compensation table for a control, and say what it will leave",
             measuring.compensate,
         ),
-        "emulate": (
-            "put an instrument that is not there on a line, to try capture",
-            measuring.emulate,
-        ),
+        "emulate": ("put an instrument that is not there on a line, to try capture", measuring.emulate),
         "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
         "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
         "fleet rebuild": ("make the ledger of a fleet again from its certificates", documents.fleet_rebuild),
@@ -45,16 +42,10 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProx
             documents.model,
         ),
         "new": ("write a plugin to begin with, and its conformance test", documents.new),
-        "plan": (
-            "choose targets and their sequence, and say what such a test will not see",
-            measuring.plan,
-        ),
+        "plan": ("choose targets and their sequence, and say what such a test will not see", measuring.plan),
         "plugins": ("list the plugins found, and why one failed to load", documents.plugins),
         "schema": ("print the JSON Schema of the job file, for editors", documents.schema),
-        "simulate": (
-            "write simulated readings of a described axis, and a job for them",
-            measuring.simulate,
-        ),
+        "simulate": ("write simulated readings of a described axis, and a job for them", measuring.simulate),
         "surface": ("fit the deviation over a plane, from lines that were measured in it", documents.surface),
         "verify": (
             "evaluate a certificate again from what it carries, and say whether it holds",
@@ -114,10 +105,8 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     if command in COMMANDS:
         parser = make_parser_for(command)
         options = parser.parse_strictly(rest)
-        if command == "model":
-            documents.demand_model_action(options, parser)
-        if command == "machine":
-            documents.demand_machine_action(options, parser)
+        if command in {"model", "machine"}:
+            documents.demand_action(command, options, parser)
         return command, options
     options = make_parser_for("").parse_strictly(arguments)
     for job in options.jobs:

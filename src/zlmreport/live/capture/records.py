@@ -67,7 +67,6 @@ def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Eve
 
 
 def _list_fields(kind: type) -> tuple[str, ...]:
-    """Return the names of a dataclass's fields."""
     return tuple(each.name for each in dataclasses.fields(kind))
 
 

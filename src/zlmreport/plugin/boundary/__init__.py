@@ -46,7 +46,6 @@ class Guarded:
 
     @property  # type: ignore[misc]  # as weak references and mocks do it: who asks what it is means the object
     def __class__(self) -> type:
-        """The class of the object."""
         return type(self._offered)
 
     def __getattr__(self, name: str) -> Any:
@@ -73,15 +72,12 @@ class Guarded:
         return method
 
     def __eq__(self, other: object) -> bool:
-        """Return whether the other is the same object, guarded or not."""
         return bool(self._offered == (other._offered if isinstance(other, Guarded) else other))
 
     def __hash__(self) -> int:
-        """Return the hash of the object."""
         return hash(self._offered)
 
     def __repr__(self) -> str:
-        """Return what the object says of itself."""
         return repr(self._offered)
 
     def guard_as(self, kind: type[Guarded]) -> Any:
@@ -141,12 +137,10 @@ class _GuardedConnection(Guarded):
     """An open instrument."""
 
     def __enter__(self) -> Self:
-        """Return the connection."""
         self._ask("open", self._offered.__enter__, None)
         return self
 
     def __exit__(self, *raised: object) -> None:
-        """Close the port."""
         self._ask("open", self._offered.__exit__, None, *raised)
 
     def readings(self) -> Iterator[Any]:
