@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
-from types import MappingProxyType
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, PlainSerializer, PlainValidator, WithJsonSchema, field_validator
@@ -64,18 +63,16 @@ Phrase: TypeAlias = Annotated[
 ParameterName: TypeAlias = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*\.\w+$")]
 
 #: Units of parameters on a linear axis, and what each is on a rotary one.
-UNITS_OF_PARAMETERS: Mapping[str, str] = MappingProxyType(
-    {
-        "um": "arcsec",
-        "mm": "deg",
-        "um/m": "arcsec/deg",
-        "um/K": "arcsec/K",
-        "um/(m K)": "arcsec/(deg K)",
-        "deg": "deg",
-        "s": "s",
-        "1": "1",
-    }
-)
+UNITS_OF_PARAMETERS: Mapping[str, str] = {
+    "um": "arcsec",
+    "mm": "deg",
+    "um/m": "arcsec/deg",
+    "um/K": "arcsec/K",
+    "um/(m K)": "arcsec/(deg K)",
+    "deg": "deg",
+    "s": "s",
+    "1": "1",
+}
 _SPELLINGS = (("µ", "u"), ("μ", "u"), ("″", "arcsec"), ("°", "deg"), ("*", " "), ("·", " "))
 
 

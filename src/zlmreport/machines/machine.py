@@ -17,9 +17,7 @@ from zlmreport.model.effects.circle_design import AXES
 
 #: How large an error that nobody measured may be where the file states no bound: half-widths of a range, µm
 #: over the travel or arc seconds. An assumption of this program, of the order of what machine tools have.
-ASSUMED_BOUNDS: Mapping[str, float] = MappingProxyType(
-    {"position": 10.0, "straightness": 5.0, "angle": 6.0, "squareness": 8.0}
-)
+ASSUMED_BOUNDS: Mapping[str, float] = {"position": 10.0, "straightness": 5.0, "angle": 6.0, "squareness": 8.0}
 
 
 def find_kind_of(error: str) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from pydantic import ValidationError
@@ -227,6 +226,9 @@ def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
     return MICROMETRE.from_si(bench.make_study(loaded).rms)
 
 
-_ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = MappingProxyType(
-    {"add": _add, "remove": _remove, UNDO: _undo, REDO: _redo}
-)
+_ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = {
+    "add": _add,
+    "remove": _remove,
+    UNDO: _undo,
+    REDO: _redo,
+}

@@ -54,7 +54,7 @@ MACHINE_ACTIONS = {
     "remove": "take an effect out of the machine file, and show the same",
 }
 #: Of each command: its actions, an effect, and to which actions an option belongs.
-_ACTIONS = {
+_ACTIONS: dict[str, tuple[dict[str, str], str, dict[str, tuple[str, ...]]]] = {
     "model": (MODEL_ACTIONS, "backlash", {"at": ("fit",), "output": ("learn",), "dry_run": ("build",)}),
     "machine": (
         MACHINE_ACTIONS,

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
@@ -37,22 +36,20 @@ class Information(Enum):
     STRAIGHTNESS_REFERENCE = "straightness reference"
 
 
-_REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
-    {
-        Information.MOTION: Words("Feed, dwell at each target and warm-up reported"),
-        Information.PATH: Words("Feed, place of the circle in the machine and warm-up reported"),
-        Information.MEASURING_LINE: Words("Measuring line, or where the other axes stood, reported"),
-        Information.COMPENSATION: Words("Compensations of the machine that were active reported"),
-        Information.TEMPERATURES: Words("Temperatures reported, and where they were measured"),
-        Information.REFERENCE_TEMPERATURE: Words(
-            "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
-        ),
-        Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
-        Information.STRAIGHTNESS_REFERENCE: Words(
-            "Reference of the straightness reported: a calibrated body, one that was turned over, or a beam"
-        ),
-    }
-)
+_REQUIREMENTS: Mapping[Information, Words] = {
+    Information.MOTION: Words("Feed, dwell at each target and warm-up reported"),
+    Information.PATH: Words("Feed, place of the circle in the machine and warm-up reported"),
+    Information.MEASURING_LINE: Words("Measuring line, or where the other axes stood, reported"),
+    Information.COMPENSATION: Words("Compensations of the machine that were active reported"),
+    Information.TEMPERATURES: Words("Temperatures reported, and where they were measured"),
+    Information.REFERENCE_TEMPERATURE: Words(
+        "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
+    ),
+    Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
+    Information.STRAIGHTNESS_REFERENCE: Words(
+        "Reference of the straightness reported: a calibrated body, one that was turned over, or a beam"
+    ),
+}
 _STATED = Words("stated")
 _LACKING = Words("not stated: {lacking}")
 _IN_U = Words("not corrected; U holds the expansion whole")

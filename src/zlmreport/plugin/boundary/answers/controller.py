@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -50,11 +49,9 @@ def read_cross(_controller: Guarded, answer: Any, *_: Any) -> tuple[CrossTable, 
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "files": tables,
-        "read": table,
-        "cross_files": cross_tables,
-        "read_cross": read_cross,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "files": tables,
+    "read": table,
+    "cross_files": cross_tables,
+    "read_cross": read_cross,
+}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 from zlmreport.plugin.boundary import Guarded, Unacceptable
@@ -19,8 +18,6 @@ def opened(instrument: Guarded, answer: Any, _options: Any) -> Any:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "open": opened,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "open": opened,
+}

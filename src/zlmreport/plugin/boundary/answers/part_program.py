@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 from zlmreport.plugin.boundary import Guarded, Unacceptable
@@ -19,9 +18,7 @@ def program(_program: Guarded, answer: Any, *_: Any) -> str:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "write": program,
-        "write_circle": program,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "write": program,
+    "write_circle": program,
+}

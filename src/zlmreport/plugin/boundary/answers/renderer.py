@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from zlmreport.plugin.boundary import Guarded, Unacceptable
@@ -22,8 +21,6 @@ def render(_renderer: Guarded, answer: Any, _certificate: Certificate) -> bytes:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "render": render,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "render": render,
+}
