@@ -42,7 +42,7 @@ from zlmreport.machines.subjects.cross_tables import (
     lay_out_cross,
     lay_out_trial,
 )
-from zlmreport.machines.subjects.plan import lay_out_plan
+from zlmreport.machines.subjects.findings import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect

@@ -56,23 +56,13 @@ class MachineDocument:
 
 @dataclass(frozen=True, slots=True)
 class _Material:
-    """What a document is made of.
-
-    Attributes
-    ----------
-    by_axes
-        The tests beside what the axes predict.
-    by_model
-        The circles beside the effects of the model, too.
-    complete
-        The same with all that was found.
-    """
+    """What a document is made of."""
 
     machine: MachineFile
     diagnosis: MachineDiagnosis | None
-    by_axes: tuple[ComparedTest, ...]
-    by_model: tuple[ComparedTest, ...]
-    complete: tuple[ComparedTest, ...]
+    by_axes: tuple[ComparedTest, ...]  #: The tests beside what the axes predict.
+    by_model: tuple[ComparedTest, ...]  #: The circles beside the effects of the model, too.
+    complete: tuple[ComparedTest, ...]  #: The same with all that was found.
 
 
 def make_machine_document(

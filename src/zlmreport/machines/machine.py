@@ -64,28 +64,16 @@ class MachineModel:
 
 @dataclass(frozen=True, slots=True)
 class TestPrediction:
-    """What the axes of a machine predict along a course.
+    """What the axes of a machine predict along a course."""
 
-    Attributes
-    ----------
-    values
-        The deviation in the sensing direction, shape (N,), m.
-    factor
-        Columns whose random combination is its error, shape (N, r): from the covariance of the errors that
-        were measured.
-    shares
-        What each error makes of it, by name, shape (N,).
-    outside
-        Where an error that counts was asked for beyond its measured range, shape (N,).
-    bound
-        Standard deviation of what errors that nobody measured may add, shape (N,); each is taken as
-        anywhere within its bound, independently.
-    """
-
-    values: FloatArray
+    values: FloatArray  #: The deviation in the sensing direction, shape (N,), m.
+    #: Columns whose random combination is its error, shape (N, r): from the covariance of the errors that
+    #: were measured.
     factor: FloatArray
-    shares: Mapping[str, FloatArray]
-    outside: BoolArray
+    shares: Mapping[str, FloatArray]  #: What each error makes of it, by name, shape (N,).
+    outside: BoolArray  #: Where an error that counts was asked for beyond its measured range, shape (N,).
+    #: Standard deviation of what errors that nobody measured may add, shape (N,); each is taken as anywhere
+    #: within its bound, independently.
     bound: FloatArray
 
     @property

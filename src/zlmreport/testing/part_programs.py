@@ -51,18 +51,11 @@ def expect_same_deeds(
 ) -> None:
     """Expect that a program with a hostile name does what the one with a plain name does.
 
-    Parameters
-    ----------
-    text
-        The program.
-    understand
-        From a text of its language to what a machine does of it.
-    plain
-        What it does with a plain name.
-    where
-        Of which program and name, for the message.
-    verb
-        What `understand` does with a text: ``run``, ``read``.
+    `text`: The program.
+    `understand`: From a text of its language to what a machine does of it.
+    `plain`: What it does with a plain name.
+    `where`: Of which program and name, for the message.
+    `verb`: What `understand` does with a text: ``run``, ``read``.
     """
     expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
     try:

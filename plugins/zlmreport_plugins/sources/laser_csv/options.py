@@ -34,18 +34,8 @@ _WORDS = {
     **dict.fromkeys(
         (
             *("up", "forward", "forwards", "fwd", "positive", "pos", "plus", "increasing"),
-            *(
-                "auf",
-                "aufwärts",
-                "hin",
-                "hinweg",
-                "hinfahrt",
-                "vor",
-                "vorwärts",
-                "vorlauf",
-                "positiv",
-                "steigend",
-            ),
+            *("auf", "aufwärts", "hin", "hinweg", "hinfahrt"),
+            *("vor", "vorwärts", "vorlauf", "positiv", "steigend"),
             *list_spellings("aller montant montée positif croissant"),
             *list_spellings("andata salita avanti positivo positiva crescente"),
             *list_spellings("ida subida adelante ascendente creciente"),
@@ -54,18 +44,8 @@ _WORDS = {
     ),
     **dict.fromkeys(
         (
-            *(
-                "down",
-                "reverse",
-                "rev",
-                "backward",
-                "backwards",
-                "bwd",
-                "negative",
-                "neg",
-                "minus",
-                "decreasing",
-            ),
+            *("down", "reverse", "rev", "backward", "backwards", "bwd"),
+            *("negative", "neg", "minus", "decreasing"),
             *("ab", "abwärts", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
             *("negativ", "fallend"),
             *list_spellings("retour descendant descente négatif décroissant"),

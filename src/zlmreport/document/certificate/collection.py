@@ -21,7 +21,7 @@ from zlmreport.document.certificate.statements import write_document_title, writ
 from zlmreport.document.certificate.values import Values
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation.evidence import find_lines_read_twice
-from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
+from zlmreport.evaluation.uncertainty.budget import join_budgets
 from zlmreport.language import Words, named
 
 if TYPE_CHECKING:

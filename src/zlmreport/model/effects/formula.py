@@ -68,17 +68,11 @@ class FormulaEffect(Effect):
 
     Raises `FormulaError` if it cannot be meant for an axis of this kind.
 
-    Parameters
-    ----------
-    keys
-        What the file says of it.
-    kind
-        Of the axis; without it the effect is for every kind whose units its parameters have, and those of a
-        linear axis stand for their like on a rotary one.
-    settings
-        The values of its job keys in this form of it.
-    number
-        For which time it stands in a model.
+    `keys`: What the file says of it.
+    `kind`: Of the axis; without it the effect is for every kind whose units its parameters have, and those of
+        a linear axis stand for their like on a rotary one.
+    `settings`: The values of its job keys in this form of it.
+    `number`: For which time it stands in a model.
     """
 
     def __init__(
