@@ -1,24 +1,17 @@
-"""``zlmreport plan``: a test before it is done, and what it will not be able to see; of circles, too."""
+"""``zlmreport plan``: a test before it is done, what it will not be able to see, and its part programs."""
 
 from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.part_programs import (
-    RUN,
-    choose_programs,
-    demand_file,
-    make_program_files,
-    tell_written,
-    write_program_of,
-)
 from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.document.subjects.plan import (
@@ -29,9 +22,9 @@ from zlmreport.document.subjects.plan import (
     say_size_of_plan,
 )
 from zlmreport.document.subjects.plan_values import plan_values
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import Document, write_new
-from zlmreport.job.choices import Choice, ExtensionChoice
+from zlmreport.job.choices import Choice, ExtensionChoice, Find, choose_programs_by_name
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
@@ -310,3 +303,76 @@ def _write_program(registry: Registry, path: CirclePath, program: PartProgram, c
             choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
         )
     return write(replace(path, place=choice.place), choice.options)
+
+
+RUN = Place("zlmreport plan --run")
+_OPTION = Place("zlmreport plan --program")
+
+
+def demand_file(options: Namespace, programs: Sequence[Choice]) -> None:
+    """Refuse to show a run that nobody asks to have written."""
+    if options.run is not None and (not programs or not options.output):
+        raise InputError.at(RUN, "the program of a run is a file; state --program NAME and --output DIR, too")
+
+
+def write_program_of(subject: Callable[[Place], Any], program: PartProgram, choice: Choice) -> str:
+    """Return the program of a subject, asked for where a program is named."""
+    return program.write(subject(choice.place), choice.options)
+
+
+def choose_programs(
+    options: Namespace,
+    stated: tuple[Choice, ...],
+    find: Find,
+    known: Sequence[PartProgram],
+) -> tuple[Choice, ...]:
+    """Return the programs that the command line names, or else those of the job.
+
+    Raises `InputError` if there is none of that name, or no folder to write it into.
+    """
+    if options.program is None:
+        return stated
+    if options.output is None:
+        raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
+    names = [name.strip() for name in options.program.split(",") if name.strip()]
+    if not names:
+        such_as = ",".join(each.identifier for each in known[:2])
+        raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
+    return choose_programs_by_name(names, _OPTION, stated, find)
+
+
+def tell_written(options: Namespace, programs: Sequence[Choice], written: Sequence[Path]) -> None:
+    """Print the files of a plan; which programs there are, where nobody says into which folder."""
+    if programs and not options.output:
+        names = ", ".join(each.identifier for each in programs)
+        print(f"part programs for {names}: state a folder, --output DIR")
+    for path in written:
+        print(show_path(path))
+
+
+def make_program_files(
+    folder: Path,
+    number: str,
+    write: Callable[[PartProgram, Choice], str],
+    choices: Sequence[Choice],
+    find: Callable[[str], PartProgram],
+) -> tuple[Document, ...]:
+    """Return the files of part programs.
+
+    `write`: Returns the program that a writer writes with the keys of a choice, as `write_program_of` does.
+
+    Raises `InputError` with everything that one of the controls or machines cannot be told.
+    """
+    problems: list[Problem] = []
+    documents: list[Document] = []
+    for choice in choices:
+        program = find(choice.identifier)
+        try:
+            text = write(program, choice)
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        documents.append(Document(folder / f"{number}{program.suffix}", text.encode("ascii")))
+    if problems:
+        raise InputError(problems)
+    return tuple(documents)

@@ -41,9 +41,8 @@ _AT_REST = Words("{range} is stated of drift at rest: what exceeds it is")
 _NEGLECTED = Words("drift at rest is declared negligible: this is")
 _NOTHING_STATED = Words("nothing is stated of drift at rest: this is")
 _OUTLIER = Words(
-    "The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
-    "in the "
-    "results (measurement.excluded sets it aside)"
+    "The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is in "
+    "the results (measurement.excluded sets it aside)"
 )
 _ONE_MORE_OUTLIER = Words("One more reading lies as far from the others of its target")
 _MORE_OUTLIERS = Words("{count} more readings lie as far from the others of their targets")

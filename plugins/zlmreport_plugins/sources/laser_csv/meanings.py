@@ -62,8 +62,7 @@ _CALLED = MappingProxyType(
             "rep wiederholung lauf_nr lauf_nr. run_# reihe messreihe passe parcours passage série essai "
             "répétition passata ciclo prova serie ripetizione recorrido pasada ensayo repetición",
             NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
-            "point "
-            "n° nº numéro ligne numero riga número fila",
+            "point n° nº numéro ligne numero riga número fila",
         }.items()
         for name in list_spellings(names)
     }

@@ -34,12 +34,24 @@ _SIGNS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
 @dataclass(frozen=True, slots=True)
 class PlannedReading:
-    """A reading that is taken while the axis stands at a target."""
+    """A reading that is taken while the axis stands at a target.
 
-    number: int  #: In the order of the test, from 1.
-    target: int  #: Number of the target, from 1.
-    approach: Approach  #: The direction in which the axis must come there.
-    run: int  #: Number of the run, from 1.
+    Attributes
+    ----------
+    number
+        In the order of the test, from 1.
+    target
+        Number of the target, from 1.
+    approach
+        The direction in which the axis must come there.
+    run
+        Number of the run, from 1.
+    """
+
+    number: int
+    target: int
+    approach: Approach
+    run: int
 
 
 Begins: TypeAlias = Literal["", "test", "run", "second half"]
@@ -47,12 +59,21 @@ Begins: TypeAlias = Literal["", "test", "run", "second half"]
 
 @dataclass(frozen=True, slots=True)
 class ProgramStop:
-    """A point at which the axis stops: to be read, or to turn round."""
+    """A point at which the axis stops: to be read, or to turn round.
 
-    position: float  #: mm or °.
-    reading: PlannedReading | None = None  #: What is read there; None where the axis only turns round.
-    #: Of a stop before the first reading of the test, of a run that goes over the whole axis, or of the
-    #: second half after a pause: which of them begins from here; empty for any other.
+    Attributes
+    ----------
+    position
+        mm or °.
+    reading
+        What is read there; None where the axis only turns round.
+    begins
+        Of a stop before the first reading of the test, of a run that goes over the whole axis, or of the
+        second half after a pause: which of them begins from here; empty for any other.
+    """
+
+    position: float
+    reading: PlannedReading | None = None
     begins: Begins = ""
 
 

@@ -25,6 +25,8 @@ from zlmreport.presence import PRESENCE
 _PASSED = (ZlmreportError, KeyboardInterrupt, MemoryError)
 #: Plugins of these kinds open files, ports and libraries, which may not be there.
 _OPENING = frozenset({"source", "renderer", "instrument", "extension"})
+#: Kinds whose answers are checked by one module.
+_OUTWARD = frozenset({"renderer", "part_program", "notifier", "instrument"})
 _LONGEST = 300
 _NOTHING = object()
 
@@ -67,7 +69,8 @@ class Guarded:
         if not callable(found) or not inspect.isroutine(found):
             return found
         # The checks of answers load what a listing of names, or a plugin of another kind, does not need.
-        accept = import_module(f"zlmreport.plugin.boundary.answers.{self._kind.name}").ACCEPTED.get(name)
+        module = "outward" if self._kind.name in _OUTWARD else self._kind.name
+        accept = import_module(f"zlmreport.plugin.boundary.answers.{module}").ACCEPTED.get(name)
         method = self.__dict__[name] = self.look_after(name, found, accept)
         return method
 
