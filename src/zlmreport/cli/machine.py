@@ -22,13 +22,7 @@ from zlmreport.machines.cross_confirmation import (
     collect_cross,
     confirm,
 )
-from zlmreport.machines.cross_making import (
-    PEAK,
-    CrossWanted,
-    make_cross,
-    make_table_documents,
-    make_trial,
-)
+from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
 from zlmreport.machines.document import make_machine_document
@@ -38,11 +32,7 @@ from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.report import collect_errors, collect_prediction
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
-from zlmreport.machines.subjects.cross_tables import (
-    lay_out_confirmation,
-    lay_out_cross,
-    lay_out_trial,
-)
+from zlmreport.machines.subjects.cross_tables import lay_out_confirmation, lay_out_cross, lay_out_trial
 from zlmreport.machines.subjects.findings import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MILLIMETRE

@@ -75,22 +75,14 @@ def run(options: Namespace) -> int:
             documents = (
                 *_make_plan_files(options.output, job, planned),
                 *make_program_files(
-                    options.output,
-                    number,
-                    partial(write_program_of, motion),
-                    programs,
-                    registry.part_program,
+                    options.output, number, partial(write_program_of, motion), programs, registry.part_program
                 ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_find_motion_of_run, motion, options.run)
             documents = make_program_files(
-                options.output,
-                of_run,
-                partial(write_program_of, subject),
-                programs,
-                registry.part_program,
+                options.output, of_run, partial(write_program_of, subject), programs, registry.part_program
             )
     written = write_new(documents)
     if options.json:
@@ -171,10 +163,7 @@ def _plan_of_extension(
 
 
 def _show_plan(
-    options: Namespace,
-    job: Job,
-    registry: Registry,
-    found: tuple[Extension, ExtensionChoice, ExtensionPlan],
+    options: Namespace, job: Job, registry: Registry, found: tuple[Extension, ExtensionChoice, ExtensionPlan]
 ) -> int:
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
@@ -321,10 +310,7 @@ def write_program_of(subject: Callable[[Place], Any], program: PartProgram, choi
 
 
 def choose_programs(
-    options: Namespace,
-    stated: tuple[Choice, ...],
-    find: Find,
-    known: Sequence[PartProgram],
+    options: Namespace, stated: tuple[Choice, ...], find: Find, known: Sequence[PartProgram]
 ) -> tuple[Choice, ...]:
     """Return the programs that the command line names, or else those of the job.
 

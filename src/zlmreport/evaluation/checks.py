@@ -86,12 +86,7 @@ def positions_in_all(measurements: MeasurementSet, minimum: int, basis: Basis) -
 
 
 def positions_per_metre(
-    measurements: MeasurementSet,
-    per_metre: int,
-    basis: Basis,
-    *,
-    further: int = 0,
-    minimum: int = 0,
+    measurements: MeasurementSet, per_metre: int, basis: Basis, *, further: int = 0, minimum: int = 0
 ) -> Finding:
     """Ask for a density of target positions on a linear axis.
 
@@ -302,10 +297,7 @@ def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple
     Not met where all targets show the same phase of the period. Left open where the job states none.
     """
     axis = measurements.axis
-    periods = (
-        (Words("pitch"), axis.screw_pitch),
-        (Words("signal period"), axis.signal_period),
-    )
+    periods = ((Words("pitch"), axis.screw_pitch), (Words("signal period"), axis.signal_period))
     stated = tuple(
         _check_spacing_against(measurements, name, period, basis)
         for name, period in periods

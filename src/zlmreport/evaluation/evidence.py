@@ -177,13 +177,7 @@ def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) ->
     low, high = (_write_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
     lie, to = (_LIE, _AND) if not steady else (_RISE if order > 0 else _FALL, _TO)
     first, last = (high, low) if lie is _FALL else (low, high)
-    yield _DRIFTS.given(
-        lie=lie,
-        low=first,
-        to=to,
-        high=last,
-        stated=_say_stated_drift(job, unit),
-    )
+    yield _DRIFTS.given(lie=lie, low=first, to=to, high=last, stated=_say_stated_drift(job, unit))
 
 
 def _say_stated_drift(job: Job, unit: Unit) -> Words:
@@ -381,8 +375,7 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     else:
         return
     yield words.given(
-        range=_write_size(measurements, full_range),
-        length=say_stated(unit.from_si(length), unit.symbol),
+        range=_write_size(measurements, full_range), length=say_stated(unit.from_si(length), unit.symbol)
     )
 
 

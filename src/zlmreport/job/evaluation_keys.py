@@ -7,15 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from zlmreport.errors import list_names
 from zlmreport.job.circle_keys import CirclePlanKeys
-from zlmreport.job.types import (
-    Finite,
-    JobPart,
-    JobPath,
-    NotNegative,
-    Positive,
-    Text,
-    optional,
-)
+from zlmreport.job.types import Finite, JobPart, JobPath, NotNegative, Positive, Text, optional
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import POSITIONING
 
@@ -266,8 +258,7 @@ class AxisModelKeys(JobPart):
         examples=[["offset", "scale-error", "backlash"]],
     )
     candidates: list[dict[str, Any]] = Field(
-        [],
-        description="Effects written as formulas, which a diagnosis tries beside the installed ones.",
+        [], description="Effects written as formulas, which a diagnosis tries beside the installed ones."
     )
     sessions: list[JobPath] = Field(
         [],
@@ -404,8 +395,7 @@ class PlanKeys(JobPart):
         ge=0,
     )
     repeatability: Positive = Field(
-        1.0,
-        description="Standard deviation of a single reading that is expected, micrometres (arc seconds).",
+        1.0, description="Standard deviation of a single reading that is expected, micrometres (arc seconds)."
     )
     temperature_change: Positive = Field(
         1.0, description="By how much temperatures are expected to rise during the test, K."

@@ -53,10 +53,7 @@ _AXIS = Words("Axis {axis}")
 _TARGET = Words("Target position")
 _ACTUAL = Words("actual − target position")
 _REVERSAL = Words("reversal value")
-_SENSES = (
-    Words("positive direction ↑"),
-    Words("negative direction ↓"),
-)
+_SENSES = (Words("positive direction ↑"), Words("negative direction ↓"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,10 +202,7 @@ CIRCLE = Measurand(
     subject=Words("{name} in the plane {axis}"),
     bearer=Words("Plane {axis}"),
     target=Words("Angle"),
-    senses=(
-        Words("counter-clockwise"),
-        Words("clockwise"),
-    ),
+    senses=(Words("counter-clockwise"), Words("clockwise")),
     is_continuous=True,
 )
 
@@ -224,10 +218,7 @@ DISPLACEMENT = Measurand(
     subject=Words("{name}, sensor {axis}"),
     bearer=Words("Sensor {axis}"),
     target=Words("Time"),
-    senses=(
-        Words("as time goes on"),
-        Words("back in time"),
-    ),
+    senses=(Words("as time goes on"), Words("back in time")),
     is_continuous=True,
 )
 

@@ -236,14 +236,8 @@ _CONDITIONS = {
     "relative_humidity": (PERCENT, "basic_humidityRelative"),
     "expansion_coefficient": (MICROMETRE_PER_METRE_KELVIN, ""),
 }
-_NAMES = {
-    **CONDITION_NAMES,
-    "expansion_coefficient": Words("Expansion coefficient of the machine"),
-}
-_STATES = {
-    "before": Words("as found"),
-    "after": Words("as left"),
-}
+_NAMES = {**CONDITION_NAMES, "expansion_coefficient": Words("Expansion coefficient of the machine")}
+_STATES = {"before": Words("as found"), "after": Words("as left")}
 _BY_CUSTOMER = Words("Provided by the customer")
 _REMARKS = Words("Remarks on the environment")
 _CALIBRATION = Words("Calibration certificate: {number}")

@@ -26,11 +26,7 @@ from zlmreport_plugins.sources.laser_csv.layouts import (
     find_wide_layout,
     read_heading,
 )
-from zlmreport_plugins.sources.laser_csv.options import (
-    COLUMN_NAMES,
-    LaserCsvOptions,
-    run_and_direction,
-)
+from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, LaserCsvOptions, run_and_direction
 
 
 class LaserCsv:
@@ -102,10 +98,7 @@ def zlmreport_sources() -> Iterable[DataSource]:
     return [LaserCsv(), ReversedLaserCsv()]
 
 
-_NAMES = {
-    "deviation": Words("deviations"),
-    "position": Words("actual positions"),
-}
+_NAMES = {"deviation": Words("deviations"), "position": Words("actual positions")}
 
 
 def list_remarks(

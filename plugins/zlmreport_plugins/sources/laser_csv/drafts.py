@@ -8,13 +8,7 @@ from statistics import median
 from typing import Any
 
 from zlmreport.plugin import listed
-from zlmreport.plugin.table import (
-    DELIMITERS,
-    PARTED_BY_BLANKS,
-    THOUSANDS_SIGNS,
-    UNITS_IN_TABLES,
-    first_cell,
-)
+from zlmreport.plugin.table import DELIMITERS, PARTED_BY_BLANKS, THOUSANDS_SIGNS, UNITS_IN_TABLES, first_cell
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import READING, read_number

@@ -26,10 +26,7 @@ from zlmreport_plugins.logged_columns import list_spellings
 COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
 
 _SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS_SIGN: Approach.NEGATIVE}
-_ARROWS = {
-    **dict.fromkeys("↑→", Approach.POSITIVE),
-    **dict.fromkeys("↓←", Approach.NEGATIVE),
-}
+_ARROWS = {**dict.fromkeys("↑→", Approach.POSITIVE), **dict.fromkeys("↓←", Approach.NEGATIVE)}
 _WORDS = {
     **dict.fromkeys(
         (
@@ -56,10 +53,7 @@ _WORDS = {
     ),
 }
 #: In cells only: in a header they may be the initial of anything.
-_LETTERS = {
-    **dict.fromkeys("fvuph", Approach.POSITIVE),
-    **dict.fromkeys("brdn", Approach.NEGATIVE),
-}
+_LETTERS = {**dict.fromkeys("fvuph", Approach.POSITIVE), **dict.fromkeys("brdn", Approach.NEGATIVE)}
 _NUMBERS = {
     "1": Approach.POSITIVE,
     "+1": Approach.POSITIVE,

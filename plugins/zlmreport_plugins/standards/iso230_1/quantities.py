@@ -2,15 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import (
-    ANGLE,
-    ARCSECOND,
-    MICROMETRE_PER_METRE,
-    SQUARENESS,
-    ErrorSymbol,
-    Measurand,
-    Words,
-)
+from zlmreport.plugin import ANGLE, ARCSECOND, MICROMETRE_PER_METRE, SQUARENESS, ErrorSymbol, Measurand, Words
 from zlmreport.plugin.standard import PositionQuantity, Quantity, QuantityGroup
 
 #: Two axes, or an axis and a spindle, whose reference lines should have one direction.
@@ -176,25 +168,9 @@ def _define_between(measurand: Measurand, symbol: str, notation: str) -> tuple[Q
 
 
 #: Of each squareness error, by the slopes of its two lines and the error ε of the square.
-FORMULAS = {
-    "C0Y": "−(m_{1} + m_{2}) + ε",
-    "B0Z": "(m_{1} + m_{2}) − ε",
-    "A0Z": "−(m_{1} + m_{2}) + ε",
-}
+FORMULAS = {"C0Y": "−(m_{1} + m_{2}) + ε", "B0Z": "(m_{1} + m_{2}) − ε", "A0Z": "−(m_{1} + m_{2}) + ε"}
 _COLUMNS = (
-    PositionQuantity(
-        "d_fwd",
-        "d̄_{i}↑",
-        Words("Deviation from the reference line, positive direction"),
-    ),
-    PositionQuantity(
-        "d_bwd",
-        "d̄_{i}↓",
-        Words("Deviation from the reference line, negative direction"),
-    ),
-    PositionQuantity(
-        "d",
-        "d̄_{i}",
-        Words("Deviation from the reference line, mean of all runs"),
-    ),
+    PositionQuantity("d_fwd", "d̄_{i}↑", Words("Deviation from the reference line, positive direction")),
+    PositionQuantity("d_bwd", "d̄_{i}↓", Words("Deviation from the reference line, negative direction")),
+    PositionQuantity("d", "d̄_{i}", Words("Deviation from the reference line, mean of all runs")),
 )

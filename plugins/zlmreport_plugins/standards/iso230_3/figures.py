@@ -23,14 +23,7 @@ from zlmreport_plugins.standards.iso230_3.hours import Hours, compute_tilt_over_
 from zlmreport_plugins.standards.iso230_3.quantities import PAIRS, write_shown
 from zlmreport_plugins.standards.iso230_3.requirements import list_temperatures
 
-_ROLES = (
-    Role.CHANNEL_1,
-    Role.CHANNEL_2,
-    Role.CHANNEL_3,
-    Role.CHANNEL_4,
-    Role.CHANNEL_5,
-    Role.CHANNEL_6,
-)
+_ROLES = (Role.CHANNEL_1, Role.CHANNEL_2, Role.CHANNEL_3, Role.CHANNEL_4, Role.CHANNEL_5, Role.CHANNEL_6)
 #: Brackets beside a graph; more would leave it no room.
 _MOST_BRACKETS = 5
 _ENDING = "_temperature"

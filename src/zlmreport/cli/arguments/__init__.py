@@ -31,14 +31,8 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = {
     "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
     "init": ("write a commented job with sample data that runs as it is", documents.init),
     "look": ("say what a file of measurements holds, and the keys that read it", documents.look),
-    "machine": (
-        "hold a machine against its tests: what its axes predict, what they lack",
-        documents.machine,
-    ),
-    "model": (
-        "fit a job's error model, find what it lacks, add it, watch the error fall",
-        documents.model,
-    ),
+    "machine": ("hold a machine against its tests: what its axes predict, what they lack", documents.machine),
+    "model": ("fit a job's error model, find what it lacks, add it, watch the error fall", documents.model),
     "new": ("write a plugin to begin with, and its conformance test", documents.new),
     "plan": ("choose targets and their sequence, and say what such a test will not see", measuring.plan),
     "plugins": ("list the plugins found, and why one failed to load", documents.plugins),
@@ -49,10 +43,7 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = {
         "evaluate a certificate again from what it carries, and say whether it holds",
         documents.verify,
     ),
-    "workbench": (
-        "work on a job's error model with a mouse, on a page in the browser",
-        documents.workbench,
-    ),
+    "workbench": ("work on a job's error model with a mouse, on a page in the browser", documents.workbench),
 }
 
 
@@ -137,6 +128,5 @@ def _refuse_mistaken_command(job: Path) -> None:
     if word in COMMANDS:
         raise InputError.at(Place("zlmreport"), f"the command comes first: zlmreport {word} …")
     raise InputError.at(
-        Place("zlmreport"),
-        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(COMMANDS))}",
+        Place("zlmreport"), f"{word!r} is neither a file nor a command; {did_you_mean(word, list(COMMANDS))}"
     )

@@ -271,10 +271,7 @@ def model(command: str) -> CommandParser:
         help="of add and remove: an installed effect; add takes it with keys as in a job, too",
     )
     parser.add_repeated(
-        "--at",
-        "P",
-        read_position,
-        "of fit: a position, mm or degrees, at which to state the deviation",
+        "--at", "P", read_position, "of fit: a position, mm or degrees, at which to state the deviation"
     )
     parser.add_output("FILE", "of learn: the file; without it, it is printed")
     parser.add_flag("--dry-run", "of build: show what would be added, and leave the job as it is")
@@ -313,10 +310,7 @@ def machine(command: str) -> CommandParser:
     )
     parser.add_flag("--trial", "of compensate: a file with one value, which shows that way")
     parser.add_argument(
-        "--step",
-        metavar="MM",
-        type=read_number,
-        help="of compensate: between rows; as measured without it",
+        "--step", metavar="MM", type=read_number, help="of compensate: between rows; as measured without it"
     )
     parser.add_flag("--dry-run", "of build: write nothing")
     parser.add_flag("--json", "print the values in full precision as JSON")

@@ -79,16 +79,9 @@ def compensate(command: str) -> CommandParser:
     )
     add_jobs(parser)
     parser.add_argument(
-        "--controller",
-        metavar="NAME",
-        help="the control, such as linuxcnc, instead of the job's own",
+        "--controller", metavar="NAME", help="the control, such as linuxcnc, instead of the job's own"
     )
-    parser.add_repeated(
-        "--set",
-        "KEY=VALUE",
-        read_setting,
-        "a key of the controller, such as type=1",
-    )
+    parser.add_repeated("--set", "KEY=VALUE", read_setting, "a key of the controller, such as type=1")
     parser.add_argument(
         "--step",
         metavar="S",

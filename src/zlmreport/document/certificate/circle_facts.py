@@ -41,16 +41,8 @@ def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     length = writer.say(by if keys.calibrated_length else Words("not calibrated: nothing is said of radii"))
     yield Fact(Words("Plane"), keys.plane, ("circle.plane",))
     yield Fact(Words("Nominal radius"), write_with_unit(keys.radius, "mm", writer), ("circle.radius",))
-    yield Fact(
-        Words("Feed along the path"),
-        write_with_unit(keys.feed, "mm/min", writer),
-        ("circle.feed",),
-    )
-    yield Fact(
-        Words("Centre at X / Y / Z"),
-        place and f"{place} mm",
-        ("circle.centre",),
-    )
+    yield Fact(Words("Feed along the path"), write_with_unit(keys.feed, "mm/min", writer), ("circle.feed",))
+    yield Fact(Words("Centre at X / Y / Z"), place and f"{place} mm", ("circle.centre",))
     yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length", "circle.certificate"))
 
 
@@ -63,10 +55,7 @@ def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -
     ]
     words = _ONE_SENSE if len(senses) == 1 else _SENSES if len(set(turns)) == 1 else _UNLIKE
     said = words.given(
-        first=senses[0],
-        second=senses[-1],
-        turns=_turns_in_words(turns[0]),
-        others=_turns_in_words(turns[-1]),
+        first=senses[0], second=senses[-1], turns=_turns_in_words(turns[0]), others=_turns_in_words(turns[-1])
     )
     yield Fact(Words("Senses and turns"), writer.say(said), source)
     begins = []

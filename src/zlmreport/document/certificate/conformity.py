@@ -38,14 +38,8 @@ _OF_RULES = ("T_{L}",)
 #: What each statement looks like, and its words.
 STATEMENTS = {
     Conformity.MET: (Mark.MET, Words("conforms")),
-    Conformity.CONDITIONALLY_MET: (
-        Mark.MET,
-        Words("conforms, conditionally"),
-    ),
-    Conformity.CONDITIONALLY_FAILED: (
-        Mark.NOT_MET,
-        Words("does not conform, conditionally"),
-    ),
+    Conformity.CONDITIONALLY_MET: (Mark.MET, Words("conforms, conditionally")),
+    Conformity.CONDITIONALLY_FAILED: (Mark.NOT_MET, Words("does not conform, conditionally")),
     Conformity.FAILED: (Mark.NOT_MET, Words("does not conform")),
     Conformity.UNDECIDED: (Mark.OPEN, Words("not decided")),
 }
@@ -165,9 +159,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Amount")), unit, Align.RIGHT),
         Column(
-            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"),
-            unit,
-            Align.RIGHT,
+            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"), unit, Align.RIGHT
         ),
         Column(writer.say(Words("Accepted up to")), unit, Align.RIGHT),
         Column(writer.say(Words("Statement"))),

@@ -153,10 +153,7 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
             (Words("measuring line"), measurement.line or measurement.at or measurement.tests),
         ),
         Information.COMPENSATION: (
-            (
-                Words("state of the compensation"),
-                measurement.compensation or keys.axis.compensation_table,
-            ),
+            (Words("state of the compensation"), measurement.compensation or keys.axis.compensation_table),
         ),
         Information.TEMPERATURES: (
             (
@@ -167,17 +164,11 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
                 Words("temperature of the machine"),
                 length or logged & {"axis_temperature", "material_temperature"},
             ),
-            (
-                Words("sensor locations"),
-                environment and environment.sensors,
-            ),
+            (Words("sensor locations"), environment and environment.sensors),
         ),
         Information.INSTRUMENT: (
             (Words("instrument"), instrument),
-            (
-                Words("its calibration"),
-                instrument and is_reference(instrument.certificate or ""),
-            ),
+            (Words("its calibration"), instrument and is_reference(instrument.certificate or "")),
             (
                 Words("its compensation"),
                 instrument

@@ -20,14 +20,8 @@ if TYPE_CHECKING:
     from zlmreport.measurement.provenance import Exclusion
 
 #: What a document of each kind is about: a measuring report calibrates nothing.
-ITEM = {
-    "certificate": Words("Item calibrated"),
-    "report": Words("Item measured"),
-}
-WORK = {
-    "certificate": Words("Calibration"),
-    "report": Words("Report"),
-}
+ITEM = {"certificate": Words("Item calibrated"), "report": Words("Item measured")}
+WORK = {"certificate": Words("Calibration"), "report": Words("Report")}
 NEXT_DUE = {
     "certificate": Words("Next calibration due, as agreed with the customer"),
     "report": Words("Next measurement due, as agreed with the customer"),
@@ -75,10 +69,7 @@ _ARROWS = {"+": "↑", "-": "↓"}
 #: Readings that the first page names one by one.
 _MOST_NAMED = 6
 _MORE = Words("Set aside besides: {count} more, see the section on the readings")
-TITLES = {
-    "certificate": Words("Calibration Certificate"),
-    "report": Words("Measuring Report"),
-}
+TITLES = {"certificate": Words("Calibration Certificate"), "report": Words("Measuring Report")}
 _AMENDMENT = {
     "certificate": Words("Amendment to Calibration Certificate {number}"),
     "report": Words("Amendment to Measuring Report {number}"),
@@ -243,12 +234,7 @@ def lay_out_opinions(keys: JobKeys, writer: Writer) -> Section:
     """Return the section of a job's opinions."""
     apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
     columns = tuple(
-        Column(writer.say(heading))
-        for heading in (
-            Words("Opinion"),
-            Words("Basis"),
-            Words("Stated by"),
-        )
+        Column(writer.say(heading)) for heading in (Words("Opinion"), Words("Basis"), Words("Stated by"))
     )
     rows = tuple(
         (

@@ -106,9 +106,7 @@ class _Draws:
 
 
 def propagate(
-    budget: Budget,
-    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
-    trials: int,
+    budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], trials: int
 ) -> tuple[Mapping[str, Expanded], ...]:
     """Return the expanded uncertainty of each parameter by its symbol, for each evaluation of one test.
 
@@ -283,9 +281,7 @@ def _add_known_changes(expanded: Expanded, known_error: float) -> Expanded:
     if not known_error:
         return expanded
     return replace(
-        expanded,
-        uncertainty=shorten(expanded.uncertainty + abs(known_error)),
-        known_error=known_error,
+        expanded, uncertainty=shorten(expanded.uncertainty + abs(known_error)), known_error=known_error
     )
 
 
@@ -314,11 +310,7 @@ def _measure_distances(
 
 
 def _simulate_statistics(
-    budget: Budget,
-    measurements: MeasurementSet,
-    ways: _Ways,
-    trials: int,
-    draws: _Draws,
+    budget: Budget, measurements: MeasurementSet, ways: _Ways, trials: int, draws: _Draws
 ) -> Iterator[tuple[PositionStatistics, PositionStatistics | None, int]]:
     """Yield the statistics of simulated tests, so many at a time, those of what was shown, and how many.
 

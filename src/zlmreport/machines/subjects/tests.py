@@ -6,17 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.document.blocks import (
-    Block,
-    Cell,
-    Column,
-    Graph,
-    Notice,
-    Paragraph,
-    Section,
-    Symbol,
-    Table,
-)
+from zlmreport.document.blocks import Block, Cell, Column, Graph, Notice, Paragraph, Section, Symbol, Table
 from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.language import Words, named
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
@@ -257,16 +247,10 @@ _OUTSIDE = Words(
     "{share} % of it lies beyond what was measured of the axes; the end values stand there, and nothing "
     "is extrapolated"
 )
-_SENSES = {
-    1: Words("counter-clockwise", context="adverb"),
-    -1: Words("clockwise", context="adverb"),
-}
+_SENSES = {1: Words("counter-clockwise", context="adverb"), -1: Words("clockwise", context="adverb")}
 _CIRCLE_TITLE = Words("{test}: {what}; dashed, with ∑: what the axes predict")
 _CIRCLE_SEEN = Words("Range measured {measured} µm, predicted {predicted} µm, left {left} µm.")
 _ANGLE, _RADIAL = Words("Angle"), Words("Radial deviation")
-_PLACE, _DEVIATION = (
-    Words("Place on the line"),
-    Words("Deviation"),
-)
+_PLACE, _DEVIATION = (Words("Place on the line"), Words("Deviation"))
 _BOTH = Words("measured and predicted")
 _WHAT_IS_LEFT = Words("left")
