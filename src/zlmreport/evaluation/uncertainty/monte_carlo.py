@@ -110,15 +110,10 @@ def propagate(
 ) -> tuple[Mapping[str, Expanded], ...]:
     """Return the expanded uncertainty of each parameter by its symbol, for each evaluation of one test.
 
-    Parameters
-    ----------
-    evaluations
-        Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
-    trials
-        Simulated tests; kinds of drift share them.
+    `evaluations`: Of one test, one at least, each with the arithmetic that takes it from statistics to
+        parameters.
+    `trials`: Simulated tests; kinds of drift share them.
 
-    Notes
-    -----
     U is half the width of the interval y ± U, about the value that the standard gives for the readings, which
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
