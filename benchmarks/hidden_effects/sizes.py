@@ -14,7 +14,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.effects.formula_settings import OTHER
+from zlmreport.model.effects.formula import OTHER
 
 #: Directions of a base model shorter than this share of the longest are no directions of their own.
 _DEPENDENT = 1e-9

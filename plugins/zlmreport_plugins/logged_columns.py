@@ -28,10 +28,9 @@ LOGGED: Mapping[str, str] = MappingProxyType(
             "temps heure horodatage date_heure date/heure tempo ora orario data_ora data/ora "
             "tiempo hora fecha_hora fecha/hora",
             "air_temperature": "lufttemperatur air_temp air_temp. t_luft t_air luft_temp raumtemperatur "
-            "hallentemperatur umgebungstemperatur room_temperature ambient_temperature "
-            "température_de_l'air température_air température_ambiante temp_air "
-            "temperatura_dell'aria temperatura_aria temperatura_ambiente temp_aria t_aria "
-            "temperatura_del_aire temperatura_aire temp_aire t_aire",
+            "hallentemperatur umgebungstemperatur room_temperature ambient_temperature température_de_l'air "
+            "température_air température_ambiante temp_air temperatura_dell'aria temperatura_aria "
+            "temperatura_ambiente temp_aria t_aria temperatura_del_aire temperatura_aire temp_aire t_aire",
             "material_temperature": "materialtemperatur material_temp t_mat werkstofftemperatur mat_temp "
             "t_material werkstücktemperatur température_du_matériau température_matériau température_matière "
             "température_de_la_pièce temperatura_del_materiale temperatura_materiale temperatura_del_pezzo "

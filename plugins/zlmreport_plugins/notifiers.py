@@ -42,7 +42,6 @@ class MailOptions(Options):
 
     @model_validator(mode="after")
     def _refuse_open_password(self) -> MailOptions:
-        """Refuse a password in the open."""
         if self.user and self.security == "none":
             raise ValueError("a password is not sent in the open; write security: starttls, or tls")
         return self

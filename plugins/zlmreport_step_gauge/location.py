@@ -86,17 +86,10 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
     Raises `InputError` if the points define no block, blocks of another size, or a section of another length;
     or if the beginning and the end are exchanged.
 
-    Parameters
-    ----------
-    points
-        On the first and on the last block of the section.
-    radius
-        Nominal radius of the tip, m; 0 where the points are those of the surface.
-    uncertainty
-        Standard uncertainty of a coordinate, m.
+    `points`: On the first and on the last block of the section.
+    `radius`: Nominal radius of the tip, m; 0 where the points are those of the surface.
+    `uncertainty`: Standard uncertainty of a coordinate, m.
 
-    Notes
-    -----
     The uncertainty of the direction is that of the 48 coordinates by the law of propagation (JCGM 100,
     5.1.2), its sensitivities found by moving each of them.
     """
@@ -140,7 +133,6 @@ def _take_triple(vector: FloatArray) -> tuple[float, float, float]:
 
 
 def _take_from_stack(blocks: Block, index: int) -> Block:
-    """Return one block of a stack."""
     return Block(
         *(
             each[index]

@@ -70,7 +70,6 @@ _STATED = Words(
     "Effective radius of the probe: {radius} mm, as stated; standard uncertainty {uncertainty} µm."
 )
 _OF_MACHINE = Words("Radius of the probe: corrected by the machine.")
-_CANCELS = Words("Radius of the probe: all faces are touched from the same side, so that it cancels.")
 _FACES = Words(
     "Each target position is a face of the gauge and is reached from one side only; what needs both "
     "directions at one position is not reported by standards that ask for it."
@@ -88,8 +87,6 @@ _TEMPERATURE = Words("Thermal expansion")
 _METHOD = Words("lengths of the {what} at the reference temperature, L·α·ΔT")
 _OF_GAUGE = Words("gauge", context="genitive")
 _OF_BOTH = Words("gauge and of the scale")
-_ONE_EXPANSION = Words("{which}: α = {alpha} µm/(m·K), ΔT = {difference} K")
-_BOTH_EXPANSIONS = Words("{gauge}; {scale}")
 _GAUGE = Words("gauge")
 _SCALE = Words("scale")
 
@@ -111,7 +108,7 @@ def _list_corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Co
         return
     inputs = _say_expansion(_GAUGE, gauge)
     if scale:
-        inputs = _BOTH_EXPANSIONS.given(gauge=inputs, scale=_say_expansion(_SCALE, scale))
+        inputs = Words("{gauge}; {scale}").given(gauge=inputs, scale=_say_expansion(_SCALE, scale))
     changed = deviations.compensated
     yield Correction(
         _TEMPERATURE,
@@ -122,7 +119,7 @@ def _list_corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Co
 
 
 def _say_expansion(which: Words, expansion: Expansion) -> Words:
-    return _ONE_EXPANSION.given(
+    return Words("{which}: α = {alpha} µm/(m·K), ΔT = {difference} K").given(
         which=which,
         alpha=expansion.coefficient / MICROMETRE_PER_METRE_KELVIN,
         difference=float(round(expansion.difference, 4)),
@@ -161,7 +158,7 @@ def _say_radius(found: EffectiveRadius) -> Words:
     if found.source is RadiusSource.MACHINE:
         return _OF_MACHINE
     if found.source is RadiusSource.NOWHERE:
-        return _CANCELS
+        return Words("Radius of the probe: all faces are touched from the same side, so that it cancels.")
     radius = float(round(MILLIMETRE.from_si(found.radius), 6))
     uncertainty = round_to_two_digits(MICROMETRE.from_si(found.uncertainty))
     if found.source is RadiusSource.STATED:

@@ -112,7 +112,6 @@ _END = "END"
 
 
 def _is_calypso(header: str) -> bool:
-    """Whether a header is that of such a table."""
     return set(_CALYPSO) <= set(header.split("\t"))
 
 

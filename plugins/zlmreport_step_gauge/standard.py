@@ -131,11 +131,7 @@ BY_POSITION: tuple[PositionQuantity, ...] = (
     PositionQuantity("S2F", "2SF_{i}", Words("Two standard deviations, forward")),
     PositionQuantity("S2B", "2SB_{i}", Words("Two standard deviations, backward")),
     PositionQuantity("XR", "XR_{i}", Words("Reversal error", context="step gauge")),
-    PositionQuantity(
-        "B",
-        "B_{i}",
-        Words("Reversal error with the sign of ISO 230-2"),
-    ),
+    PositionQuantity("B", "B_{i}", Words("Reversal error with the sign of ISO 230-2")),
 )
 
 #: What a reader of the results must know.
@@ -250,10 +246,7 @@ def _compute_parameters(statistics: PositionStatistics, reversal: FloatArray) ->
     }
 
 
-_MEAN = {
-    Approach.POSITIVE: Words("Forward error"),
-    Approach.NEGATIVE: Words("Backward error"),
-}
+_MEAN = {Approach.POSITIVE: Words("Forward error"), Approach.NEGATIVE: Words("Backward error")}
 _SYMBOLS = {Approach.POSITIVE: "F", Approach.NEGATIVE: "B"}
 
 

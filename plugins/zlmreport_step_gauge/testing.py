@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.plugin import MILLIMETRE, REFERENCE_TEMPERATURE, InputError, Place
 from zlmreport.plugin.program import PartProgram
-from zlmreport.testing.expectations import check, expect, run_all
+from zlmreport.testing.expectations import check, expect, list_checks_of, run_all
 from zlmreport.testing.part_programs import (
     expect_plain_text,
     expect_same_deeds,
@@ -138,15 +138,7 @@ def _say_stated(stated: Stated) -> str:
 
 
 #: Every check of a writer of probing programs, each called with the writer, a recogniser, and its job keys.
-PROBING_PROGRAM_CHECKS = (
-    is_named,
-    options_are_described,
-    leads_along_the_path,
-    is_plain_text,
-    writes_the_same_again,
-    takes_no_name_for_a_statement,
-    minds_the_radius,
-)
+PROBING_PROGRAM_CHECKS = (is_named, options_are_described, *list_checks_of(__name__))
 
 
 def check_probing_program(

@@ -34,17 +34,12 @@ from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.set_up import GaugeSetUp, round_to_two_digits
 
 _FACES = Words("Calibration of the faces")
-_FACES_ALONG = Words("Calibration of the faces, part that grows with the length")
 _OF_FACES = Words("U = {low} µm to {high} µm (k = {factor})")
 _RADIUS = Words("Effective radius of the probe")
 _RADIUS_SOURCE = Words("acts by 2u; scatter of the mean of the blocks, without the machine's reversal")
 _REFERENCE = Words("Reference face")
-_REFERENCE_SOURCE = Words("its calibration and its touches")
-_TOUCH = Words("Repeatability of the probe")
 _STANDARD = Words("u = {value} {unit}")
-_DIRECTION_SOURCE = Words("cosine error L·θ²/2 of the direction C1C2, from the initial points")
 _EXPANSION_SOURCE = Words("L·ΔT·u(α), ΔT = {difference} K; calibration of the gauge")
-_EXPANSION_STATED = Words("u(α) = {value} µm/(m·K)")
 
 
 def list_gauge_contributions(
@@ -104,7 +99,7 @@ def _list_of_faces(gauge: StepGauge) -> Iterator[Contribution]:
     )
     source = calibration_in_words(gauge.certificate)
     for name, size, acts in (
-        (_FACES_ALONG, along, Acts.ALONG_THE_LENGTH),
+        (Words("Calibration of the faces, part that grows with the length"), along, Acts.ALONG_THE_LENGTH),
         (_FACES, at_each, Acts.AT_EACH_APPROACH),
     ):
         if size:
@@ -128,7 +123,7 @@ def _list_of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iter
             Acts.AT_THE_DATUM,
             Distribution.NORMAL,
             _compute_standard(size),
-            _REFERENCE_SOURCE,
+            Words("its calibration and its touches"),
         )
 
 
@@ -136,7 +131,7 @@ def _list_of_touches(set_up: GaugeSetUp) -> Iterator[Contribution]:
     size = set_up.probing_uncertainty
     if size:
         yield Contribution(
-            _TOUCH,
+            Words("Repeatability of the probe"),
             size,
             Acts.AT_EACH_READING,
             Distribution.NORMAL,
@@ -184,7 +179,7 @@ def _list_of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contributi
         Acts.ALONG_THE_LENGTH,
         Distribution.ONE_SIDED,
         _STANDARD.given(value=round_to_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
-        _DIRECTION_SOURCE,
+        Words("cosine error L·θ²/2 of the direction C1C2, from the initial points"),
         "misalignment",
     )
 
@@ -199,7 +194,7 @@ def _list_of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contributi
         length * abs(expansion.difference) * known,
         Acts.ALONG_THE_LENGTH,
         Distribution.NORMAL,
-        _EXPANSION_STATED.given(value=known / MICROMETRE_PER_METRE_KELVIN),
+        Words("u(α) = {value} µm/(m·K)").given(value=known / MICROMETRE_PER_METRE_KELVIN),
         _EXPANSION_SOURCE.given(difference=float(round(expansion.difference, 4))),
         "device_expansion_coefficient",
     )

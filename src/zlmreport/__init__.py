@@ -81,7 +81,6 @@ _HOMES = {
 if not TYPE_CHECKING:  # a type checker knows the names from above, and reports one that is not among them
 
     def __getattr__(name: str) -> object:
-        """Load what a name stands for."""
         if name not in _HOMES:
             message = f"module {__name__!r} has no attribute {name!r}"
             raise AttributeError(message)
@@ -94,5 +93,4 @@ if not TYPE_CHECKING:  # a type checker knows the names from above, and reports 
 
 
 def __dir__() -> list[str]:
-    """Return the names of the face."""
     return sorted(__all__)

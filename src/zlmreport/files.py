@@ -232,11 +232,9 @@ class Closable:
     """What is closed when it is left as a context manager."""
 
     def __enter__(self) -> Self:
-        """Return it."""
         return self
 
     def __exit__(self, *_raised: object) -> None:
-        """Close it."""
         self.close()
 
     def close(self) -> None:

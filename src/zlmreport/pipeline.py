@@ -33,10 +33,9 @@ from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.likely_units import find_doubts, find_unlikely_limits
-from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget, join_budgets
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
 from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
-from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.evaluation.uncertainty.reasons import is_placeholder
 from zlmreport.evaluation.uncertainty.unstated import find_unstated

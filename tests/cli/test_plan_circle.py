@@ -111,7 +111,7 @@ def test_an_axis_has_no_path_of_a_circle(capsys: Capture) -> None:
 def test_a_control_that_knows_no_circles_is_refused_by_its_name(
     folder: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("zlmreport.cli.plan_circle.find_circle_writer", lambda _program: None)
+    monkeypatch.setattr("zlmreport.cli.plan.find_circle_writer", lambda _program: None)
     assert plan("--program", "fanuc", "--output", "out") == 2
     assert "fanuc writes no circles" in capsys.readouterr().err
     assert not (folder / "out").exists()

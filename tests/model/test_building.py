@@ -9,7 +9,7 @@ import numpy as np
 
 from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
 from model.hidden_effect import example as study_of_example, example_diagnosis
-from zlmreport.cli.model_build import build_lines
+from zlmreport.cli.model_lines import build_lines
 from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import Built, build, is_outstanding, list_needless, name_steps

@@ -11,6 +11,7 @@ from zlmreport_plugins.circle_effects.drives import (
     DynamicCrossTalk,
     ServoLag,
     ServoMismatch,
+    Vibration,
 )
 from zlmreport_plugins.circle_effects.geometry import Bow, CyclicError, ScaleMismatch, Squareness
 from zlmreport_plugins.circle_effects.reversals import (
@@ -21,7 +22,6 @@ from zlmreport_plugins.circle_effects.reversals import (
     StickSlip,
 )
 from zlmreport_plugins.circle_effects.set_up import CentreOffset, Radius, RadiusDrift
-from zlmreport_plugins.circle_effects.vibration import Vibration
 
 
 @hookimpl

@@ -139,13 +139,11 @@ class Bow(CircleEffect):
             CircleTerm(
                 f"guide of {AXES[axis]}", MICROMETRE,
                 (share * design.wave(axis)) ** searched[0] * design.other_wave(axis),
-                low=-3e-4, high=3e-4, usual=5e-6, title=_GUIDE.given(axis=AXES[axis]),
+                low=-3e-4, high=3e-4, usual=5e-6, title=Words("guide of {axis}").given(axis=AXES[axis]),
             )
             for axis in design.axes
         ]  # fmt: skip
 
-
-_GUIDE = Words("guide of {axis}")
 
 #: Periods of a cyclic error over the diameter of the circle: from few to as many as the readings resolve.
 _FEWEST_PERIODS, _STEP_OF_PERIODS, _MOST_PERIODS = 3.0, 0.4, 40.0

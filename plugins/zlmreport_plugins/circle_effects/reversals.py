@@ -79,7 +79,7 @@ class CircleBacklash(CircleEffect):
         """Say how much lost motion there might be."""
         for each in estimates:
             value, u = write_pair(each, each.value)
-            yield _NO_BACKLASH.given(axis=each.name, value=value, u=u)
+            yield Words("no backlash of {axis}: {value} ± {u} µm").given(axis=each.name, value=value, u=u)
 
 
 def _has_unlike_ends(estimates: Sequence[Estimate]) -> bool:
@@ -121,7 +121,6 @@ class OverCompensation(CircleEffect):
                 yield _OVER.given(axis=each.name, value=value, u=u)
 
 
-_NO_BACKLASH = Words("no backlash of {axis}: {value} ± {u} µm")
 _LOSES = Words("{axis} loses {value} ± {u} µm where it turns, alike at both ends of the circle")
 _LOSES_AT = {
     "+": Words("{axis} loses {value} ± {u} µm where it turns at the end of larger {axis}"),
@@ -169,11 +168,10 @@ class LateralPlay(CircleEffect):
         """Say how much play there might be."""
         for each in estimates:
             value, u = write_pair(each, each.value)
-            yield _NO_PLAY.given(axis=each.name, value=value, u=u)
+            yield Words("no lateral play of {axis}: {value} ± {u} µm").given(axis=each.name, value=value, u=u)
 
 
 _SHIFTS = Words("{axis} shifts sideways by {value} ± {u} µm where it turns")
-_NO_PLAY = Words("no lateral play of {axis}: {value} ± {u} µm")
 
 
 def _compute_let_go(since: FloatArray, width: float) -> FloatArray:

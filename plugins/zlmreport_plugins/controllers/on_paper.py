@@ -7,7 +7,7 @@ are written with ``--unconfirmed`` only, and each says so on the sheet.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal
 from itertools import pairwise
@@ -39,6 +39,10 @@ class _OnPaper:
     is_equidistant = False
     notes: tuple[Words, ...] = (_NO_TRIAL, _MEAN_ONLY)
     options: type[Options] = Options
+
+
+def _join_lines(lines: Iterable[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
 
 
 def _refuse_more_than(rows: int, table: CompensationTable) -> None:
@@ -111,36 +115,58 @@ class _Cross:
 
     def cross_files(self, tables: Sequence[CrossTable], moves: int) -> Mapping[str, str]:
         """Return the one file: the value that moves the axis by −e, in both directions of travel."""
-        lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
+        lines: list[str] = []
         for number, table in enumerate(tables):
-            step, first, last = _write_grid((table.positions * 1e3).tolist())
             values = (-moves * table.values * 1e3).tolist()
-            lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(values)]
-            lines += [
-                f"$AN_CEC_INPUT_AXIS[{number}]=({table.input}1)",
-                f"$AN_CEC_OUTPUT_AXIS[{number}]=({table.output}1)",
-                f"$AN_CEC_STEP[{number}]={step}",
-                f"$AN_CEC_MIN[{number}]={first}",
-                f"$AN_CEC_MAX[{number}]={last}",
-                f"$AN_CEC_DIRECTION[{number}]=0",
-                f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
-                f"$AN_CEC_IS_MODULO[{number}]=0",
-            ]
-        return {"-across_CEC.INI": "".join(f"{line}\n" for line in (*lines, "M17"))}
+            axes = (f"{table.input}1", f"{table.output}1")
+            lines += _write_cec(number, axes, (table.positions * 1e3).tolist(), values, direction=0)
+        return {"-across_CEC.INI": _join_lines((*_CEC_BEGINS, *lines, "M17"))}
 
     def read_cross(
         self, files: Mapping[str, str], tables: Sequence[CrossTable], moves: int
     ) -> tuple[CrossTable, ...]:
         """Return the tables that the lines describe."""
         (text,) = files.values()
-        return tuple(_read_cec(text, number, table, moves) for number, table in enumerate(tables))
+        return tuple(_read_cross_cec(text, number, table, moves) for number, table in enumerate(tables))
 
 
-def _read_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTable:
-    values = [float(each) for each in re.findall(rf"CEC\[{number},\d+\]={_NUMBER}", text)]
-    (step,) = re.findall(rf"STEP\[{number}\]={_NUMBER}", text)
-    (first,) = re.findall(rf"MIN\[{number}\]={_NUMBER}", text)
-    positions = (float(first) + float(step) * np.arange(len(values))) * 1e-3
+_CEC_BEGINS = ("%_N_NC_CEC_INI", "CHANDATA(1)")
+
+
+def _write_cec(
+    number: int, axes: tuple[str, str], positions: Sequence[float], values: Iterable[float], direction: int
+) -> Iterator[str]:
+    """Yield the lines of one table; `axes`: the one that moves, and the one that is moved aside."""
+    step, first, last = _write_grid(positions)
+    for row, each in enumerate(values):
+        yield f"$AN_CEC[{number},{row}]={each + 0.0:.5f}"
+    for name, value in (
+        ("INPUT_AXIS", f"({axes[0]})"),
+        ("OUTPUT_AXIS", f"({axes[1]})"),
+        ("STEP", step),
+        ("MIN", first),
+        ("MAX", last),
+        ("DIRECTION", direction),
+        ("MULT_BY_TABLE", 0),
+        ("IS_MODULO", 0),
+    ):
+        yield f"$AN_CEC_{name}[{number}]={value}"
+
+
+def _read_grid(text: str, index: str, rows: int) -> list[float]:
+    """Return positions by the stated distance and first of rows; `index`: In the brackets, a pattern."""
+    step, first = (
+        float(each) for name in ("STEP", "MIN") for each in re.findall(rf"{name}\[{index}\]={_NUMBER}", text)
+    )
+    return [first + step * row for row in range(rows)]
+
+
+def _read_cec(text: str, number: int) -> list[float]:
+    return [float(each) for each in re.findall(rf"CEC\[{number},\d+\]={_NUMBER}", text)]
+
+
+def _read_cross_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTable:
+    values = _read_cec(text, number)
     (moving,), (aside,) = (
         re.findall(rf"{which}_AXIS\[{number}\]=\((\w+?)1\)", text) for which in ("INPUT", "OUTPUT")
     )
@@ -148,7 +174,7 @@ def _read_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTab
         table,
         input=moving,
         output=aside,
-        positions=read_only_floats(positions),
+        positions=read_only_floats(np.array(_read_grid(text, str(number), len(values))) * 1e-3),
         values=-moves * np.array(values) * 1e-3,
     )
 
@@ -195,16 +221,13 @@ class Siemens840d(_OnPaper):
             f"$AA_ENC_COMP_IS_MODULO[0,{name}]=0",
             "M17",
         ]
-        return {"_EEC.INI": "".join(f"{line}\n" for line in lines)}
+        return {"_EEC.INI": _join_lines(lines)}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the table that the lines describe."""
         text = files["_EEC.INI"]
         values = [float(each) for each in re.findall(rf"COMP\[0,\d+,\w+\]={_NUMBER}", text)]
-        (step,) = re.findall(rf"STEP\[0,\w+\]={_NUMBER}", text)
-        (first,) = re.findall(rf"MIN\[0,\w+\]={_NUMBER}", text)
-        positions = [float(first) + float(step) * row for row in range(len(values))]
-        return _decode(table, positions, values, values)
+        return _decode(table, _read_grid(text, r"0,\w+", len(values)), values, values)
 
 
 class Siemens840dCec(_Cross, _OnPaper):
@@ -230,32 +253,16 @@ class Siemens840dCec(_Cross, _OnPaper):
         """Return the one file: table 0 acts in the positive direction, table 1 in the negative."""
         positions, *values = _make_columns(table)
         name = options.axis or f"{table.axis.name}1"
-        step, first, last = _write_grid(positions)
-        lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
+        lines: list[str] = []
         for number, (column, direction) in enumerate(zip(values, (1, -1), strict=True)):
-            lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(column.tolist())]
-            lines += [
-                f"$AN_CEC_INPUT_AXIS[{number}]=({name})",
-                f"$AN_CEC_OUTPUT_AXIS[{number}]=({name})",
-                f"$AN_CEC_STEP[{number}]={step}",
-                f"$AN_CEC_MIN[{number}]={first}",
-                f"$AN_CEC_MAX[{number}]={last}",
-                f"$AN_CEC_DIRECTION[{number}]={direction}",
-                f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
-                f"$AN_CEC_IS_MODULO[{number}]=0",
-            ]
-        return {"_CEC.INI": "".join(f"{line}\n" for line in (*lines, "M17"))}
+            lines += _write_cec(number, (name, name), positions, column.tolist(), direction)
+        return {"_CEC.INI": _join_lines((*_CEC_BEGINS, *lines, "M17"))}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return both tables."""
         text = files["_CEC.INI"]
-        columns = [
-            [float(each) for each in re.findall(rf"CEC\[{number},\d+\]={_NUMBER}", text)] for number in (0, 1)
-        ]
-        (step,) = re.findall(rf"STEP\[0\]={_NUMBER}", text)
-        (first,) = re.findall(rf"MIN\[0\]={_NUMBER}", text)
-        positions = [float(first) + float(step) * row for row in range(len(columns[0]))]
-        return _decode(table, positions, *columns)
+        columns = [_read_cec(text, number) for number in (0, 1)]
+        return _decode(table, _read_grid(text, "0", len(columns[0])), *columns)
 
 
 class Isg(_OnPaper):
@@ -285,7 +292,7 @@ class Isg(_OnPaper):
                 f"kw.ssfk.table[{row}].pos {round(up * 1e4)}",
                 f"kw.ssfk.table[{row}].neg {round(down * 1e4)}",
             ]
-        return {".lis": "".join(f"{line}\n" for line in lines)}
+        return {".lis": _join_lines(lines)}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the table of the list."""
@@ -354,10 +361,7 @@ class Fanuc(_OnPaper):
         }
         apart = round(-float(reverse[0] - forward[0]) / quantum)
         parameters = ("3605#0 1", f"3626 {options.reverse}", f"3627 {apart}")
-        return {
-            ".txt": self._write_file(steps),
-            "-parameters.txt": "".join(f"{each}\n" for each in parameters),
-        }
+        return {".txt": self._write_file(steps), "-parameters.txt": _join_lines(parameters)}
 
     def _write_file(self, steps: Mapping[int, Sequence[int]]) -> str:
         lines = [
@@ -365,7 +369,7 @@ class Fanuc(_OnPaper):
             for first, column in steps.items()
             for row, step in enumerate(column, start=1)
         ]
-        return "".join(f"{line}\n" for line in ("%", *lines, "%"))
+        return _join_lines(("%", *lines, "%"))
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
         """Return the sums of the increments; moving back they begin with parameter 3627."""
@@ -392,7 +396,7 @@ class Mitsubishi(_OnPaper):
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the increments, one a line, to be typed in at the control."""
         steps = _make_increments(table, 0.5e-3, 127, "state a shorter step")
-        return {"-increments.txt": "".join(f"{row} {step}\n" for row, step in enumerate(steps, start=1))}
+        return {"-increments.txt": _join_lines(f"{row} {step}" for row, step in enumerate(steps, start=1))}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the sums of the increments."""
@@ -423,19 +427,11 @@ class Heidenhain(_OnPaper):
         """Return the table, and the line that gives it to the axis."""
         _refuse_more_than(self.most_rows, table)
         name = table.axis.name
-        assigned = [
-            "BEGIN CONFIG .CMA",
-            f"NR ACTIVE {name}",
-            f"0  *      {table.number}.COM",
-            "[END]",
-        ]
+        assigned = ("BEGIN CONFIG .CMA", f"NR ACTIVE {name}", f"0  *      {table.number}.COM", "[END]")
         lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
         for row, (at, up, down) in enumerate(zip(*_make_columns(table), strict=True)):
             lines.append(f"{row}     {at:+.4f}   {float(down - up) + 0.0:+.4f}   {float(up) + 0.0:+.4f}")
-        return {
-            ".COM": "".join(f"{line}\n" for line in (*lines, "[END]")),
-            ".CMA": "".join(f"{line}\n" for line in assigned),
-        }
+        return {".COM": _join_lines((*lines, "[END]")), ".CMA": _join_lines(assigned)}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the rows."""
@@ -457,12 +453,8 @@ class Etalon(_OnPaper):
             f"{at:.6g} {each + 0.0:.6f}"
             for at, each in zip(positions, ((forward + reverse) / 2).tolist(), strict=True)
         ]
-        head = [f"[E{table.axis.name}{table.axis.name}]", "Gridpoints = {"]
-        return {
-            "-etalon.txt": "".join(
-                f"{line}\n" for line in (*head, *rows, f"}} // end of E{table.axis.name * 2}")
-            )
-        }
+        name = f"E{table.axis.name * 2}"
+        return {"-etalon.txt": _join_lines((f"[{name}]", "Gridpoints = {", *rows, f"}} // end of {name}"))}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the grid points."""

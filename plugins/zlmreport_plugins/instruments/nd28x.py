@@ -222,7 +222,6 @@ class Nd28x:
 
 
 def _ask_for_reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReading:
-    """Ask for a reading."""
     wait = options.timeout / 8 + _BITS / options.baud_rate
     position = ask_instrument(port, CURRENT_POSITION, find_position_in, wait)
     now = time.monotonic()

@@ -232,7 +232,6 @@ class _WithoutFirst:
 
 
 def _answer(port: Port, request: bytes, decoder: TextDecoder, patience: Patience, wait: float) -> LiveReading:
-    """Ask for a line, and return what it says."""
 
     def line_in(arrived: bytes) -> tuple[bytes] | None:
         whole = arrived.lstrip(b"\r\n").splitlines(keepends=True)

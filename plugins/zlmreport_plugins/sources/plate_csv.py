@@ -152,7 +152,6 @@ def _say_no_line_asked(names: list[str]) -> Iterator[str]:
 
 
 def _read_table_of(options: PlateCsvOptions, place: Place) -> tuple[Cells, dict[str, TextColumn]]:
-    """Return the cells of a table, and which columns it has."""
     table = options.read_table()
     columns = _find_columns(table, options, place)
     return options.cells_of(table, [columns[READING].index]), columns

@@ -42,13 +42,7 @@ from zlmreport.plugin.instrument import (
     ZeroLost,
     read_journal,
 )
-from zlmreport.plugin.source import (
-    DataSource,
-    Provenance,
-    Reading,
-    SourceContext,
-    collect_readings,
-)
+from zlmreport.plugin.source import DataSource, Provenance, Reading, SourceContext, collect_readings
 
 _HELD = Words("At the end the axis came back to the datum; closure: {difference}.")
 _SLIPPED = Words(

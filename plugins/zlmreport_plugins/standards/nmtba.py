@@ -15,15 +15,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.plugin import (
-    Evaluation,
-    Figure,
-    FloatArray,
-    MeasurementSet,
-    Options,
-    Words,
-    hookimpl,
-)
+from zlmreport.plugin import Evaluation, Figure, FloatArray, MeasurementSet, Options, Words, hookimpl
 from zlmreport.plugin.standard import (
     MEAN_ROLES,
     Arithmetic,
@@ -329,9 +321,7 @@ class _Graphs:
     def _make_figure(self, key: str, title: Words, shown: Panel, *sentences: Words | None) -> Figure:
         axis = self.diagram.axis
         alternative = alternative_text(
-            graph_in_words(self.evaluation),
-            range_in_words(axis, _MEAN_DEVIATION, self.mean),
-            *sentences,
+            graph_in_words(self.evaluation), range_in_words(axis, _MEAN_DEVIATION, self.mean), *sentences
         )
         return self.diagram.figure(key, title.given(axis=axis.name), alternative, (shown,))
 

@@ -28,7 +28,6 @@ _HALVINGS = 40
 
 
 def _give_no_errors(points: FloatArray) -> FloatArray:
-    """Return the errors of a perfect machine."""
     return np.zeros_like(points)
 
 
@@ -84,7 +83,6 @@ class CoordinateMachine:
     _random: Random = field(init=False)
 
     def __post_init__(self) -> None:
-        """Begin the noise."""
         self._random = Random(self.seed)  # noqa: S311 - no secret
 
     def can_reach(self, point: FloatArray) -> bool:

@@ -33,12 +33,7 @@ from zlmreport_step_gauge.machines.session import (
 )
 from zlmreport_step_gauge.paths.path import Point, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import PlannedPath, find_remaining, plan_path_of_job
-from zlmreport_step_gauge.paths.programs import (
-    coordinates,
-    direction,
-    write_beginning,
-    write_command,
-)
+from zlmreport_step_gauge.paths.programs import coordinates, direction, write_beginning, write_command
 
 _COLUMNS = "face,cycle,x,y,z,i,j,k"
 _ROW = re.compile(r"(?P<face>[0-9]{1,9}),(?P<cycle>[0-9]{1,9}),")
@@ -72,11 +67,9 @@ class PointJournal:
             self._append(*self._make_head())
 
     def __enter__(self) -> Self:
-        """Return the journal."""
         return self
 
     def __exit__(self, *_raised: object) -> None:
-        """Close the file."""
         self._file.close()
 
     @property
@@ -86,12 +79,7 @@ class PointJournal:
 
     def take(self, probing: Probing, centre: Point, others: Mapping[str, float]) -> None:
         """Write a point: the tip's centre, m, and as a remark what else the machine reported with it."""
-        row = [
-            str(probing.face),
-            str(probing.cycle),
-            *coordinates(centre, 5),
-            *direction(probing.normal),
-        ]
+        row = [str(probing.face), str(probing.cycle), *coordinates(centre, 5), *direction(probing.normal)]
         told = ", ".join(f"{plain_name(name)} {value:.9g}" for name, value in others.items())
         remark = [f"# face {probing.face}, cycle {probing.cycle}: {told}"] if told else []
         self._append(",".join(row), *remark)

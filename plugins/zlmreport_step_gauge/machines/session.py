@@ -62,7 +62,6 @@ class MachineError:
         return self.severity >= 2
 
     def __str__(self) -> str:
-        """Return it as messages show it."""
         return f"{self.number:04d} {self.text} ({self.method})"
 
 
@@ -145,7 +144,6 @@ def is_missed_face(error: MachineError) -> bool:
 
 
 def _say_advice(error: MachineError) -> str:
-    """Return what the operator can do."""
     return _ADVICE.get(error.number, "look at the machine, and start again")
 
 
@@ -307,11 +305,9 @@ class ServerConnection:
         self._rest = b""
 
     def __enter__(self) -> Self:
-        """Return the connection."""
         return self
 
     def __exit__(self, *_raised: object) -> None:
-        """Hang up."""
         self._socket.close()
 
     def send(self, line: str) -> None:

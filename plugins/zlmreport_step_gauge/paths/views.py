@@ -19,10 +19,6 @@ from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing
 from zlmreport_step_gauge.paths.plan import PlannedPath
 
-_AXONOMETRIC = Words("Axonometric view")
-_FROM_THE_SIDE = Words("From the side")
-_FROM_ABOVE = Words("From above")
-_IN_THE_MACHINE = Words("In the coordinates of the machine")
 _SAFE = Words("safe position")
 #: Azimuth and elevation of the axonometric views.
 _AT_GAUGE = (math.radians(14), math.radians(32))
@@ -95,12 +91,12 @@ def make_path_views(planned: PlannedPath) -> tuple[View, ...]:
     along, across, upward = planned.frame.axes
     from_right = np.array([along, upward, -across])
     right_angled = (
-        (_FROM_THE_SIDE, _Eye(from_right))
+        (Words("From the side"), _Eye(from_right))
         if planned.settings.kind is PathKind.VERTICAL
-        else (_FROM_ABOVE, _Eye(np.array([along, -across, -upward])))
+        else (Words("From above"), _Eye(np.array([along, -across, -upward])))
     )
     return (
-        _view_at_gauge(planned, _AXONOMETRIC, _Eye(_turn_view(*_AT_GAUGE) @ from_right)),
+        _view_at_gauge(planned, Words("Axonometric view"), _Eye(_turn_view(*_AT_GAUGE) @ from_right)),
         _view_at_gauge(planned, *right_angled),
         _view_in_machine(planned),
     )
@@ -149,7 +145,7 @@ def _view_in_machine(planned: PlannedPath) -> View:
     if planned.settings.safe_position is not None:
         notes.append(PlacedText(_SAFE, eye.see(way[0])))
     return View(
-        heading=_IN_THE_MACHINE,
+        heading=Words("In the coordinates of the machine"),
         base=base,
         blocks=blocks,
         edges=read_only_floats(np.reshape(edges, (-1, 2, 2))),

@@ -94,7 +94,6 @@ def run(options: Namespace) -> int:
 
 
 def _choose_display(options: Namespace) -> Callable[[Job, Assignment], Display]:
-    """Return where the capture is shown."""
     if options.steered:
         return SteeredLines
     if options.json:
@@ -188,7 +187,6 @@ def _has_begun(job: Job) -> bool:
 
 
 def _read_history(job: Job) -> History | None:
-    """Return what was captured so far; None for nothing."""
     options = find_options_of(job)
     if options is None or not options.journal.exists():
         return None

@@ -34,13 +34,7 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.of_job import Assignment
-from zlmreport.live.capture.operator_texts import (
-    SIDES,
-    AxisWriter,
-    list_what_to_do,
-    say_halted,
-    tell_event,
-)
+from zlmreport.live.capture.operator_texts import SIDES, AxisWriter, list_what_to_do, say_halted, tell_event
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import MOMENTARY, to_record
 from zlmreport.live.capture.visits import ListedVisit

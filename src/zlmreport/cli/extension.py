@@ -84,7 +84,7 @@ def find_command_of_extension(arguments: Sequence[str]) -> tuple[Command, int] |
 
 def make_parser_of(command: Command) -> CommandParser:
     """Return the parser of a command."""
-    parser = CommandParser(f"zlmreport {command.words}", command.description, command.examples)
+    parser = CommandParser(command.words, command.description, command.examples)
     for option in command.options:
         settings: dict[str, Any] = {
             "metavar": option.metavar,

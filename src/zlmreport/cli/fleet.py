@@ -191,7 +191,6 @@ _FORETOLD = {
 
 
 def _foretell(fleet: FleetFile, plugins: tuple[Path, ...], options: Namespace) -> int:
-    """Print what a night would do."""
     planned = foretell(fleet, plugins)
     due = [each for each in planned if each.due is not Due.NOTHING]
     if options.json:
@@ -222,7 +221,6 @@ _BAR, _USUAL_WIDTH = 30, 80
 
 
 def _count_due(number: int, jobs: int) -> str:
-    """Return how many of the jobs are due."""
     jobs_are = "1 job is" if jobs == 1 else f"{jobs} jobs are"
     return f"{number} of {jobs_are} due"
 

@@ -1,19 +1,28 @@
-"""``zlmreport machine``: the model of a whole machine, from what its axes predict to the effect it lacks."""
+"""``zlmreport machine``: a whole machine, from what its axes predict to what it lacks and to its tables."""
 
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.machine_compensate import compensate, find_exit_code
 from zlmreport.cli.terminal import lay_out_changes, lay_out_heading, print_json, show_path
 from zlmreport.document.blocks import Block, Section
-from zlmreport.errors import InputError, Place, Problem
-from zlmreport.files import Document, write
+from zlmreport.errors import NOT_MET, InputError, Place, Problem
+from zlmreport.files import Document, write, write_new
 from zlmreport.language import Language
 from zlmreport.machines.comparison import compare_circles, compare_line
+from zlmreport.machines.cross_confirmation import (
+    CONFIRMATION_SCHEMA,
+    SCHEMA,
+    CrossVerdict,
+    collect_confirmation,
+    collect_cross,
+    confirm,
+)
+from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
 from zlmreport.machines.document import make_machine_document
@@ -23,8 +32,10 @@ from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.report import collect_errors, collect_prediction
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
-from zlmreport.machines.subjects.plan import lay_out_plan
+from zlmreport.machines.subjects.cross_tables import lay_out_confirmation, lay_out_cross, lay_out_trial
+from zlmreport.machines.subjects.findings import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
+from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.pipeline import name_files
 from zlmreport.plugin.protocols import Renderer, needs_job
@@ -158,7 +169,6 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
 
 
 def _find_next_after_build(found: MachineDiagnosis, *, is_tried: bool) -> str:
-    """Return the action that follows a build."""
     if found.found and is_tried:
         return "build"
     if found.is_tied:
@@ -216,3 +226,43 @@ _ACTIONS = {
     "add": _add,
     "remove": _remove,
 }
+
+
+_COMMAND = Place("zlmreport machine compensate")
+
+
+def compensate(
+    machine: MachineFile, registry: Registry, options: Namespace
+) -> tuple[Sequence[Section], Sequence[Path], dict[str, Any]]:
+    """Return what is said of the tables, the files that were written, and the values.
+
+    Raises `InputError` if the control takes no such tables, or its sign is neither known nor stated.
+    """
+    if options.step is not None and options.step <= 0:
+        raise InputError.at(_COMMAND, f"--step {options.step:g}: rows are more than 0 mm apart, such as 25")
+    step = None if options.step is None else MILLIMETRE.to_si(options.step)
+    wanted = CrossWanted(options.controller, options.moves, step, _COMMAND, is_command=True)
+    if options.trial:
+        control, table, files = make_trial(machine, registry, wanted)
+        written = _write_tables(files, machine, options, "-trial")
+        values = {"schema": SCHEMA, "controller": control.identifier, "trial": True}
+        return [lay_out_trial(table, PEAK, _SAY)], written, {**values, "files": list(map(str, written))}
+    made = make_cross(machine, registry, wanted)
+    if options.confirm:
+        found = confirm(machine, made, options.confirm, registry, _COMMAND)
+        return [lay_out_confirmation(found, _SAY)], (), collect_confirmation(found)
+    written = _write_tables(made.files, machine, options, "")
+    return lay_out_cross(made, _SAY), written, {**collect_cross(made), "files": list(map(str, written))}
+
+
+def find_exit_code(values: Mapping[str, Any]) -> int:
+    """Return 1 for tables that circles do not confirm, by the values of an action; 0 for all else."""
+    is_confirmation = values.get("schema") == CONFIRMATION_SCHEMA
+    return NOT_MET if is_confirmation and values["verdict"] != CrossVerdict.HELD.value else 0
+
+
+def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> Sequence[Path]:
+    if options.output is None:
+        return ()
+    documents = make_table_documents(files, options.output, f"{machine.number}{mark}")
+    return write_new(documents)

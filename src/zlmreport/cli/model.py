@@ -9,8 +9,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport.cli.model_build import build_lines
-from zlmreport.cli.model_lines import change_lines, fit_lines, tell_diagnosis, tell_history, write_point_lines
+from zlmreport.cli.model_lines import (
+    build_lines,
+    change_lines,
+    fit_lines,
+    tell_diagnosis,
+    tell_history,
+    write_point_lines,
+)
 from zlmreport.cli.model_values import (
     ModelChange,
     change_values,
@@ -158,7 +164,6 @@ def _add(session: _Session, options: Namespace) -> _Answer:
 
 
 def _remove(session: _Session, options: Namespace) -> _Answer:
-    """Take an effect out of the job's model."""
     text, present = options.effect, [choice.identifier for choice in session.job.effects]
     if text not in present:
         raise InputError.at(

@@ -1,4 +1,4 @@
-"""What people read of an error model on a terminal: its error, its parameters, its diagnosis, its fall."""
+"""What people read of an error model on a terminal: error, parameters, diagnosis, fall and build."""
 
 from __future__ import annotations
 
@@ -8,27 +8,43 @@ from pathlib import Path
 
 from zlmreport.cli.layout import lay_out_sections, write_in_a_line
 from zlmreport.cli.model_values import ModelChange, PredictedPoints
-from zlmreport.cli.terminal import Colour, lay_out_heading, lay_out_table, show_path, wrap
+from zlmreport.cli.terminal import (
+    Colour,
+    lay_out_changes,
+    lay_out_heading,
+    lay_out_table,
+    show_path,
+    wrap,
+    wrap_steps,
+)
 from zlmreport.document.blocks import Section, Table
 from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, write_effect_argument
 from zlmreport.document.subjects.fit import (
     fit_sections,
     list_error_facts,
     make_parameter_rows,
+    write_deviation,
     write_in_a_sentence,
 )
 from zlmreport.document.subjects.forecast import StandardForecast, lay_out_fall
 from zlmreport.document.writer import Writer
 from zlmreport.errors import count_in_words
+from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.building import is_outstanding, list_needless
+from zlmreport.measurement.units import write_behind
+from zlmreport.model.diagnosis.building import Built, ModelStep, is_outstanding, list_needless, name_steps
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import find_stated_fault, write_formula_entry
+from zlmreport.model.diagnosis.report import (
+    find_stated_fault,
+    list_chances,
+    write_formula_entry,
+    write_statement_after_build,
+)
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.effect import is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
@@ -148,7 +164,6 @@ def _say_what_comes_first(diagnosis: AxisDiagnosis) -> str:
 
 
 def _quote_for_shell(argument: str) -> str:
-    """Return an argument as a shell takes it."""
     return f"'{argument}'" if set(argument) & set(" :{") else argument
 
 
@@ -213,3 +228,55 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
     if held:
         yield from wrap(f"held together with {', '.join(held)}")
+
+
+def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
+    """Yield the lines on a build; `path` is the job as the user types it."""
+    names, last = name_steps(built.steps), built.last
+    yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
+    yield from wrap_steps(_write_staircase(built))
+    yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
+    if built.exchange is not None:
+        coming, going = map(" and ".join, (built.exchange.coming, built.exchange.going))
+        yield from wrap(
+            f"{coming} in place of {going} would do as well: the readings do not tell which it is", ""
+        )
+    if built.doubts:
+        chances = list_chances(built.doubts).in_language(_ENGLISH)
+        yield from wrap(f"not sure: {chances}; else another effect, or something without a name", "")
+    for question in built.questions:
+        yield from wrap(question.in_language(_ENGLISH), "")
+    yield from write_needless_lines(built.needless, path)
+    yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
+    if is_tried and edit is not None and find_stated_fault(last) is None:
+        yield f"next: zlmreport model build {path}"
+    else:
+        yield from measure_lines(last)
+        yield f"next: {find_next_step(last, path)}"
+
+
+def _write_staircase(built: Built) -> str:
+    """Return how the error fell in one line: ``offset 5.4 → + backlash 3.2 µm; noise 0.7 µm``.
+
+    What goes out for what comes in is one stair with it: on the way both were there, or neither.
+    """
+    axis = built.first.fit.design.axis
+    unit = write_behind(axis.deviation_unit.symbol)
+    began = " + ".join(built.first.fit.model.identifiers) or "without model"
+    stairs = [f"{began} {write_deviation(built.first.error.rms, axis, _ENGLISH)}"]
+    for flight in _unite_exchanges(built.steps):
+        error = write_deviation(flight[-1].after.rms, axis, _ENGLISH)
+        stairs.append(f"{', '.join(name_steps(flight))} {error}")
+    floor = built.last.error.noise_rms
+    noise = "" if floor is None else f"; noise {write_deviation(floor, axis, _ENGLISH)}{unit}"
+    return f"{' → '.join(stairs)}{unit}{noise}"
+
+
+def _unite_exchanges(steps: Sequence[ModelStep]) -> list[list[ModelStep]]:
+    united: list[list[ModelStep]] = []
+    for each in steps:
+        if united and (each.is_removed or all(other.is_removed for other in united[-1])):
+            united[-1].append(each)
+        else:
+            united.append([each])
+    return united

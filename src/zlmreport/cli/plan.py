@@ -1,37 +1,37 @@
-"""``zlmreport plan``: a test before it is done, and what it will not be able to see."""
+"""``zlmreport plan``: a test before it is done, what it will not be able to see, and its part programs."""
 
 from __future__ import annotations
 
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.part_programs import (
-    RUN,
-    choose_programs,
-    demand_file,
-    make_program_files,
-    tell_written,
-    write_program_of,
-)
-from zlmreport.cli.plan_circle import plan_circle
 from zlmreport.cli.terminal import lay_out_heading, print_json, say, show_path, wrap
 from zlmreport.document.figures.sequence import draw_sequence
-from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
+from zlmreport.document.subjects.plan import (
+    collect_circle_plan,
+    lay_out_circle_plan,
+    plan_sections,
+    say_size_of_circle,
+    say_size_of_plan,
+)
 from zlmreport.document.subjects.plan_values import plan_values
-from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import Document, write_new
-from zlmreport.job.choices import ExtensionChoice
+from zlmreport.job.choices import Choice, ExtensionChoice, Find, choose_programs_by_name
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.live.capture.of_job import find_options_of
 from zlmreport.measurement.measurand import is_for
 from zlmreport.model.diagnosis.study import Study
+from zlmreport.model.planning.circle_path import CirclePath, plan_circle_path
 from zlmreport.model.planning.deciding import (
     collect_experiment,
     make_deciding_number,
@@ -42,6 +42,7 @@ from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_
 from zlmreport.model.planning.programs import Motion, plan_motion_of
 from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.plugin.extending import Extension, ExtensionPlan
+from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.plugin.registry import Registry, find_plugins
 
 DECISION = "zlmreport/decision/1"
@@ -74,22 +75,14 @@ def run(options: Namespace) -> int:
             documents = (
                 *_make_plan_files(options.output, job, planned),
                 *make_program_files(
-                    options.output,
-                    number,
-                    partial(write_program_of, motion),
-                    programs,
-                    registry.part_program,
+                    options.output, number, partial(write_program_of, motion), programs, registry.part_program
                 ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_find_motion_of_run, motion, options.run)
             documents = make_program_files(
-                options.output,
-                of_run,
-                partial(write_program_of, subject),
-                programs,
-                registry.part_program,
+                options.output, of_run, partial(write_program_of, subject), programs, registry.part_program
             )
     written = write_new(documents)
     if options.json:
@@ -170,12 +163,8 @@ def _plan_of_extension(
 
 
 def _show_plan(
-    options: Namespace,
-    job: Job,
-    registry: Registry,
-    found: tuple[Extension, ExtensionChoice, ExtensionPlan],
+    options: Namespace, job: Job, registry: Registry, found: tuple[Extension, ExtensionChoice, ExtensionPlan]
 ) -> int:
-    """Write and print a plan."""
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
     known = registry.list_programs_for(extension.takes) if extension.takes else ()
@@ -256,3 +245,120 @@ def _list_readings(job: Job, planned: PlannedTest) -> Iterator[str]:
     for visit in planned.visits:
         cells = [f"{targets[visit.target]:.12g}", visit.approach.sign, str(visit.run)]
         yield ",".join([*cells, "", *("" for _ in logs)])
+
+
+def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
+    """Write and print the path of a circular test: a program for each control and each feed."""
+    programs = choose_programs(options, job.programs, registry.part_program, registry.list_programs_for())
+    demand_file(options, programs)
+    keys, number = job.keys, job.keys.certificate.number
+    stated = keys.plan.circle.feeds if keys.plan.circle else []
+    place = job.place_of("circle")
+    paths = [plan_circle_path(job, place, feed) for feed in stated or (None,)]
+    documents: list[Document] = []
+    for path in paths if options.output else ():
+        of_run = path if options.run is None else replace(path, place=RUN).of_run(options.run)
+        parts = [
+            number,
+            *([] if options.run is None else [f"run-{options.run}"]),
+            *([f"F{path.feed:g}"] if len(paths) > 1 else []),
+        ]
+        documents += make_program_files(
+            options.output,
+            "-".join(parts),
+            partial(_write_program, registry, of_run),
+            programs,
+            registry.part_program,
+        )
+    written = write_new(tuple(documents))
+    if options.json:
+        print_json(collect_circle_plan(job, paths, written))
+        return 0
+    size = say(say_size_of_circle(paths[0]))
+    print(*lay_out_heading(number, f"plane {job.axis.name}: {size}"), sep="\n")
+    print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
+    print()
+    tell_written(options, programs, written)
+    print(f"next: measure, then zlmreport {show_path(options.job)}")
+    return 0
+
+
+def _write_program(registry: Registry, path: CirclePath, program: PartProgram, choice: Choice) -> str:
+    """Return the program of a circle; raise `InputError` where its writer writes none."""
+    write = find_circle_writer(program)
+    if write is None:
+        known = [each.identifier for each in registry.list_programs_for() if find_circle_writer(each)]
+        raise InputError.at(
+            choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
+        )
+    return write(replace(path, place=choice.place), choice.options)
+
+
+RUN = Place("zlmreport plan --run")
+_OPTION = Place("zlmreport plan --program")
+
+
+def demand_file(options: Namespace, programs: Sequence[Choice]) -> None:
+    """Refuse to show a run that nobody asks to have written."""
+    if options.run is not None and (not programs or not options.output):
+        raise InputError.at(RUN, "the program of a run is a file; state --program NAME and --output DIR, too")
+
+
+def write_program_of(subject: Callable[[Place], Any], program: PartProgram, choice: Choice) -> str:
+    """Return the program of a subject, asked for where a program is named."""
+    return program.write(subject(choice.place), choice.options)
+
+
+def choose_programs(
+    options: Namespace, stated: tuple[Choice, ...], find: Find, known: Sequence[PartProgram]
+) -> tuple[Choice, ...]:
+    """Return the programs that the command line names, or else those of the job.
+
+    Raises `InputError` if there is none of that name, or no folder to write it into.
+    """
+    if options.program is None:
+        return stated
+    if options.output is None:
+        raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
+    names = [name.strip() for name in options.program.split(",") if name.strip()]
+    if not names:
+        such_as = ",".join(each.identifier for each in known[:2])
+        raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
+    return choose_programs_by_name(names, _OPTION, stated, find)
+
+
+def tell_written(options: Namespace, programs: Sequence[Choice], written: Sequence[Path]) -> None:
+    """Print the files of a plan; which programs there are, where nobody says into which folder."""
+    if programs and not options.output:
+        names = ", ".join(each.identifier for each in programs)
+        print(f"part programs for {names}: state a folder, --output DIR")
+    for path in written:
+        print(show_path(path))
+
+
+def make_program_files(
+    folder: Path,
+    number: str,
+    write: Callable[[PartProgram, Choice], str],
+    choices: Sequence[Choice],
+    find: Callable[[str], PartProgram],
+) -> tuple[Document, ...]:
+    """Return the files of part programs.
+
+    `write`: Returns the program that a writer writes with the keys of a choice, as `write_program_of` does.
+
+    Raises `InputError` with everything that one of the controls or machines cannot be told.
+    """
+    problems: list[Problem] = []
+    documents: list[Document] = []
+    for choice in choices:
+        program = find(choice.identifier)
+        try:
+            text = write(program, choice)
+        except InputError as error:
+            problems.extend(error.problems)
+            continue
+        documents.append(Document(folder / f"{number}{program.suffix}", text.encode("ascii")))
+    if problems:
+        raise InputError(problems)
+    return tuple(documents)

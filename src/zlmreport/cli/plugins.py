@@ -22,7 +22,6 @@ def run(options: Namespace) -> int:
 
 
 def _list_plugins(registry: Registry) -> Iterator[str]:
-    """Yield the lines on all plugins, kind by kind."""
     offers = registry.list_offers()
     for kind in KINDS:
         yield Colour.BOLD.set(f"{kind.label}s")

@@ -32,7 +32,6 @@ _RELATIVE = Words(
     "their mean"
 )
 _ON_EACH_LINE = Words("On each line: {requirement}")
-_ON_A_LINE = Words("{found} ({name})")
 #: Phases that agree within this part of a period show the same point of a periodic deviation.
 _SAME_PHASE = 0.01
 #: Intervals that agree within this part are alike: their digits were rounded.
@@ -87,12 +86,7 @@ def positions_in_all(measurements: MeasurementSet, minimum: int, basis: Basis) -
 
 
 def positions_per_metre(
-    measurements: MeasurementSet,
-    per_metre: int,
-    basis: Basis,
-    *,
-    further: int = 0,
-    minimum: int = 0,
+    measurements: MeasurementSet, per_metre: int, basis: Basis, *, further: int = 0, minimum: int = 0
 ) -> Finding:
     """Ask for a density of target positions on a linear axis.
 
@@ -303,10 +297,7 @@ def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple
     Not met where all targets show the same phase of the period. Left open where the job states none.
     """
     axis = measurements.axis
-    periods = (
-        (Words("pitch"), axis.screw_pitch),
-        (Words("signal period"), axis.signal_period),
-    )
+    periods = ((Words("pitch"), axis.screw_pitch), (Words("signal period"), axis.signal_period))
     stated = tuple(
         _check_spacing_against(measurements, name, period, basis)
         for name, period in periods
@@ -393,5 +384,5 @@ def worst_of_lines(lines: Mapping[str, MeasurementSet], rule: Callable[[Measurem
     gravity = {False: 0, None: 1, True: 2}
     name = min(found, key=lambda each: gravity[found[each].met])
     worst = found[name]
-    said = _ON_A_LINE.given(found=worst.found, name=name)
+    said = Words("{found} ({name})").given(found=worst.found, name=name)
     return Finding(_ON_EACH_LINE.given(requirement=worst.requirement), said, worst.met, worst.basis)

@@ -48,7 +48,6 @@ _NO_REASON = Words("The reading of run {run} at {target} {arrow} is set aside wi
 _PAUSE = Words(
     "Before a reading of run {run} none was taken for {hours} h: what moved meanwhile is in the results"
 )
-_ONE_TIME = Words("All readings are said to have been taken at the same time")
 _TOO_FAST = Words(
     "By the times of the readings the axis moved at {speed} {unit}, and its feed is stated as {feed} {unit}"
 )
@@ -68,7 +67,6 @@ _SHORTER_THAN_DWELL = Words(
     "Readings follow each other after {seconds} s as a rule, and a dwell of {dwell} s at each target is "
     "stated"
 )
-_BOTH_WAYS = Words("A unidirectional method is stated, and targets were approached from both directions")
 _SERIALS = Words("The measuring instrument and the machine are stated with one serial number, {serial}")
 _BARE_LENGTH = Words(
     "The length of the instrument is said to be calibrated, and no calibration certificate is named for it"
@@ -154,7 +152,7 @@ def _find_more_than_days(keys: JobKeys, times: FloatArray) -> Iterator[Words]:
 def _find_other_method(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield a method in one direction whose readings are in both."""
     if keys.measurement.method == "unidirectional" and measurements.is_bidirectional:
-        yield _BOTH_WAYS
+        yield Words("A unidirectional method is stated, and targets were approached from both directions")
 
 
 def _find_one_serial(keys: JobKeys) -> Iterator[Words]:
@@ -224,7 +222,7 @@ def _find_odd_times(job: Job, measurements: MeasurementSet, times: FloatArray) -
     there = np.isfinite(times)
     seconds = np.diff(times[there])
     if not seconds.any():
-        yield _ONE_TIME
+        yield Words("All readings are said to have been taken at the same time")
         return
     longest = int(seconds.argmax())
     if seconds[longest] > _LONG_PAUSE:

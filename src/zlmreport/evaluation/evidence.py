@@ -41,16 +41,14 @@ _AT_REST = Words("{range} is stated of drift at rest: what exceeds it is")
 _NEGLECTED = Words("drift at rest is declared negligible: this is")
 _NOTHING_STATED = Words("nothing is stated of drift at rest: this is")
 _OUTLIER = Words(
-    "The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
-    "in the "
-    "results (measurement.excluded sets it aside)"
+    "The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is in "
+    "the results (measurement.excluded sets it aside)"
 )
 _ONE_MORE_OUTLIER = Words("One more reading lies as far from the others of its target")
 _MORE_OUTLIERS = Words("{count} more readings lie as far from the others of their targets")
 _SPIKE = Words(
     "A single reading at {target} lies {distance} from those before and after it, and is in the results"
 )
-_STANDS = Words("All readings are equal: the sensor, or its display, may have stood still")
 _IDENTICAL = Words("Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter")
 _SAME_DIRECTIONS = Words(
     "Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the reversal"
@@ -78,7 +76,6 @@ _TOO_LARGE = Words(
     "All deviations together span {range} over {length}; if the file has another unit, "
     "state it under measurement.source.units"
 )
-_AS_LEFT = Words("The readings are in every digit those of the measurement as left")
 _MIRRORED = Words("Run {run} mirrors the others: the sign of its deviations seems to be turned")
 _INTERCHANGED = Words(
     "The reversal of run {run} is {reversal} in the mean, and {others} in the others: its directions seem to "
@@ -127,7 +124,7 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     if not there.any():
         return ()
     if there.sum() >= _FEWEST_EQUAL and not np.ptp(readings[there]):
-        return (_STANDS,)
+        return (Words("All readings are equal: the sensor, or its display, may have stood still"),)
     return (
         *_find_drift(job, measurements, readings),
         *_find_outliers(measurements, readings),
@@ -152,7 +149,7 @@ def find_lines_read_twice(tests: Mapping[str, MeasurementSet]) -> Iterator[Words
 def find_as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
     """Yield whether the readings before an adjustment are those after it."""
     if not as_found.tests and _are_identical(as_found.deviation, as_left.deviation):
-        yield _AS_LEFT
+        yield Words("The readings are in every digit those of the measurement as left")
 
 
 def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
@@ -180,13 +177,7 @@ def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) ->
     low, high = (_write_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
     lie, to = (_LIE, _AND) if not steady else (_RISE if order > 0 else _FALL, _TO)
     first, last = (high, low) if lie is _FALL else (low, high)
-    yield _DRIFTS.given(
-        lie=lie,
-        low=first,
-        to=to,
-        high=last,
-        stated=_say_stated_drift(job, unit),
-    )
+    yield _DRIFTS.given(lie=lie, low=first, to=to, high=last, stated=_say_stated_drift(job, unit))
 
 
 def _say_stated_drift(job: Job, unit: Unit) -> Words:
@@ -384,8 +375,7 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     else:
         return
     yield words.given(
-        range=_write_size(measurements, full_range),
-        length=say_stated(unit.from_si(length), unit.symbol),
+        range=_write_size(measurements, full_range), length=say_stated(unit.from_si(length), unit.symbol)
     )
 
 

@@ -6,7 +6,6 @@ Nothing is refused or changed for that: who knows the machine is told, with the 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from types import MappingProxyType
 
 import numpy as np
 
@@ -52,25 +51,22 @@ _FAR_BELOW_STEP = Words(
 #: Part of a step below which the uncertainty of no instrument lies that was read so.
 _OF_A_STEP = 0.05
 #: Full ranges of set-ups, in their units; others are in another unit, or no measurement.
-_RANGES: Mapping[str, tuple[float, float, str]] = MappingProxyType(
-    {
-        "misalignment": (0.001, 50.0, "mm"),
-        "machine_temperature": (0.001, 10.0, "K"),
-        "device_temperature": (0.001, 10.0, "K"),
-        "expansion_coefficient": (0.005, 20.0, "µm/(m·K)"),
-        "device_expansion_coefficient": (0.001, 20.0, "µm/(m·K)"),
-        "air_temperature": (0.001, 20.0, "K"),
-        "air_pressure": (0.02, 200.0, "hPa"),
-        "relative_humidity": (0.3, 100.0, "%"),
-    }
-)
+_RANGES: Mapping[str, tuple[float, float, str]] = {
+    "misalignment": (0.001, 50.0, "mm"),
+    "machine_temperature": (0.001, 10.0, "K"),
+    "device_temperature": (0.001, 10.0, "K"),
+    "expansion_coefficient": (0.005, 20.0, "µm/(m·K)"),
+    "device_expansion_coefficient": (0.001, 20.0, "µm/(m·K)"),
+    "air_temperature": (0.001, 20.0, "K"),
+    "air_pressure": (0.02, 200.0, "hPa"),
+    "relative_humidity": (0.3, 100.0, "%"),
+}
 #: Of a machine tool's axis, rad: 1000 arc seconds.
 _LARGE_ANGLE = 1000 / 206264.80624709636
 #: Axes by their first letters (ISO 841), and the ranges that say that one of them turns.
 _TURNING, _STRAIGHT = frozenset("ABC"), frozenset("XYZUVW")
 _PARTS_OF_A_TURN = (90.0, 180.0, 360.0)
 _OF_MACHINE = Words("Expansion coefficient of the machine")
-_OF_CORRECTION = Words("Expansion coefficient of the correction")
 _OF_COMPENSATION = Words("Expansion coefficient by which the instrument compensated")
 _OF_INSTRUMENT = Words("Expansion coefficient of the instrument")
 #: Of materials of scales and machines, µm/(m·K): Invar to aluminium and zinc; of glass ceramic it is about 0.
@@ -129,7 +125,7 @@ def _find_unlikely_expansion(job: Job) -> Iterator[Words]:
     compensates = instrument.compensates if instrument else None
     for name, value in (
         (_OF_MACHINE, environment and environment.expansion_coefficient),
-        (_OF_CORRECTION, material and material.expansion_coefficient),
+        (Words("Expansion coefficient of the correction"), material and material.expansion_coefficient),
         (_OF_COMPENSATION, compensates and compensates.material),
         (_OF_INSTRUMENT, instrument and instrument.expansion_coefficient),
     ):

@@ -36,7 +36,6 @@ _ROUNDING = 1e-9
 #: Temperatures that lengths have, and the one at which they hold, °C.
 _OF_LENGTHS, _REFERENCE = ("axis_temperature", "material_temperature"), 20.0
 
-_NOT_DATED = Words("{what}: date of calibration not stated")
 _OLD_CALIBRATION = Words("{what}: calibrated on {date}, {years} years before the measurement")
 _AFTER = Words("{what}: calibrated on {date}, after the measurement of {measured}")
 _OVERDUE = Words("{what}: calibration was due on {date}, before the measurement of {measured}")
@@ -56,7 +55,6 @@ _OTHER_CAPABILITY = Words(
 _OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNESS, ANGLE, CIRCLE)}
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
-_ARTEFACT = Words("What was measured against ({key})")
 _OUT_OF_RANGE = Words("Outside the calibrated range of the measuring instrument: {what}")
 _OF_SPAN = Words("results over {length} (it is calibrated over {most})")
 _OF_TEMPERATURE = Words(
@@ -196,7 +194,7 @@ def _find_breaks_of_artefacts(job: Job) -> Iterator[_Break]:
     """Yield the artefacts of which no calibration certificate is named, or this document, each once."""
     for key, group in dict(_list_artefact_keys(job)).items():
         certificate, name = getattr(group, "certificate", None) or "", getattr(group, "name", None)
-        what = same(name) if name else _ARTEFACT.given(key=key)
+        what = same(name) if name else Words("What was measured against ({key})").given(key=key)
         where = f"{_find_group(job, key)}.certificate"
         if not is_reference(certificate):
             yield _Break(where, _NO_CERTIFICATE.given(what=what), is_broken=False)
@@ -235,7 +233,7 @@ def _find_breaks_of_calibration(
     day = device.calibrated
     if day is None:
         if device.certificate and is_reference(device.certificate):
-            words = _NOT_DATED.given(what=what)
+            words = Words("{what}: date of calibration not stated").given(what=what)
             yield _Break(f"{key}.calibrated", words, is_broken=False)
     elif first and day > first:
         words = _AFTER.given(what=what, date=_write_day(day), measured=_write_day(first))

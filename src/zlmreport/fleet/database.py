@@ -199,7 +199,6 @@ def copy(database: Database, to: Path) -> None:
 
 
 def _make_url_of(address: str) -> URL:
-    """Return the URL of a ledger."""
     if "://" not in address:
         return URL.create("sqlite", database=address)
     try:
@@ -219,7 +218,6 @@ def _show_address(address: str) -> str:
 
 
 def _make_no_access(address: str, error: SQLAlchemyError) -> AccessError:
-    """Return the error of a ledger that cannot be used."""
     reason = getattr(error, "orig", None) or error
     message = f"the ledger cannot be used: {' '.join(str(reason).split())[:300]}"
     return AccessError([*AccessError.at(Place(_show_address(address)), message).problems])

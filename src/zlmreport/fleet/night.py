@@ -70,7 +70,6 @@ class Watch(Protocol):
 def _prepare_evening(
     fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]
 ) -> Evening:
-    """Return what is known before a night."""
     now = CertificateBasis(
         files=(),
         programs=find_program_versions(files=plugins),

@@ -156,7 +156,6 @@ def find_left_documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterat
 
 
 def _list_phrases(words: Sequence[Words]) -> Words:
-    """Return phrases one after the other."""
     names = [f"word{index}" for index in range(len(words))]
     phrase = ", ".join(f"{{{name}}}" for name in names)
     return Words(phrase, values=dict(zip(names, words, strict=True)))

@@ -97,7 +97,6 @@ def _run(night: PastNight | None) -> Words:
 
 
 def _say_jobs_done(state: FleetState) -> Words:
-    """Return what became of the jobs of the last run."""
     counts = state.counts
     drafts = words.AS_DRAFTS.given(number=counts["draft"])
     done = words.JOBS_DONE.given(jobs=state.jobs, drafts=drafts, **counts)
@@ -439,7 +438,6 @@ _UNCERTAINTY, _LIMIT = 1.5, 20.0
 
 
 def _make_legend(cells: CellWriter) -> OverviewLegendContext:
-    """Return the legend."""
     terms = (
         (words.TERM_VALUE, words.MEANING_VALUE),
         (words.TERM_BAND, words.MEANING_BAND),

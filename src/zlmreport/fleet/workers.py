@@ -93,7 +93,6 @@ class Pool:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """End the workers."""
         for worker in self._staff:
             self._dismiss(worker)
         self._staff.clear()
@@ -287,7 +286,6 @@ class Cluster:
         return self
 
     def __exit__(self, *_: object) -> None:
-        """Leave the scheduler."""
         if self._client is not None:
             self._client.close()
             self._client = None

@@ -8,14 +8,14 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, TypeAlias
 
-from pydantic import BaseModel, Field, create_model
+from pydantic import BaseModel, create_model
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
 from zlmreport.job.installed import Installed, InstalledExtension, InstalledProgram, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, find_key_place, make_keys_of
-from zlmreport.job.types import JobPart, LiveInstrumentKeys, Options, find_model_in, list_keys_in
+from zlmreport.job.types import JobPart, LiveInstrumentKeys, Options, find_model_in, list_keys_in, optional
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,7 +205,7 @@ class ExtensionChoice:
 
 def group_model(extension: InstalledExtension) -> type[BaseModel]:
     """Return a model whose one key is the group of an extension: as a job has it."""
-    field: Any = Field(None, description=extension.description, examples=[dict(extension.example)])
+    field: Any = optional(extension.description, example=dict(extension.example))
     group: Any = (extension.options | None, field)
     model: type[BaseModel] = create_model(
         f"{extension.options.__name__}Group", __base__=JobPart, **{extension.identifier: group}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.job.types import Finite, JobPart, Positive, Text
+from zlmreport.job.types import Finite, JobPart, Positive, Text, optional
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurand import CIRCLE, Measurand
 from zlmreport.measurement.units import MILLIMETRE
@@ -37,9 +37,8 @@ class CircleKeys(JobPart):
         description="Whether the length of the instrument was calibrated: only then a mean radius, and what "
         "is reckoned from the nominal one, says something of the machine.",
     )
-    certificate: Text | None = Field(
-        None,
-        description="Calibration certificate of that length: of the bar, or of the calibrator it was set by.",
+    certificate: Text | None = optional(
+        "Calibration certificate of that length: of the bar, or of the calibrator it was set by."
     )
 
     def in_si(self) -> NominalCircle:

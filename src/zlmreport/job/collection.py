@@ -17,42 +17,17 @@ MEASUREMENTS = "measurements"
 MOST = 60
 #: Keys of the document that its jobs have too, in the place of their own.
 _SHARED = (
-    "schema",
-    "laboratory",
-    "customer",
-    "machine",
-    "location",
-    "procedure",
-    "dates",
-    "agreement",
-    "decision_rule",
+    *("schema", "laboratory", "customer", "machine", "location", "procedure"),
+    *("dates", "agreement", "decision_rule"),
 )
 _OF_CERTIFICATE = (
-    "number",
-    "kind",
-    "language",
-    "issued",
-    "layout",
-    "paper",
-    "readings_on_graphs",
-    "authorised_by",
-    "style",
+    *("number", "kind", "language", "issued"),
+    *("layout", "paper", "readings_on_graphs", "authorised_by", "style"),
 )
 #: Keys of one measurement, which a document of several has none of.
 _OF_ONE = (
-    "axis",
-    "circle",
-    "measurement",
-    "as_found",
-    "instrument",
-    "environment",
-    "corrections",
-    "evaluate",
-    "uncertainty",
-    "model",
-    "plan",
-    "capture",
-    "compensation",
+    *("axis", "circle", "measurement", "as_found", "instrument", "environment", "corrections", "evaluate"),
+    *("uncertainty", "model", "plan", "capture", "compensation"),
 )
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]+")
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self, TypeAlias
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from zlmreport.errors import quoted
-from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, take_file_stem
+from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, optional, take_file_stem
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 
@@ -16,9 +16,7 @@ class Person(JobPart):
     """Somebody who answers for the certificate."""
 
     name: Text = Field(description="The person's name.", examples=["Erika Mustermann"])
-    function: Text | None = Field(
-        None, description="The person's function in the laboratory.", examples=["Head of laboratory"]
-    )
+    function: Text | None = optional("The person's function in the laboratory.", example="Head of laboratory")
 
 
 class Amends(JobPart):
@@ -46,10 +44,9 @@ class Location(JobPart):
     kind: Literal["laboratory", "customer", "laboratory branch", "customer branch", "other"] = Field(
         description="Whose place it is."
     )
-    address: Lines | None = Field(
-        None,
-        description="Its address; without it, that of the laboratory or the customer.",
-        examples=["Hall 3, Millway 2, 12345 Sampletown"],
+    address: Lines | None = optional(
+        "Its address; without it, that of the laboratory or the customer.",
+        example="Hall 3, Millway 2, 12345 Sampletown",
     )
 
     @model_validator(mode="after")
@@ -63,10 +60,8 @@ class Location(JobPart):
 class Dates(JobPart):
     """Dates beside those of the measurement and the document."""
 
-    received: Date | None = Field(
-        None, description="When the item was received, if that matters for the results."
-    )
-    sampled: Date | None = Field(None, description="When the item was sampled, if that matters.")
+    received: Date | None = optional("When the item was received, if that matters for the results.")
+    sampled: Date | None = optional("When the item was sampled, if that matters.")
 
 
 class External(JobPart):
@@ -74,9 +69,7 @@ class External(JobPart):
 
     results: Lines = Field(description="Which results.", examples=["Temperatures of the machine's scale"])
     provider: Text = Field(description="Who supplied them.", examples=["Thermometry Ltd"])
-    reference: Text | None = Field(
-        None, description="The provider's own document.", examples=["Report 2026-88"]
-    )
+    reference: Text | None = optional("The provider's own document.", example="Report 2026-88")
     keys: list[Text] = Field(
         [],
         description="Keys of this job that hold them: marked wherever they are printed.",
@@ -93,9 +86,7 @@ class OpinionKeys(JobPart):
     basis: Lines = Field(
         description="On what it rests.", examples=["The reversal value is alike at all targets."]
     )
-    by: Person | None = Field(
-        None, description="Who is authorised to state it; without it certificate.authorised_by."
-    )
+    by: Person | None = optional("Who is authorised to state it; without it certificate.authorised_by.")
 
 
 class NextDue(JobPart):
@@ -112,9 +103,7 @@ class Agreement(JobPart):
         default=False,
         description="Whether results are reported in a simplified way: the single readings are left out.",
     )
-    reference: Text | None = Field(
-        None, description="Where it was agreed.", examples=["Order 4711 of 2026-10-02"]
-    )
+    reference: Text | None = optional("Where it was agreed.", example="Order 4711 of 2026-10-02")
 
 
 #: Unique identification of a document, that also names its files.
@@ -182,28 +171,23 @@ class Style(JobPart):
     logo: Literal["left", "right"] = Field(
         "right", description="Side of the letterhead on which the logo stands."
     )
-    header: Text | None = Field(
-        None,
-        description="What stands at the head of every page but the first, in place of laboratory and "
+    header: Text | None = optional(
+        "What stands at the head of every page but the first, in place of laboratory and "
         "subject; a key of the job in braces stands for its value.",
-        examples=["{laboratory.name} · {machine.serial}"],
+        example="{laboratory.name} · {machine.serial}",
     )
-    footer: Text | None = Field(
-        None,
-        description="A line below the number at the foot of every page; a key of the job in braces stands "
-        "for its value.",
-        examples=["Order 4711 · {customer.name}"],
+    footer: Text | None = optional(
+        "A line below the number at the foot of every page; a key of the job in braces stands for its value.",
+        example="Order 4711 · {customer.name}",
     )
-    typeface: TypefaceKeys | None = Field(
-        None,
-        description="The laboratory's own typeface, for `pdf` and `html`; symbols, graphs and letters that "
-        "it lacks are set in the bundled one.",
+    typeface: TypefaceKeys | None = optional(
+        "The laboratory's own typeface, for `pdf` and `html`; symbols, graphs and letters that "
+        "it lacks are set in the bundled one."
     )
-    templates: JobPath | None = Field(
-        None,
-        description="A folder with templates of the laboratory's own for single blocks, and a style sheet "
+    templates: JobPath | None = optional(
+        "A folder with templates of the laboratory's own for single blocks, and a style sheet "
         "`style.css`, for `pdf` and `html`.",
-        examples=["templates"],
+        example="templates",
     )
 
 
@@ -228,15 +212,14 @@ class CertificateKeys(JobPart):
         "certificate",
         description="A calibration certificate after ISO/IEC 17025:2017 clause 7.8, or a measuring report.",
     )
-    title: Text | None = Field(None, description="Title on the cover, instead of the usual one.")
-    issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
+    title: Text | None = optional("Title on the cover, instead of the usual one.")
+    issued: Date | None = optional("Date of issue.", example="2026-11-20")
     language: Language = Field(Language.ENGLISH, description="Language of the document.")
-    authorised_by: Person | None = Field(None, description="Who authorises the document.")
-    signature: SignatureKeys | None = Field(None, description="How the PDF is signed, where it is.")
-    amends: Amends | None = Field(
-        None,
-        description="The earlier document that this one amends or replaces.",
-        examples=[{"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."}],
+    authorised_by: Person | None = optional("Who authorises the document.")
+    signature: SignatureKeys | None = optional("How the PDF is signed, where it is.")
+    amends: Amends | None = optional(
+        "The earlier document that this one amends or replaces.",
+        example={"number": "CAL-2026-0117", "reason": "The serial number of the machine was wrong."},
     )
     layout: Literal["sheet", "standard", "full"] = Field(
         "standard",
@@ -249,13 +232,10 @@ class CertificateKeys(JobPart):
         default=True, description="Whether the graphs show all single readings behind the means."
     )
     style: Style = Field(default_factory=Style, description="The look of the document.")
-    sections: Sections = Field(
-        None,
-        description="What the document has after its first page, in this order: names of sections, and texts "
+    sections: Sections = optional(
+        "What the document has after its first page, in this order: names of sections, and texts "
         "of one's own; all in the usual order without it. `results` must be there.",
-        examples=[
-            ["results", "uncertainty", "conditions", {"title": "Note", "text": "Valid with its annex."}]
-        ],
+        example=["results", "uncertainty", "conditions", {"title": "Note", "text": "Valid with its annex."}],
         json_schema_extra={"uniqueItems": True, "contains": {"const": "results"}},
     )
 
@@ -291,24 +271,19 @@ class Capability(JobPart):
         "capability that states it is for linear axes.",
         examples=[0.5],
     )
-    length: Annotated[float, Field(gt=0)] | None = Field(
-        None,
-        description="Longest measured length of the accredited scope, mm (degrees): results beyond it are "
-        "marked.",
-        examples=[2000],
+    length: Annotated[float, Field(gt=0)] | None = optional(
+        "Longest measured length of the accredited scope, mm (degrees): results beyond it are marked.",
+        example=2000,
     )
-    kind: AxisKind | None = Field(
-        None, description="Kind of axes of the accredited scope: results of others are marked."
-    )
+    kind: AxisKind | None = optional("Kind of axes of the accredited scope: results of others are marked.")
     quantity: Literal["positioning", "straightness", "angle", "circle"] = Field(
         "positioning",
         description="What the capability is for: U of others is not raised to it, and their results "
         "are marked.",
     )
-    standards: list[Text] | None = Field(
-        None,
-        description="Standards of the accredited scope, by their identifiers: results by others are marked.",
-        examples=[["iso230-2:2014"]],
+    standards: list[Text] | None = optional(
+        "Standards of the accredited scope, by their identifiers: results by others are marked.",
+        example=["iso230-2:2014"],
     )
 
     @model_validator(mode="after")
@@ -331,43 +306,34 @@ class Laboratory(JobPart):
     """Who issues the document."""
 
     name: Text = Field(description="Name of the laboratory.", examples=["Calibration Laboratory North"])
-    address: Lines | None = Field(
-        None,
-        description="Postal address; commas or line breaks part its lines.",
-        examples=["Gaugeway 1, 12345 Sampletown"],
+    address: Lines | None = optional(
+        "Postal address; commas or line breaks part its lines.", example="Gaugeway 1, 12345 Sampletown"
     )
-    country: Annotated[str, Field(pattern=r"^[A-Z]{2}$")] | None = Field(
-        None,
-        description="Country by its two letters (ISO 3166-1), for the digital calibration certificate.",
-        examples=["DE"],
+    country: Annotated[str, Field(pattern=r"^[A-Z]{2}$")] | None = optional(
+        "Country by its two letters (ISO 3166-1), for the digital calibration certificate.", example="DE"
     )
-    accreditation: Text | None = Field(None, description="Accreditation body and number.")
-    cmc: Capability | None = Field(
-        None,
-        description="Calibration and measurement capability: a smaller U is raised to it, and says so.",
-        examples=[{"constant": 0.3, "per_metre": 0.5}],
+    accreditation: Text | None = optional("Accreditation body and number.")
+    cmc: Capability | None = optional(
+        "Calibration and measurement capability: a smaller U is raised to it, and says so.",
+        example={"constant": 0.3, "per_metre": 0.5},
     )
-    logo: JobPath | None = Field(
-        None, description="PNG or JPEG file beside the file that names it.", examples=["logo.png"]
-    )
+    logo: JobPath | None = optional("PNG or JPEG file beside the file that names it.", example="logo.png")
 
 
 class Customer(JobPart):
     """For whom the work was done."""
 
     name: Text = Field(description="Name of the customer.", examples=["Precision Parts Ltd"])
-    address: Lines | None = Field(
-        None,
-        description="Postal address; commas or line breaks part its lines.",
-        examples=["Millway 2, 12345 Sampletown"],
+    address: Lines | None = optional(
+        "Postal address; commas or line breaks part its lines.", example="Millway 2, 12345 Sampletown"
     )
 
 
 class Output(JobPart):
     """What is written, and where."""
 
-    directory: JobPath | None = Field(
-        None, description="Folder of the output files; the job's own folder without it.", examples=["out"]
+    directory: JobPath | None = optional(
+        "Folder of the output files; the job's own folder without it.", example="out"
     )
     formats: list[Text] = Field(
         default_factory=lambda: ["pdf", "json"],

@@ -102,7 +102,6 @@ def _read_measurements(tree: Keys, beside: Callable[[str], bytes], problems: lis
 
 
 def _list_items(tree: Keys, problems: list[Problem]) -> Iterator[Keys]:
-    """Yield the entries of the list of effects."""
     listed = tree.entries["effects"].value if "effects" in tree.entries else Items(tree.place, ())
     for item in listed.items if isinstance(listed, Items) else (listed,):
         if isinstance(item, Keys) and isinstance(listed, Items):

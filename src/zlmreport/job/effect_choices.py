@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
-from pydantic import ConfigDict, Field, create_model, model_validator
+from pydantic import ConfigDict, create_model, model_validator
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
@@ -17,7 +17,7 @@ from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.installed import Installed, InstalledEffect
 from zlmreport.job.sentences import show_value
 from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of
-from zlmreport.job.types import Finite, JobPart, Options, list_keys_in
+from zlmreport.job.types import Finite, JobPart, Options, list_keys_in, optional
 
 _SHAPE = (
     "an effect is its name, or {name: {parameter: value}} for one whose parameters are given, or "
@@ -34,12 +34,10 @@ class ParameterLimits(JobPart):
         }
     )
 
-    min: Finite | None = Field(None, description="The least value that it may take.")
-    max: Finite | None = Field(None, description="The largest value that it may take.")
-    equals: ParameterName | None = Field(
-        None,
-        description="The parameter of another effect that it is: both are estimated as one.",
-        examples=["screw-pitch.period"],
+    min: Finite | None = optional("The least value that it may take.")
+    max: Finite | None = optional("The largest value that it may take.")
+    equals: ParameterName | None = optional(
+        "The parameter of another effect that it is: both are estimated as one.", example="screw-pitch.period"
     )
 
     @model_validator(mode="after")
@@ -154,7 +152,6 @@ def _report_no_effect(item: Node, within: str) -> Problem:
 def _choose_formula(
     item: Keys, registry: Installed, problems: list[Problem], within: str
 ) -> EffectChoice | None:
-    """Return an effect that is written as a formula."""
     keys = validate(FormulaKeys, item, problems, within=within)
     if keys is None:
         return None
@@ -187,7 +184,6 @@ def choose_candidates(
 
 
 def _name_effect(item: Node) -> tuple[str, Keys] | None:
-    """Return an effect's name and its keys."""
     if isinstance(item, Scalar) and not item.is_nothing:
         return item.text, make_keys_of(item.place)
     if isinstance(item, Keys) and len(item.entries) == 1:
@@ -222,7 +218,6 @@ def _choose_effect(
 def _make_model_of_parameters(names: Sequence[str]) -> type[Options]:
     """Return the model of a group of keys that may give each parameter a value."""
     fields: dict[str, Any] = {
-        name: (Finite | ParameterLimits | None, Field(None, description="The value of the parameter."))
-        for name in names
+        name: (Finite | ParameterLimits | None, optional("The value of the parameter.")) for name in names
     }
     return create_model("Parameters", __base__=Options, **fields)

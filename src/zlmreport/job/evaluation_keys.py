@@ -7,14 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from zlmreport.errors import list_names
 from zlmreport.job.circle_keys import CirclePlanKeys
-from zlmreport.job.types import (
-    Finite,
-    JobPart,
-    JobPath,
-    NotNegative,
-    Positive,
-    Text,
-)
+from zlmreport.job.types import Finite, JobPart, JobPath, NotNegative, Positive, Text, optional
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import POSITIONING
 
@@ -57,15 +50,14 @@ class ContributionKeys(JobPart):
     """A contribution that has no key of its own; its size is stated in one of three ways."""
 
     name: Text = Field(description="What it comes from.", examples=["Dead path"])
-    expanded_uncertainty: NotNegative | None = Field(
-        None, description="U with k = 2, micrometres (arc seconds); with-the-reading: % of the reading."
+    expanded_uncertainty: NotNegative | None = optional(
+        "U with k = 2, micrometres (arc seconds); with-the-reading: % of the reading."
     )
-    standard_uncertainty: NotNegative | None = Field(
-        None, description="Or u, micrometres (arc seconds); likewise.", examples=[0.2]
+    standard_uncertainty: NotNegative | None = optional(
+        "Or u, micrometres (arc seconds); likewise.", example=0.2
     )
-    range: NotNegative | None = Field(
-        None,
-        description="Or the full range of the values that it may have, micrometres (arc seconds); likewise.",
+    range: NotNegative | None = optional(
+        "Or the full range of the values that it may have, micrometres (arc seconds); likewise."
     )
     acts: ActsName = Field(
         description="Which readings share it: all in proportion to their distance from the first target, all "
@@ -74,14 +66,12 @@ class ContributionKeys(JobPart):
         "target in one direction, those that are near in time (a drift of that range), or none.",
         examples=["at-each-reading"],
     )
-    distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = Field(
-        None,
-        description="How its values are distributed; one-sided: rectangular from zero. Without it "
-        "rectangular for a range, else normal.",
+    distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = optional(
+        "How its values are distributed; one-sided: rectangular from zero. Without it "
+        "rectangular for a range, else normal."
     )
-    certificate: Text | None = Field(
-        None,
-        description="Calibration certificate of the artefact that it comes from: a straightedge, a mirror.",
+    certificate: Text | None = optional(
+        "Calibration certificate of the artefact that it comes from: a straightedge, a mirror."
     )
 
 
@@ -91,64 +81,48 @@ class UncertaintyKeys(JobPart):
     A range is full: from the smallest value that is possible to the largest.
     """
 
-    misalignment: NotNegative | None = Field(
-        None, description="Of the measuring line from the axis over the measured length, mm.", examples=[0.5]
+    misalignment: NotNegative | None = optional(
+        "Of the measuring line from the axis over the measured length, mm.", example=0.5
     )
-    machine_temperature: NotNegative | None = Field(
-        None, description="Range of error of the machine's measured temperature, K.", examples=[0.4]
+    machine_temperature: NotNegative | None = optional(
+        "Range of error of the machine's measured temperature, K.", example=0.4
     )
-    device_temperature: NotNegative | None = Field(
-        None, description="Range of error of the measuring device's measured temperature, K.", examples=[0.2]
+    device_temperature: NotNegative | None = optional(
+        "Range of error of the measuring device's measured temperature, K.", example=0.2
     )
-    expansion_coefficient: NotNegative | None = Field(
-        None,
-        description="Range of error of the machine's expansion coefficient, micrometres/(m K).",
-        examples=[2],
+    expansion_coefficient: NotNegative | None = optional(
+        "Range of error of the machine's expansion coefficient, micrometres/(m K).", example=2
     )
-    device_expansion_coefficient: NotNegative | None = Field(
-        None,
-        description="Range of error of the measuring device's expansion coefficient, micrometres/(m K).",
-        examples=[1],
+    device_expansion_coefficient: NotNegative | None = optional(
+        "Range of error of the measuring device's expansion coefficient, micrometres/(m K).", example=1
     )
-    air_temperature: NotNegative | None = Field(
-        None,
-        description="Range of error of the measured air temperature, K, where corrections.air is made.",
-        examples=[0.4],
+    air_temperature: NotNegative | None = optional(
+        "Range of error of the measured air temperature, K, where corrections.air is made.", example=0.4
     )
-    air_pressure: NotNegative | None = Field(
-        None, description="Likewise of the air pressure, hPa.", examples=[1]
-    )
-    relative_humidity: NotNegative | None = Field(
-        None, description="Likewise of the relative humidity, %.", examples=[10]
-    )
-    calibrated_length: NotNegative | None = Field(
-        None,
-        description="Of a circular test: expanded uncertainty (k = 2) of the instrument's calibrated length, "
+    air_pressure: NotNegative | None = optional("Likewise of the air pressure, hPa.", example=1)
+    relative_humidity: NotNegative | None = optional("Likewise of the relative humidity, %.", example=10)
+    calibrated_length: NotNegative | None = optional(
+        "Of a circular test: expanded uncertainty (k = 2) of the instrument's calibrated length, "
         "micrometres.",
-        examples=[0.8],
+        example=0.8,
     )
-    centring: NotNegative | None = Field(
-        None,
-        description="Of a circular test: range of error of the centre, micrometres. Without it, of a full "
+    centring: NotNegative | None = optional(
+        "Of a circular test: range of error of the centre, micrometres. Without it, of a full "
         "turn, what the centre that the readings tell leaves.",
-        examples=[2],
+        example=2,
     )
-    environmental_variation: NotNegative | None = Field(
-        None,
-        description="Range of the readings of the axis at rest over the time of the test, micrometres (arc "
-        "seconds).",
-        examples=[0.6],
+    environmental_variation: NotNegative | None = optional(
+        "Range of the readings of the axis at rest over the time of the test, micrometres (arc seconds).",
+        example=0.6,
     )
-    resolution: NotNegative | None = Field(
-        None,
-        description="Smallest step of the readings, micrometres (arc seconds). Without it that of their last "
+    resolution: NotNegative | None = optional(
+        "Smallest step of the readings, micrometres (arc seconds). Without it that of their last "
         "digit, 0.001 at least; nothing if they are corrected.",
-        examples=[0.1],
+        example=0.1,
     )
-    instrument_acts: ActsName | None = Field(
-        None,
-        description="Which readings share the constant part of the instrument's error. Without it "
-        "at-each-position, and no parameter that compares positions has a smaller U than the instrument.",
+    instrument_acts: ActsName | None = optional(
+        "Which readings share the constant part of the instrument's error. Without it "
+        "at-each-position, and no parameter that compares positions has a smaller U than the instrument."
     )
     negligible: dict[ContributorName, Text] = Field(
         {},
@@ -245,16 +219,14 @@ class StandardKeys(BaseModel):
         description="Limits by the symbols of the results file, micrometres (arc seconds).",
         examples=[{"A": 20}],
     )
-    specification: Text | None = Field(
-        None,
-        description="Where these limits stand: the document that they are the specification of.",
-        examples=["Acceptance protocol 4711, section 3"],
+    specification: Text | None = optional(
+        "Where these limits stand: the document that they are the specification of.",
+        example="Acceptance protocol 4711, section 3",
     )
 
     @model_validator(mode="before")
     @classmethod
     def _bare_identifier(cls, value: Any) -> Any:
-        """Take a bare identifier for the standard without further keys."""
         return {"standard": value} if isinstance(value, str | int | float) else value
 
 
@@ -273,7 +245,6 @@ class DecisionRuleKeys(JobPart):
     @model_validator(mode="before")
     @classmethod
     def _bare_rule(cls, value: Any) -> Any:
-        """Take a bare identifier for the rule without further keys."""
         return {"rule": value} if isinstance(value, str | int | float) else value
 
 
@@ -287,8 +258,7 @@ class AxisModelKeys(JobPart):
         examples=[["offset", "scale-error", "backlash"]],
     )
     candidates: list[dict[str, Any]] = Field(
-        [],
-        description="Effects written as formulas, which a diagnosis tries beside the installed ones.",
+        [], description="Effects written as formulas, which a diagnosis tries beside the installed ones."
     )
     sessions: list[JobPath] = Field(
         [],
@@ -296,11 +266,10 @@ class AxisModelKeys(JobPart):
         "model is held against all of them, each with its own zero. They are not evaluated.",
         examples=[["second-test.yaml"]],
     )
-    priors: JobPath | None = Field(
-        None,
-        description="What earlier tests of the axis say of noise and of sizes of effects: a file that "
+    priors: JobPath | None = optional(
+        "What earlier tests of the axis say of noise and of sizes of effects: a file that "
         "`zlmreport model learn` wrote.",
-        examples=["priors.yaml"],
+        example="priors.yaml",
     )
 
 
@@ -344,22 +313,20 @@ class PriorsKeys(JobPart):
 class PlannedTargetKeys(JobPart):
     """The target positions: a number of them at random fractions of a period, or a list."""
 
-    count: int | None = Field(
-        None,
+    count: int | None = optional(
+        "Number of targets over the travel. Without it as many as the standards ask, at least 11 "
+        "and no more than 100 mm or 30 degrees apart.",
+        example=21,
         ge=2,
         le=2000,
-        description="Number of targets over the travel. Without it as many as the standards ask, at least 11 "
-        "and no more than 100 mm or 30 degrees apart.",
-        examples=[21],
     )
-    fractions_of: NotNegative | None = Field(
-        None,
-        description="Period of whose random fractions the targets lie, mm or degrees; 0 for even targets. "
+    fractions_of: NotNegative | None = optional(
+        "Period of whose random fractions the targets lie, mm or degrees; 0 for even targets. "
         "Without it axis.screw_pitch, or else a quarter of the interval.",
-        examples=[10],
+        example=10,
     )
-    positions: list[Finite] | None = Field(
-        None, min_length=2, max_length=2000, description="Instead: all targets, rising, mm or degrees."
+    positions: list[Finite] | None = optional(
+        "Instead: all targets, rising, mm or degrees.", min_length=2, max_length=2000
     )
 
 
@@ -373,7 +340,6 @@ class ProgramKeys(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _bare_identifier(cls, value: Any) -> Any:
-        """Take a bare identifier for the part program without further keys."""
         return {"program": value} if isinstance(value, str | int | float) else value
 
 
@@ -400,11 +366,10 @@ class PauseKeys(JobPart):
 class CaptureKeys(JobPart):
     """What `zlmreport capture` takes for a reading."""
 
-    settle: Annotated[float, Field(gt=0, le=600)] | None = Field(
-        None,
-        description="How long the axis must stand still at least, s. The reading of a visit is the last "
+    settle: Annotated[float, Field(gt=0, le=600)] | None = optional(
+        "How long the axis must stand still at least, s. The reading of a visit is the last "
         "standstill of so long before the axis leaves. Without it `dwell` of the data source.",
-        examples=[2],
+        example=2,
     )
 
 
@@ -414,38 +379,33 @@ class PlanKeys(JobPart):
     targets: PlannedTargetKeys = Field(
         default_factory=PlannedTargetKeys, description="The target positions.", examples=[{"count": 21}]
     )
-    runs: int | None = Field(
-        None,
+    runs: int | None = optional(
+        "Readings of each target in each direction. Without it what the standards ask, mostly 5.",
         ge=1,
         le=1000,
-        description="Readings of each target in each direction. Without it what the standards ask, mostly 5.",
     )
-    overrun: Finite | None = Field(
-        None,
-        ge=0.001,
-        description="How far beyond a target the axis turns round, mm or degrees, at least 0.001. Without it "
+    overrun: Finite | None = optional(
+        "How far beyond a target the axis turns round, mm or degrees, at least 0.001. Without it "
         "5, or a fiftieth of a short travel; the error model takes it so of the readings, too.",
+        ge=0.001,
     )
-    seed: int | None = Field(
-        None,
-        ge=0,
-        description="Of the random fractions: the same seed gives the same targets. Without it, it follows "
+    seed: int | None = optional(
+        "Of the random fractions: the same seed gives the same targets. Without it, it follows "
         "from certificate.number.",
+        ge=0,
     )
     repeatability: Positive = Field(
-        1.0,
-        description="Standard deviation of a single reading that is expected, micrometres (arc seconds).",
+        1.0, description="Standard deviation of a single reading that is expected, micrometres (arc seconds)."
     )
     temperature_change: Positive = Field(
         1.0, description="By how much temperatures are expected to rise during the test, K."
     )
-    pause: PauseKeys | None = Field(
-        None,
-        description="A rest half-way, between two runs where the method goes run by run.",
-        examples=[{"minutes": 60, "change": 3}],
+    pause: PauseKeys | None = optional(
+        "A rest half-way, between two runs where the method goes run by run.",
+        example={"minutes": 60, "change": 3},
     )
-    circle: CirclePlanKeys | None = Field(
-        None, description="Of a circular test: its path.", examples=[{"arc": 90, "feeds": [500, 2000]}]
+    circle: CirclePlanKeys | None = optional(
+        "Of a circular test: its path.", example={"arc": 90, "feeds": [500, 2000]}
     )
     programs: list[ProgramKeys] = Field(
         [],

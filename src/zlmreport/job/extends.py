@@ -152,7 +152,6 @@ class _Reader:
 
 
 def _list_extended(keys: Keys) -> tuple[Scalar, ...]:
-    """Return the names of the files that a file extends."""
     entry = keys.entries.get("extends")
     if entry is None or (isinstance(entry.value, Scalar) and entry.value.is_nothing):
         return ()

@@ -21,7 +21,15 @@ from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Scalar, find_key_place, place_of, walk
-from zlmreport.job.types import JobPart, JobPath, LocatedText, Text, list_keys_in, resolve_path_named
+from zlmreport.job.types import (
+    JobPart,
+    JobPath,
+    LocatedText,
+    Text,
+    list_keys_in,
+    optional,
+    resolve_path_named,
+)
 from zlmreport.language import Language
 
 #: What a layout can be made of.
@@ -60,10 +68,8 @@ def _take_address(value: Any) -> Any:
 class FleetOutput(JobPart):
     """The files of the fleet."""
 
-    directory: JobPath | None = Field(
-        None,
-        description="Folder of all files; `certificates` beside the fleet file without it.",
-        examples=["certificates"],
+    directory: JobPath | None = optional(
+        "Folder of all files; `certificates` beside the fleet file without it.", example="certificates"
     )
     layout: Annotated[Text, AfterValidator(_check_layout)] = Field(
         "{machine}/{axis}",
@@ -72,11 +78,10 @@ class FleetOutput(JobPart):
         + ". A certificate stays where it was issued.",
         examples=["{machine}/{axis}"],
     )
-    formats: list[Text] | None = Field(
-        None,
+    formats: list[Text] | None = optional(
+        "Identifiers of installed renderers, instead of those that the jobs name.",
+        example=["pdf", "json"],
         min_length=1,
-        description="Identifiers of installed renderers, instead of those that the jobs name.",
-        examples=[["pdf", "json"]],
     )
 
 
@@ -86,12 +91,10 @@ class ExecutorKeys(JobPart):
     kind: Literal["processes", "dask"] = Field(
         "processes", description="Processes on this machine, or the workers of a Dask scheduler."
     )
-    workers: int | None = Field(
-        None, ge=1, le=1024, description="Number of processes; one a processor without it.", examples=[4]
+    workers: int | None = optional(
+        "Number of processes; one a processor without it.", example=4, ge=1, le=1024
     )
-    scheduler: Text | None = Field(
-        None, description="Address of the Dask scheduler.", examples=["tcp://scheduler:8786"]
-    )
+    scheduler: Text | None = optional("Address of the Dask scheduler.", example="tcp://scheduler:8786")
 
     @model_validator(mode="after")
     def _one_or_the_other(self) -> ExecutorKeys:
@@ -108,11 +111,8 @@ class ExecutorKeys(JobPart):
 class LimitKeys(JobPart):
     """What a single job may take, so that one that hangs or grows leaves the others alone."""
 
-    seconds: float | None = Field(
-        None,
-        gt=0,
-        description="Time for a job; 600 without it, or ten times the longest that this job ever took.",
-        examples=[600],
+    seconds: float | None = optional(
+        "Time for a job; 600 without it, or ten times the longest that this job ever took.", example=600, gt=0
     )
     megabytes: int = Field(2000, ge=100, description="Memory for a job's own data.", examples=[2000])
 
@@ -144,11 +144,9 @@ class FleetKeys(JobPart):
     schema_: Literal["zlmreport/fleet/1"] = Field(
         alias="schema", description="Version of this format.", examples=["zlmreport/fleet/1"]
     )
-    name: Text | None = Field(
-        None,
-        description="Name of the fleet, in its overview and in a ledger that several share; the file's stem "
-        "without it.",
-        examples=["Hall North"],
+    name: Text | None = optional(
+        "Name of the fleet, in its overview and in a ledger that several share; the file's stem without it.",
+        example="Hall North",
     )
     language: Language = Field(
         Language.ENGLISH,
@@ -166,12 +164,11 @@ class FleetKeys(JobPart):
     output: FleetOutput = Field(default_factory=FleetOutput, description="The files of the fleet.")
     executor: ExecutorKeys = Field(default_factory=ExecutorKeys, description="What makes the certificates.")
     limits: LimitKeys = Field(default_factory=LimitKeys, description="What a single job may take.")
-    interval: int | None = Field(
-        None,
-        ge=1,
-        description="Days after which an axis is to be measured again; overdue ones are reported. A job may "
+    interval: int | None = optional(
+        "Days after which an axis is to be measured again; overdue ones are reported. A job may "
         "state its own as `fleet: {interval: …}`.",
-        examples=[365],
+        example=365,
+        ge=1,
     )
     retired: list[Text] = Field(
         [],
@@ -179,24 +176,20 @@ class FleetKeys(JobPart):
         "purpose, with wildcards; any other that is gone is reported.",
         examples=[["machines/old-mill/*.yaml"]],
     )
-    ledger: Annotated[str, BeforeValidator(_take_address)] | None = Field(
-        None,
-        description="The ledger: an SQLite file, or the URL of a PostgreSQL database; the file's stem with "
+    ledger: Annotated[str, BeforeValidator(_take_address)] | None = optional(
+        "The ledger: an SQLite file, or the URL of a PostgreSQL database; the file's stem with "
         "`.ledger.db` without it.",
-        examples=["postgresql+psycopg://zlmreport@server/fleet"],
+        example="postgresql+psycopg://zlmreport@server/fleet",
     )
-    priors: JobPath | None = Field(
-        None,
-        description="Folder for what the tests of the fleet teach: a file for `model.priors` of each type of "
+    priors: JobPath | None = optional(
+        "Folder for what the tests of the fleet teach: a file for `model.priors` of each type of "
         "machine, named after the last day of whose tests it knows. A file that was written stays as it is.",
-        examples=["priors"],
+        example="priors",
     )
     notify: list[NotifyKeys] = Field([], description="Who is told what is new after a night, and how.")
-    log: LogKeys | None = Field(None, description="What is kept of each night for people.")
-    confine: JobPath | None = Field(
-        None,
-        description="Folder outside of which no job of the fleet reads or writes; that of this file is `.`.",
-        examples=["."],
+    log: LogKeys | None = optional("What is kept of each night for people.")
+    confine: JobPath | None = optional(
+        "Folder outside of which no job of the fleet reads or writes; that of this file is `.`.", example="."
     )
 
 

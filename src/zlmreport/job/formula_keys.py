@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
-from types import MappingProxyType
 from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field, PlainSerializer, PlainValidator, WithJsonSchema, field_validator
 
 from zlmreport.errors import did_you_mean
-from zlmreport.job.types import Finite, JobPart, Options, Positive, Text
+from zlmreport.job.types import Finite, JobPart, Options, Positive, Text, optional
 from zlmreport.language import Language, Words
 from zlmreport.measurement.measurand import OF_SYMBOLS, POSITIONING, Measurand
 
@@ -64,18 +63,16 @@ Phrase: TypeAlias = Annotated[
 ParameterName: TypeAlias = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*\.\w+$")]
 
 #: Units of parameters on a linear axis, and what each is on a rotary one.
-UNITS_OF_PARAMETERS: Mapping[str, str] = MappingProxyType(
-    {
-        "um": "arcsec",
-        "mm": "deg",
-        "um/m": "arcsec/deg",
-        "um/K": "arcsec/K",
-        "um/(m K)": "arcsec/(deg K)",
-        "deg": "deg",
-        "s": "s",
-        "1": "1",
-    }
-)
+UNITS_OF_PARAMETERS: Mapping[str, str] = {
+    "um": "arcsec",
+    "mm": "deg",
+    "um/m": "arcsec/deg",
+    "um/K": "arcsec/K",
+    "um/(m K)": "arcsec/(deg K)",
+    "deg": "deg",
+    "s": "s",
+    "1": "1",
+}
 _SPELLINGS = (("µ", "u"), ("μ", "u"), ("″", "arcsec"), ("°", "deg"), ("*", " "), ("·", " "))
 
 
@@ -111,11 +108,10 @@ class Meaning(JobPart):
 class Possible(JobPart):
     """Between which values physics allows a parameter; others are not asked for, but refused."""
 
-    least: Finite | Text | None = Field(
-        None,
-        description="The least value, or a formula of it: temperature_rise is the largest logged rise in K.",
+    least: Finite | Text | None = optional(
+        "The least value, or a formula of it: temperature_rise is the largest logged rise in K."
     )
-    most: Finite | Text | None = Field(None, description="The largest value, or a formula of it.")
+    most: Finite | Text | None = optional("The largest value, or a formula of it.")
     because: Phrase = Field(description="Why, as a sentence without a full stop.")
 
 
@@ -138,55 +134,45 @@ class FormulaParameter(JobPart):
         "arcsec/deg, arcsec/K, arcsec/(deg K), s or 1.",
         examples=["um"],
     )
-    range: tuple[Finite | None, Finite | None] | None = Field(
-        None,
-        description="Smallest and largest usual value; a parameter that is no factor of a whole term "
-        "must have them, and is searched between them.",
+    range: tuple[Finite | None, Finite | None] | None = optional(
+        "Smallest and largest usual value; a parameter that is no factor of a whole term "
+        "must have them, and is searched between them."
     )
-    value: Finite | None = Field(None, description="The value, where it is known and not estimated.")
-    equals: ParameterName | None = Field(
-        None,
-        description="The parameter of another effect that it is: both are estimated as one.",
-        examples=["screw-pitch.period"],
+    value: Finite | None = optional("The value, where it is known and not estimated.")
+    equals: ParameterName | None = optional(
+        "The parameter of another effect that it is: both are estimated as one.", example="screw-pitch.period"
     )
-    notation: Text | None = Field(None, description="As it is printed, p_{0}; its name without it.")
-    meaning: Phrase | None = Field(None, description="What it is, in words.")
-    search: Search | None = Field(
-        None, description="What it is that is searched: where a search begins follows from the test."
+    notation: Text | None = optional("As it is printed, p_{0}; its name without it.")
+    meaning: Phrase | None = optional("What it is, in words.")
+    search: Search | None = optional(
+        "What it is that is searched: where a search begins follows from the test."
     )
-    step: Positive | None = Field(
-        None, description="Between the ends of the range only multiples of it from the first make sense."
+    step: Positive | None = optional(
+        "Between the ends of the range only multiples of it from the first make sense."
     )
     values: tuple[Finite, ...] = Field((), description="The only values that make sense.")
-    stated: Text | None = Field(
-        None,
-        description="The key of the axis that states it, or a formula of such keys; then it is not searched.",
-        examples=["screw_pitch"],
+    stated: Text | None = optional(
+        "The key of the axis that states it, or a formula of such keys; then it is not searched.",
+        example="screw_pitch",
     )
-    expected: Finite | None = Field(
-        None, description="The value that it has if the effect is the cause, for comparison."
+    expected: Finite | None = optional("The value that it has if the effect is the cause, for comparison.")
+    usual: tuple[Finite, Finite] | None = optional(
+        "Smallest and largest value that machines have; its range without it."
     )
-    usual: tuple[Finite, Finite] | None = Field(
-        None, description="Smallest and largest value that machines have; its range without it."
+    usual_on_rotary: tuple[Finite, Finite] | None = optional(
+        "The same on a rotary axis, in arcsec or deg; without it as many radians as metres."
     )
-    usual_on_rotary: tuple[Finite, Finite] | None = Field(
-        None,
-        description="The same on a rotary axis, in arcsec or deg; without it as many radians as metres.",
+    question: Phrase | None = optional(
+        "What is asked of a value far beyond what is usual; {value} and {times} stand for it and "
+        "for how many times the usual it is."
     )
-    question: Phrase | None = Field(
-        None,
-        description="What is asked of a value far beyond what is usual; {value} and {times} stand for it and "
-        "for how many times the usual it is.",
-    )
-    question_below: Phrase | None = Field(
-        None, description="The same of a value that is too small, where it is another question."
+    question_below: Phrase | None = optional(
+        "The same of a value that is too small, where it is another question."
     )
     meanings: tuple[Meaning, ...] = Field((), description="Values that have a name of their own.")
-    possible: Possible | None = Field(None, description="Between which values physics allows it.")
-    instead: Instead | None = Field(None, description="Values that are tried although a key states another.")
-    unstated: Phrase | None = Field(
-        None, description="What is said where no key states it: which values are tried then."
-    )
+    possible: Possible | None = optional("Between which values physics allows it.")
+    instead: Instead | None = optional("Values that are tried although a key states another.")
+    unstated: Phrase | None = optional("What is said where no key states it: which values are tried then.")
 
     @property
     def spelled(self) -> str:
@@ -220,14 +206,14 @@ def _spell_unit(unit: str) -> str:
 class Needs(JobPart):
     """What an effect needs beside what stands in its formula: logged columns, keys of the axis, time."""
 
-    axis: Literal["linear", "rotary"] | None = Field(
-        None, description="The kind of axis; without it any that its units fit."
+    axis: Literal["linear", "rotary"] | None = optional(
+        "The kind of axis; without it any that its units fit."
     )
     both_directions: bool = Field(default=False, description="Targets approached from both directions.")
-    targets: int | None = Field(None, ge=2, description="The least number of target positions.")
-    runs: int | None = Field(None, ge=2, description="The least number of runs.")
-    whole_period: Literal["screw_pitch", "signal_period", "scale_element", "pole_pitch"] | None = Field(
-        None, description="The key of the axis whose period the measured travel must hold."
+    targets: int | None = optional("The least number of target positions.", ge=2)
+    runs: int | None = optional("The least number of runs.", ge=2)
+    whole_period: Literal["screw_pitch", "signal_period", "scale_element", "pole_pitch"] | None = optional(
+        "The key of the axis whose period the measured travel must hold."
     )
 
 
@@ -275,11 +261,11 @@ class FormulaKeys(Options):
         "is parsed, never executed.",
         examples=["a*sin(2*pi*P/L)"],
     )
-    title: Phrase | None = Field(None, description="In words.")
-    remedy: Phrase | None = Field(None, description="What to do about it, and what a compensation can do.")
-    physics: Phrase | None = Field(None, description="What happens: how the cause becomes a deviation.")
-    equation: Text | None = Field(None, description="As it is printed; the formula without it.")
-    look: Phrase | None = Field(None, description="What it looks like in the residuals.")
+    title: Phrase | None = optional("In words.")
+    remedy: Phrase | None = optional("What to do about it, and what a compensation can do.")
+    physics: Phrase | None = optional("What happens: how the cause becomes a deviation.")
+    equation: Text | None = optional("As it is printed; the formula without it.")
+    look: Phrase | None = optional("What it looks like in the residuals.")
     needs: Needs = Field(default_factory=Needs, description="What it needs of a test.")
     taken_for: dict[str, Phrase] = Field(
         {}, description="Effects that look alike, each with the measurement that tells the two apart."
@@ -287,11 +273,11 @@ class FormulaKeys(Options):
     contains: tuple[Text, ...] = Field(
         (), description="Effects that are always part of it: they cannot stand beside it in a model."
     )
-    ranges_from: Phrase | None = Field(None, description="Where the ranges of its parameters come from.")
+    ranges_from: Phrase | None = optional("Where the ranges of its parameters come from.")
     measurands: tuple[Text, ...] = Field(
         (POSITIONING.identifier,), description="What it acts on.", examples=[["positioning", "straightness"]]
     )
-    harmonics: Harmonics | None = Field(None, description="Of its wave; without it the first alone.")
+    harmonics: Harmonics | None = optional("Of its wave; without it the first alone.")
     keys: tuple[FormKey, ...] = Field((), description="Keys that choose between forms of it.")
     several: bool = Field(
         default=False, description="Whether it may stand in a model more than once, as joint, joint-2 …"
@@ -300,7 +286,7 @@ class FormulaKeys(Options):
         "experience",
         description="How its form is known: from a publication, by derivation, or by experience without one.",
     )
-    source: Phrase | None = Field(None, description="The publication, or what it is derived from.")
+    source: Phrase | None = optional("The publication, or what it is derived from.")
 
     def __hash__(self) -> int:
         """Let a fit be kept by what its model means."""

@@ -43,14 +43,12 @@ VARIABLES = ("P", "D", "t", "run", "v")
 #: Keys of the axis that a formula may name.
 AXIS_KEYS = ("screw_pitch", "signal_period", "scale_element", "pole_pitch", "abbe_offset")
 #: Values of tables of the axis at the position, by the key that names the table.
-TABLES = MappingProxyType(
-    {
-        "compensation": "compensation_table",
-        "compensation_next": "compensation_table",
-        "compensation_before": "compensation_table",
-        "angular_error": "angular_errors",
-    }
-)
+TABLES = {
+    "compensation": "compensation_table",
+    "compensation_next": "compensation_table",
+    "compensation_before": "compensation_table",
+    "angular_error": "angular_errors",
+}
 #: What follows from the test and the axis; a parameter of the same name goes before.
 DERIVED = (
     *("since_reversal", "middle", "half_travel", "travel_first", "travel_last", "turn", "air_index"),
@@ -92,20 +90,18 @@ _NEAR = tuple(np.linspace(-1.2, 1.2, 25).tolist())
 #: Between which positions formulas are tried, m or rad. A step at 1.8 m or at -0.5 m shows on no first metre.
 _POSITIONS = ((0.05, 1.0), (-1.0, 1.0), (-10.0, 10.0), (-100.0, 100.0))
 #: What the axis and the test are like where formulas are tried, SI.
-_TRIED = MappingProxyType(
-    {
-        "middle": 0.525,
-        "half_travel": 0.475,
-        "travel_first": 0.05,
-        "travel_last": 1.0,
-        "turn": 2 * np.pi,
-        "screw_pitch": 0.01,
-        "signal_period": 20e-6,
-        "scale_element": 0.5,
-        "pole_pitch": 0.024,
-        "abbe_offset": 0.2,
-    }
-)
+_TRIED = {
+    "middle": 0.525,
+    "half_travel": 0.475,
+    "travel_first": 0.05,
+    "travel_last": 1.0,
+    "turn": 2 * np.pi,
+    "screw_pitch": 0.01,
+    "signal_period": 20e-6,
+    "scale_element": 0.5,
+    "pole_pitch": 0.024,
+    "abbe_offset": 0.2,
+}
 
 
 class Formula:

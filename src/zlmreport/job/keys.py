@@ -39,15 +39,13 @@ from zlmreport.job.measurement_keys import (
     MachineUnderTest,
     Measurement,
 )
-from zlmreport.job.types import JobPart, JobPath, Lines, Text
+from zlmreport.job.types import JobPart, JobPath, Lines, Text, optional
 
 
 class OfFleet(JobPart):
     """What a fleet is told of this job alone."""
 
-    interval: int | None = Field(
-        None, ge=1, description="Days after which the axis is to be measured again.", examples=[180]
-    )
+    interval: int | None = optional("Days after which the axis is to be measured again.", example=180, ge=1)
 
 
 class JobKeys(JobPart):
@@ -56,55 +54,49 @@ class JobKeys(JobPart):
     schema_: Literal["zlmreport/job/1"] = Field(
         alias="schema", description="Version of this format.", examples=["zlmreport/job/1"]
     )
-    extends: list[Text] | Text | None = Field(
-        None,
-        description="Files whose keys this one builds on; paths are relative to this file.",
-        examples=["../laboratory.yaml"],
+    extends: list[Text] | Text | None = optional(
+        "Files whose keys this one builds on; paths are relative to this file.", example="../laboratory.yaml"
     )
     certificate: CertificateKeys = Field(
         description="The document.", examples=[{"number": "CAL-2026-0117", "issued": "2026-11-20"}]
     )
-    laboratory: Laboratory | None = Field(None, description="Who issues the document.")
-    customer: Customer | None = Field(None, description="For whom the work was done.")
+    laboratory: Laboratory | None = optional("Who issues the document.")
+    customer: Customer | None = optional("For whom the work was done.")
     machine: MachineUnderTest = Field(default_factory=MachineUnderTest, description="The machine under test.")
     axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
-    circle: CircleKeys | None = Field(
-        None,
-        description="The circle of a circular test, which stands instead of an axis.",
-        examples=[{"plane": "XY", "radius": 150, "feed": 1000, "calibrated_length": True}],
+    circle: CircleKeys | None = optional(
+        "The circle of a circular test, which stands instead of an axis.",
+        example={"plane": "XY", "radius": 150, "feed": 1000, "calibrated_length": True},
     )
-    location: Location | Lines | None = Field(
-        None,
-        description="Where the work was done, in words or as a kind of place. Without it "
+    location: Location | Lines | None = optional(
+        "Where the work was done, in words or as a kind of place. Without it "
         "machine.location; a certificate states one of them.",
-        examples=["Hall 3, Millway 2, 12345 Sampletown"],
+        example="Hall 3, Millway 2, 12345 Sampletown",
     )
     dates: Dates = Field(
         default_factory=Dates,
         description="Dates beside those of the measurement and the document.",
         examples=[{"received": "2026-11-16"}],
     )
-    procedure: Lines | None = Field(
-        None, description="The laboratory's own procedure, its issue included.", examples=["QP 17, issue 4"]
+    procedure: Lines | None = optional(
+        "The laboratory's own procedure, its issue included.", example="QP 17, issue 4"
     )
-    sampling: Lines | None = Field(
-        None,
-        description="Sampling plan and method, if what was measured is a sample.",
-        examples=["One axis of three, drawn by lot; QP 18, issue 2"],
+    sampling: Lines | None = optional(
+        "Sampling plan and method, if what was measured is a sample.",
+        example="One axis of three, drawn by lot; QP 18, issue 2",
     )
     measurement: Measurement = Field(
         description="How the readings were taken.",
         examples=[{"source": {"plugin": "laser-csv", "file": "x-axis.csv"}}],
     )
-    as_found: AsFound | None = Field(
-        None, description="The axis before it was adjusted or repaired, compared with measurement."
+    as_found: AsFound | None = optional(
+        "The axis before it was adjusted or repaired, compared with measurement."
     )
-    instrument: InstrumentKeys | None = Field(None, description="The measuring instrument.")
-    environment: Environment | None = Field(None, description="Conditions during the measurement.")
-    corrections: CorrectionKeys | None = Field(
-        None,
-        description="What the readings are corrected for; without it they are taken as they are.",
-        examples=[{"air": {"assumed": "standard air"}, "material": {"expansion_coefficient": 11.5}}],
+    instrument: InstrumentKeys | None = optional("The measuring instrument.")
+    environment: Environment | None = optional("Conditions during the measurement.")
+    corrections: CorrectionKeys | None = optional(
+        "What the readings are corrected for; without it they are taken as they are.",
+        example={"air": {"assumed": "standard air"}, "material": {"expansion_coefficient": 11.5}},
     )
     fleet: OfFleet = Field(
         default_factory=OfFleet,
@@ -142,10 +134,9 @@ class JobKeys(JobPart):
         description="Opinions and interpretations, in a section of their own.",
         examples=[[{"statement": "Play in the nut.", "basis": "The reversal value is alike everywhere."}]],
     )
-    next_due: NextDue | None = Field(
-        None,
-        description="When the next calibration is due; only if agreed with the customer.",
-        examples=[{"date": "2027-11-18", "agreed": True}],
+    next_due: NextDue | None = optional(
+        "When the next calibration is due; only if agreed with the customer.",
+        example={"date": "2027-11-18", "agreed": True},
     )
     agreement: Agreement = Field(
         default_factory=Agreement,
@@ -157,7 +148,7 @@ class JobKeys(JobPart):
         description="The uncertainty of the measuring set-up, beside that of the instrument.",
         examples=[{"misalignment": 0.5, "environmental_variation": 0.6}],
     )
-    model: AxisModelKeys | None = Field(None, description="The error model of the axis.")
+    model: AxisModelKeys | None = optional("The error model of the axis.")
     plan: PlanKeys = Field(
         default_factory=PlanKeys,
         description="The test before it is done, for `zlmreport plan`.",
@@ -168,9 +159,8 @@ class JobKeys(JobPart):
         description="What `zlmreport capture` takes for a reading.",
         examples=[{"settle": 2}],
     )
-    compensation: ControllerKeys | None = Field(
-        None,
-        description="The control for which `zlmreport compensate` writes a table.",
-        examples=[{"controller": "linuxcnc", "type": 0}],
+    compensation: ControllerKeys | None = optional(
+        "The control for which `zlmreport compensate` writes a table.",
+        example={"controller": "linuxcnc", "type": 0},
     )
     output: Output = Field(default_factory=Output, description="What is written, and where.")

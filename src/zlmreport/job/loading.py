@@ -30,12 +30,17 @@ from zlmreport.job.collection import (
 from zlmreport.job.contradictions import find_all_contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, compose, refuse_other_format
-from zlmreport.job.implied_keys import add_axis, add_shared_source, find_stated_in, share_keys
+from zlmreport.job.implied_keys import (
+    add_axis,
+    add_shared_source,
+    find_stated_in,
+    make_job_of_test,
+    share_keys,
+)
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.keys_file import KeysFile, read_keys_file
-from zlmreport.job.measured_lines import make_job_of_test
 from zlmreport.job.quantity import (
     find_effect_contradictions,
     find_measurand_of,

@@ -20,6 +20,7 @@ from zlmreport.job.types import (
     Pressure,
     Temperature,
     Text,
+    optional,
     parse_along_the_length,
 )
 from zlmreport.measurement.axis import AxisKind
@@ -53,10 +54,8 @@ class DeadPathKeys(JobPart):
 class MaterialKeys(JobPart):
     """The expansion of the material, back to 20 °C."""
 
-    expansion_coefficient: Positive | None = Field(
-        None,
-        description="Micrometres/(m K); without it environment.expansion_coefficient.",
-        examples=[11.5],
+    expansion_coefficient: Positive | None = optional(
+        "Micrometres/(m K); without it environment.expansion_coefficient.", example=11.5
     )
     temperature: Literal["material_temperature", "axis_temperature"] = Field(
         "material_temperature", description="The logged or stated temperature that the material has."
@@ -66,18 +65,13 @@ class MaterialKeys(JobPart):
 class CorrectionKeys(JobPart):
     """What the readings are corrected for; without these keys they are taken as they are."""
 
-    air: AirKeys | None = Field(
-        None, description="The refractive index of the air along the measured length."
-    )
-    dead_path: DeadPathKeys | None = Field(
-        None, description="Changes of the air along the dead path; only beside air."
-    )
-    material: MaterialKeys | None = Field(None, description="Thermal expansion of the material.")
-    datum: Finite | None = Field(
-        None,
-        description="Position at which the instrument was set to zero, mm. Without it as the readings tell, "
+    air: AirKeys | None = optional("The refractive index of the air along the measured length.")
+    dead_path: DeadPathKeys | None = optional("Changes of the air along the dead path; only beside air.")
+    material: MaterialKeys | None = optional("Thermal expansion of the material.")
+    datum: Finite | None = optional(
+        "Position at which the instrument was set to zero, mm. Without it as the readings tell, "
         "or else the first target position.",
-        examples=[0],
+        example=0,
     )
 
 
@@ -113,17 +107,16 @@ def is_same_serial(one: str, other: str) -> bool:
 class MachineUnderTest(JobPart):
     """The machine under test."""
 
-    manufacturer: Text | None = Field(None, description="Who built it.")
-    model: Text | None = Field(None, description="Type designation.")
-    serial: Text | None = Field(None, description="Serial number or other identification.")
-    kind: Literal["machine tool", "coordinate measuring machine", "surface plate"] | None = Field(
-        None,
-        description="What the results mean is said for a part made, or measured, on it. Without it a machine "
+    manufacturer: Text | None = optional("Who built it.")
+    model: Text | None = optional("Type designation.")
+    serial: Text | None = optional("Serial number or other identification.")
+    kind: Literal["machine tool", "coordinate measuring machine", "surface plate"] | None = optional(
+        "What the results mean is said for a part made, or measured, on it. Without it a machine "
         "tool, and of flatness a surface plate.",
-        examples=["machine tool"],
+        example="machine tool",
     )
-    location: Text | None = Field(None, description="Where it stands.")
-    condition: Text | None = Field(None, description="Condition in which it was found.")
+    location: Text | None = optional("Where it stands.")
+    condition: Text | None = optional("Condition in which it was found.")
 
     @property
     def type(self) -> str:
@@ -140,37 +133,28 @@ class AxisKeys(JobPart):
 
     name: Text = Field(description="As on the machine.", examples=["X"])
     kind: AxisKind = Field(AxisKind.LINEAR, description="linear (mm) or rotary (degrees).")
-    travel: tuple[Finite, Finite] | None = Field(
-        None, description="First and last position of the travel, mm or degrees.", examples=[[0, 1000]]
+    travel: tuple[Finite, Finite] | None = optional(
+        "First and last position of the travel, mm or degrees.", example=[0, 1000]
     )
-    screw_pitch: Positive | None = Field(
-        None, description="Pitch of the screw or gear, mm or degrees.", examples=[10]
+    screw_pitch: Positive | None = optional("Pitch of the screw or gear, mm or degrees.", example=10)
+    signal_period: Positive | None = optional("Period of the scale's signal, mm or degrees.", example=0.02)
+    scale_element: Positive | None = optional(
+        "Length of one element of a scale made of several, mm or degrees."
     )
-    signal_period: Positive | None = Field(
-        None, description="Period of the scale's signal, mm or degrees.", examples=[0.02]
+    pole_pitch: Positive | None = optional(
+        "Distance of like poles of a linear or torque motor, mm or degrees.", example=24
     )
-    scale_element: Positive | None = Field(
-        None, description="Length of one element of a scale made of several, mm or degrees."
-    )
-    pole_pitch: Positive | None = Field(
-        None, description="Distance of like poles of a linear or torque motor, mm or degrees.", examples=[24]
-    )
-    compensation_table: Literal["none"] | JobPath | None = Field(
-        None,
+    compensation_table: Literal["none"] | JobPath | None = optional(
+        "CSV file of the compensation table that was active during the test: columns position and deviation "
+        "(actual - target), or forward and reverse, mm and micrometres (degrees and arc seconds); or none.",
+        example="x-compensation.csv",
         union_mode="left_to_right",
-        description="CSV file of the compensation table that was active during the test: columns position "
-        "and deviation (actual - target), or forward and reverse, mm and micrometres (degrees and arc "
-        "seconds); or none.",
-        examples=["x-compensation.csv"],
     )
-    angular_errors: JobPath | None = Field(
-        None,
-        description="CSV file of the axis's pitch or yaw: columns position and angle, mm and microradians.",
-        examples=["x-pitch.csv"],
+    angular_errors: JobPath | None = optional(
+        "CSV file of the axis's pitch or yaw: columns position and angle, mm and microradians.",
+        example="x-pitch.csv",
     )
-    abbe_offset: Finite | None = Field(
-        None, description="Distance of the measuring line from the scale, mm.", examples=[200]
-    )
+    abbe_offset: Finite | None = optional("Distance of the measuring line from the scale, mm.", example=200)
 
 
 class SourceKeys(BaseModel):
@@ -209,12 +193,11 @@ class LineOfPlane(JobPart):
 class LineKeys(JobPart):
     """How the readings of one measured line, or of one circle, were taken."""
 
-    error: Text | None = Field(
-        None,
-        description="What was measured, by ISO 230-1's symbol: EYX is straightness along Y of a motion along "
+    error: Text | None = optional(
+        "What was measured, by ISO 230-1's symbol: EYX is straightness along Y of a motion along "
         "X, EBX an angle, C0Y the squareness of Y to X; without it the positioning of the axis, EXX. Or the "
         "name of a quantity that a standard brings.",
-        examples=["EYX"],
+        example="EYX",
     )
     at: Annotated[dict[str, Finite | tuple[Finite, Finite, Finite]], AfterValidator(_read_places)] = Field(
         {},
@@ -222,34 +205,26 @@ class LineKeys(JobPart):
         "nose, mm.",
         examples=[{"Y": 150, "Z": 80, "tool": [0, 0, 120]}],
     )
-    source: SourceKeys | None = Field(
-        None,
-        description="Where the readings come from; beside tests that of each which has none of its own.",
-        examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}],
+    source: SourceKeys | None = optional(
+        "Where the readings come from; beside tests that of each which has none of its own.",
+        example={"plugin": "laser-csv", "file": "x-axis.csv"},
     )
-    date: Date | None = Field(
-        None, description="Date of the measurement, or of its first day.", examples=["2026-11-18"]
+    date: Date | None = optional("Date of the measurement, or of its first day.", example="2026-11-18")
+    end: Date | None = optional("Its last day, if it took more than one.", example="2026-11-19")
+    method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = optional(
+        "Positioning method."
     )
-    end: Date | None = Field(
-        None, description="Its last day, if it took more than one.", examples=["2026-11-19"]
+    feed: float | None = optional("Feed, mm/min or degrees/min.", example=2000, ge=1e-3, le=1e9)
+    dwell: Positive | None = optional("Time at rest at each target, s.", example=5)
+    warm_up: Lines | None = optional("Warm-up before the test, in words.")
+    compensation: Lines | None = optional("State of the machine's compensation, in words.")
+    line: Lines | None = optional("Place of the measuring line, positions of other axes.")
+    plane: LineOfPlane | None = optional(
+        "The measuring line as one of several over a plane, for `zlmreport surface`."
     )
-    method: Literal["linear", "unidirectional", "pendulum", "quasi-pilgrim"] | None = Field(
-        None, description="Positioning method."
-    )
-    feed: float | None = Field(
-        None, ge=1e-3, le=1e9, description="Feed, mm/min or degrees/min.", examples=[2000]
-    )
-    dwell: Positive | None = Field(None, description="Time at rest at each target, s.", examples=[5])
-    warm_up: Lines | None = Field(None, description="Warm-up before the test, in words.")
-    compensation: Lines | None = Field(None, description="State of the machine's compensation, in words.")
-    line: Lines | None = Field(None, description="Place of the measuring line, positions of other axes.")
-    plane: LineOfPlane | None = Field(
-        None, description="The measuring line as one of several over a plane, for `zlmreport surface`."
-    )
-    deviations_from_method: Lines | None = Field(
-        None,
-        description="Additions to, deviations and exclusions from the method.",
-        examples=["Three runs instead of five, for want of time."],
+    deviations_from_method: Lines | None = optional(
+        "Additions to, deviations and exclusions from the method.",
+        example="Three runs instead of five, for want of time.",
     )
     excluded: list[ExclusionKeys] = Field(
         [],
@@ -258,8 +233,8 @@ class LineKeys(JobPart):
             [{"target": 213.4, "direction": "+", "run": 3, "reason": "Air hose touched the reflector."}]
         ],
     )
-    operator: Text | None = Field(None, description="Who measured.")
-    remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
+    operator: Text | None = optional("Who measured.")
+    remarks: Lines | None = optional("Anything else that a reader should know.")
 
 
 def _take_nothing(value: Any) -> Any:
@@ -270,17 +245,15 @@ def _take_nothing(value: Any) -> Any:
 class CompensatesKeys(JobPart):
     """What the instrument has corrected already, before it displayed a reading."""
 
-    material: Annotated[NotNegative, BeforeValidator(_take_nothing)] | None = Field(
-        None,
-        description="Coefficient by which it took the expansion of the material to 20 °C, micrometres/(m K); "
+    material: Annotated[NotNegative, BeforeValidator(_take_nothing)] | None = optional(
+        "Coefficient by which it took the expansion of the material to 20 °C, micrometres/(m K); "
         "none or 0 if it did not.",
-        examples=[11.5],
+        example=11.5,
     )
-    air: bool | None = Field(
-        None,
-        description="Whether it knew the refractive index of the air; an interferometer that did not has an "
+    air: bool | None = optional(
+        "Whether it knew the refractive index of the air; an interferometer that did not has an "
         "error of the whole length, which is then counted.",
-        examples=[True],
+        example=True,
     )
 
 
@@ -288,16 +261,13 @@ class SensorKeys(JobPart):
     """A thermometer or another sensor of the conditions, by its calibration."""
 
     name: Text = Field(description="Which it is.", examples=["Material sensor 1"])
-    certificate: Text | None = Field(
-        None, description="Its calibration certificate.", examples=["T-2026-114"]
-    )
-    calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-02-10"])
-    due: Date | None = Field(None, description="When it is due again.", examples=["2027-02-10"])
-    calibrated_range: tuple[Finite, Finite] | None = Field(
-        None,
-        description="From where to where it is calibrated, in the unit of what it measures, °C for a "
+    certificate: Text | None = optional("Its calibration certificate.", example="T-2026-114")
+    calibrated: Date | None = optional("Date of that calibration.", example="2026-02-10")
+    due: Date | None = optional("When it is due again.", example="2027-02-10")
+    calibrated_range: tuple[Finite, Finite] | None = optional(
+        "From where to where it is calibrated, in the unit of what it measures, °C for a "
         "thermometer: temperatures outside are marked.",
-        examples=[[15, 25]],
+        example=[15, 25],
     )
 
 
@@ -305,44 +275,37 @@ class InstrumentKeys(JobPart):
     """The measuring instrument: the link to the national standard."""
 
     name: Text = Field(description="Type designation.", examples=["Laser interferometer LM 10"])
-    manufacturer: Text | None = Field(None, description="Who built it.")
-    serial: Text | None = Field(None, description="Serial number.")
-    certificate: Text | None = Field(None, description="Its calibration certificate.")
-    calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
-    due: Date | None = Field(
-        None, description="When it is due to be calibrated again.", examples=["2027-03-01"]
-    )
-    calibrated_range: tuple[Finite, Finite] | None = Field(
-        None,
-        description="From where to where it is calibrated: positions, mm (degrees); where it measures "
+    manufacturer: Text | None = optional("Who built it.")
+    serial: Text | None = optional("Serial number.")
+    certificate: Text | None = optional("Its calibration certificate.")
+    calibrated: Date | None = optional("Date of that calibration.", example="2026-03-01")
+    due: Date | None = optional("When it is due to be calibrated again.", example="2027-03-01")
+    calibrated_range: tuple[Finite, Finite] | None = optional(
+        "From where to where it is calibrated: positions, mm (degrees); where it measures "
         "something else than positions along an axis, its readings, micrometres (arc seconds). Results over "
         "more than that are marked.",
-        examples=[[0, 5000]],
+        example=[0, 5000],
     )
-    expanded_uncertainty: Positive | InstrumentUncertainty | None = Field(
-        None,
-        description="Its expanded uncertainty (k = 2), micrometres (arc seconds); with a part that grows "
+    expanded_uncertainty: Positive | InstrumentUncertainty | None = optional(
+        "Its expanded uncertainty (k = 2), micrometres (arc seconds); with a part that grows "
         "with the length, L in m: 0.6 + 0.3*L; in words in a report only, which then states no U.",
-        examples=[0.3],
+        example=0.3,
     )
-    expanded_uncertainty_per_metre: Positive | None = Field(
-        None,
-        description="What the expanded uncertainty gains with each metre of measured length, micrometres/m "
+    expanded_uncertainty_per_metre: Positive | None = optional(
+        "What the expanded uncertainty gains with each metre of measured length, micrometres/m "
         "(arc seconds/m).",
-        examples=[0.5],
+        example=0.5,
     )
-    expansion_coefficient: Finite | None = Field(
-        None, description="Of a device whose own expansion counts, micrometres/(m K).", examples=[8.0]
+    expansion_coefficient: Finite | None = optional(
+        "Of a device whose own expansion counts, micrometres/(m K).", example=8.0
     )
-    compensation: Lines | None = Field(
-        None,
-        description="What the instrument itself compensated, in words.",
-        examples=["refractive index of the air; no material temperature"],
+    compensation: Lines | None = optional(
+        "What the instrument itself compensated, in words.",
+        example="refractive index of the air; no material temperature",
     )
-    compensates: CompensatesKeys | None = Field(
-        None,
-        description="What it has corrected already, as numbers: the expansion is then not counted again.",
-        examples=[{"material": 11.5, "air": True}],
+    compensates: CompensatesKeys | None = optional(
+        "What it has corrected already, as numbers: the expansion is then not counted again.",
+        example={"material": 11.5, "air": True},
     )
 
     @property
@@ -358,43 +321,36 @@ class InstrumentKeys(JobPart):
 class Environment(JobPart):
     """Conditions during the measurement that the readings do not carry themselves."""
 
-    air_temperature: Temperature | InWords | None = Field(None, description="°C", examples=[20.1])
-    material_temperature: Temperature | InWords | None = Field(None, description="°C", examples=[20.3])
-    axis_temperature: Temperature | InWords | None = Field(
-        None, description="Of the machine's scale, °C", examples=[20.4]
+    air_temperature: Temperature | InWords | None = optional("°C", example=20.1)
+    material_temperature: Temperature | InWords | None = optional("°C", example=20.3)
+    axis_temperature: Temperature | InWords | None = optional("Of the machine's scale, °C", example=20.4)
+    air_pressure: Pressure | InWords | None = optional("hPa", example=1013)
+    relative_humidity: Humidity | InWords | None = optional("%", example=45)
+    expansion_coefficient: Finite | InWords | None = optional(
+        "Of the machine, µm/(m·K): for its expansion, corrected or not", example=11.5
     )
-    air_pressure: Pressure | InWords | None = Field(None, description="hPa", examples=[1013])
-    relative_humidity: Humidity | InWords | None = Field(None, description="%", examples=[45])
-    expansion_coefficient: Finite | InWords | None = Field(
-        None, description="Of the machine, µm/(m·K): for its expansion, corrected or not", examples=[11.5]
-    )
-    sensors: Lines | None = Field(
-        None,
-        description="Where the temperatures were measured.",
-        examples=["air: beside the beam; machine: on the scale, in the middle"],
+    sensors: Lines | None = optional(
+        "Where the temperatures were measured.",
+        example="air: beside the beam; machine: on the scale, in the middle",
     )
     thermometers: list[SensorKeys] = Field(
         [],
         description="Thermometers and other sensors whose readings enter results, with their calibrations.",
         examples=[[{"name": "Material sensor 1", "certificate": "T-2026-114", "calibrated": "2026-02-10"}]],
     )
-    remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
+    remarks: Lines | None = optional("Anything else: oil shower, sunlight, vibration.")
 
 
 class NamedTest(LineKeys):
     """One of several measured lines; what is not said of it is as in the job's measurement."""
 
-    axis: AxisKeys | None = Field(
-        None,
-        description="The axis that moves; without it that of the error's symbol, or the job's.",
-        examples=[{"name": "X"}],
+    axis: AxisKeys | None = optional(
+        "The axis that moves; without it that of the error's symbol, or the job's.", example={"name": "X"}
     )
-    instrument: InstrumentKeys | None = Field(None, description="Its instrument; without it that of the job.")
-    environment: Environment | None = Field(
-        None, description="Conditions during it; without them those of the job."
-    )
-    uncertainty: UncertaintyKeys | None = Field(
-        None, description="The uncertainty of its set-up; without it that of the job."
+    instrument: InstrumentKeys | None = optional("Its instrument; without it that of the job.")
+    environment: Environment | None = optional("Conditions during it; without them those of the job.")
+    uncertainty: UncertaintyKeys | None = optional(
+        "The uncertainty of its set-up; without it that of the job."
     )
 
 
@@ -429,11 +385,10 @@ class AsFound(JobPart):
     work: Literal["adjustment", "repair"] = Field(
         "adjustment", description="What was done between the two measurements."
     )
-    adjustment: Lines | None = Field(
-        None,
-        description="What was adjusted or repaired, in words.",
-        examples=["Backlash compensation of the control set from 0 to 4 µm."],
+    adjustment: Lines | None = optional(
+        "What was adjusted or repaired, in words.",
+        example="Backlash compensation of the control set from 0 to 4 µm.",
     )
-    environment: Environment | None = Field(
-        None, description="Conditions during the measurement before; without it those of environment."
+    environment: Environment | None = optional(
+        "Conditions during the measurement before; without it those of environment."
     )

@@ -313,7 +313,6 @@ _COMPLAINTS = (
 
 
 def _make_complaint(error: MarkedYAMLError, file: str) -> Problem:
-    """Return the problem that a parser's error stands for."""
     problem = str(error.problem)
     line = error.context_mark.line + 1 if error.context_mark else 0
     unclosed = error.context_mark if "found unexpected" in problem else None
@@ -327,5 +326,4 @@ def _make_complaint(error: MarkedYAMLError, file: str) -> Problem:
 
 
 def _find_place_of(mark: Any, file: str) -> Place:
-    """Return the place of a parser's mark."""
     return Place(file, mark.line + 1, mark.column + 1) if mark else Place(file, 1, 1)

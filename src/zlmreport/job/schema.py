@@ -311,7 +311,6 @@ def _is_free_text(part: Schema) -> bool:
 
 
 def _walk_parts(schema: Any) -> Iterator[Schema]:
-    """Yield every part of a schema."""
     if isinstance(schema, dict):
         yield schema
         for part in schema.values():

@@ -19,7 +19,7 @@ from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, find_at, find_key_place, place_of
-from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
+from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text, optional
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
@@ -38,16 +38,13 @@ FileName = Annotated[Text, AfterValidator(_take_file_name)]
 class TargetKeys(JobPart):
     """The target positions: a number of them at random fractions of a period, or a list."""
 
-    count: int | None = Field(
-        None, ge=2, le=2000, description="Number of targets over the travel.", examples=[21]
+    count: int | None = optional("Number of targets over the travel.", example=21, ge=2, le=2000)
+    fractions_of: NotNegative | None = optional(
+        "Period of whose random fractions the targets lie, mm or degrees; 0 for even targets. "
+        "Without it axis.screw_pitch, or else even targets."
     )
-    fractions_of: NotNegative | None = Field(
-        None,
-        description="Period of whose random fractions the targets lie, mm or degrees; 0 for even targets. "
-        "Without it axis.screw_pitch, or else even targets.",
-    )
-    positions: list[Finite] | None = Field(
-        None, min_length=1, max_length=2000, description="Instead: all targets, rising, mm or degrees."
+    positions: list[Finite] | None = optional(
+        "Instead: all targets, rising, mm or degrees.", min_length=1, max_length=2000
     )
 
 
@@ -55,10 +52,10 @@ class CourseKeys(JobPart):
     """A condition during the test."""
 
     start: Finite = Field(description="At the first reading.", examples=[20.4])
-    end: Finite | None = Field(
-        None, description="At the last reading; with a time constant, what it tends to. Without it: start."
+    end: Finite | None = optional(
+        "At the last reading; with a time constant, what it tends to. Without it: start."
     )
-    time_constant: Positive | None = Field(None, description="Of the way from start to end, s.")
+    time_constant: Positive | None = optional("Of the way from start to end, s.")
     swing: NotNegative = Field(0.0, description="Amplitude of a sine that is added.")
     swing_period: Positive = Field(900.0, description="Its period, s.")
     sensor_noise: NotNegative = Field(0.0, description="Standard deviation of what is logged.")
@@ -87,8 +84,8 @@ class SimulatedNoiseKeys(JobPart):
 class SimulationOutput(JobPart):
     """The files."""
 
-    readings: FileName | None = Field(
-        None, description="The table of readings; without it the simulation file's own name with .csv."
+    readings: FileName | None = optional(
+        "The table of readings; without it the simulation file's own name with .csv."
     )
     job: FileName = Field("job.yaml", description="A job that evaluates the readings.")
     number: Number = Field("SIMULATION-1", description="Number of that job's report.")
@@ -100,8 +97,8 @@ class SimulationKeys(JobPart):
     schema_: Literal["zlmreport/simulation/1"] = Field(
         alias="schema", description="Version of this format.", examples=["zlmreport/simulation/1"]
     )
-    extends: list[Text] | Text | None = Field(
-        None, description="Files whose keys this one builds on; paths are relative to this file."
+    extends: list[Text] | Text | None = optional(
+        "Files whose keys this one builds on; paths are relative to this file."
     )
     seed: int = Field(
         ge=0, description="Of everything random: the same file gives the same test.", examples=[1]
@@ -133,7 +130,7 @@ class SimulationKeys(JobPart):
         examples=[{"axis_temperature": {"start": 20.4}}],
     )
     time_logged: bool = Field(default=True, description="Whether the readings carry times.")
-    model: AxisModelKeys | None = Field(None, description="The error model that the written job begins with.")
+    model: AxisModelKeys | None = optional("The error model that the written job begins with.")
     output: SimulationOutput = Field(default_factory=SimulationOutput, description="The files.")
 
 

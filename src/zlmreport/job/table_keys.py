@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal, Self
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from zlmreport.errors import did_you_mean
-from zlmreport.job.types import JobPath, Options
+from zlmreport.job.types import JobPath, Options, optional
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.columns import Cells, find_decimal_sign, fold, read_heading
 from zlmreport.measurement.table import BLANKS, THOUSANDS, TextTable, read_table
@@ -21,19 +21,16 @@ _DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "blanks": BLANKS}
 class TablePlace(Options):
     """Where a table stands in its file."""
 
-    sheet: str | None = Field(None, description="Of a workbook: the name of the sheet that holds the table.")
-    skip_rows: Annotated[int, Field(ge=0)] | None = Field(
-        None, description="Rows of the file above the header that are not read."
+    sheet: str | None = optional("Of a workbook: the name of the sheet that holds the table.")
+    skip_rows: Annotated[int, Field(ge=0)] | None = optional(
+        "Rows of the file above the header that are not read."
     )
-    ends_before: str | None = Field(
-        None,
-        min_length=1,
-        description="The table ends before the row that begins so: Mean, or whatever stands below it.",
+    ends_before: str | None = optional(
+        "The table ends before the row that begins so: Mean, or whatever stands below it.", min_length=1
     )
-    lines: tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]] | None = Field(
-        None,
-        description="First line (the header) and last line of the table, where the file holds more; in place "
-        "of skip_rows and ends_before.",
+    lines: tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]] | None = optional(
+        "First line (the header) and last line of the table, where the file holds more; in place "
+        "of skip_rows and ends_before."
     )
 
     @model_validator(mode="after")
@@ -78,17 +75,17 @@ class TableOptions(TablePlace):
         description="Units by column. Without it the unit behind the number, in the header's brackets or in "
         "a row below the header holds.",
     )
-    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab", "blanks"] | None = Field(
-        None, description="What parts the columns; told apart if not stated, but for blanks."
+    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab", "blanks"] | None = optional(
+        "What parts the columns; told apart if not stated, but for blanks."
     )
-    decimal: Literal[".", ",", "point", "comma"] | None = Field(
-        None, description="The decimal sign; told apart if not stated."
+    decimal: Literal[".", ",", "point", "comma"] | None = optional(
+        "The decimal sign; told apart if not stated."
     )
-    thousands: Literal["point", "comma", "blank", "apostrophe"] | None = Field(
-        None, description="What parts groups of three digits, as in 1.250,5."
+    thousands: Literal["point", "comma", "blank", "apostrophe"] | None = optional(
+        "What parts groups of three digits, as in 1.250,5."
     )
-    encoding: Annotated[str, AfterValidator(require_known_encoding)] | None = Field(
-        None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
+    encoding: Annotated[str, AfterValidator(require_known_encoding)] | None = optional(
+        "Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
     )
 
     @classmethod

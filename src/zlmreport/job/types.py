@@ -292,6 +292,13 @@ Humidity = Annotated[float, *_describe_condition(_HUMIDITY)]
 Date = Annotated[dt.date, BeforeValidator(_take_date)]
 
 
+def optional(description: str, *, example: Any = None, **settings: Any) -> Any:
+    """Return a key that need not be stated; `settings`: As of pydantic's `Field`."""
+    if example is not None:
+        settings["examples"] = [example]
+    return Field(None, description=description, **settings)
+
+
 class JobPart(BaseModel):
     """A part of a job: frozen, and closed to keys that it does not know."""
 

@@ -48,37 +48,20 @@ class StandardNumbers:
 
 @dataclass(frozen=True, slots=True)
 class ComparedTest:
-    """A test and its prediction; (N,) of its readings.
+    """A test and its prediction; (N,) of its readings."""
 
-    Attributes
-    ----------
-    test
-        The circle or the line.
-    prediction
-        What the axes predict.
-    left
-        What axes, and the effects of a model where there is one, leave of what was measured, m.
-    rms
-        Root mean squares; of circles about the centre of each turn and, unless the bar is calibrated, without
-        the mean radius, of lines without the mean.
-    of_axes
-        What each error makes of the test, RMS, m, by name.
-    of_effects
-        Each effect of the model with what it makes of the test, RMS, m.
-    numbers
-        Of the standards that the test's job names.
-    fails
-        Where what is left is beyond its band.
-    """
-
-    test: CircularTest | StraightTest
-    prediction: TestPrediction
+    test: CircularTest | StraightTest  #: The circle or the line.
+    prediction: TestPrediction  #: What the axes predict.
+    #: What axes, and the effects of a model where there is one, leave of what was measured, m.
     left: FloatArray
+    #: Root mean squares; of circles about the centre of each turn and, unless the bar is calibrated, without
+    #: the mean radius, of lines without the mean.
     rms: Sizes
-    of_axes: Mapping[str, float]
+    of_axes: Mapping[str, float]  #: What each error makes of the test, RMS, m, by name.
+    #: Each effect of the model with what it makes of the test, RMS, m.
     of_effects: tuple[tuple[CircleEffect, float], ...]
-    numbers: tuple[StandardNumbers, ...]
-    fails: tuple[Stretch, ...]
+    numbers: tuple[StandardNumbers, ...]  #: Of the standards that the test's job names.
+    fails: tuple[Stretch, ...]  #: Where what is left is beyond its band.
 
     @property
     def name(self) -> str:

@@ -32,32 +32,19 @@ class ToolCourse:
 
 @dataclass(frozen=True, slots=True)
 class CircularTest:
-    """A circular test: some turns about one centre, at one radius and feed.
+    """A circular test: some turns about one centre, at one radius and feed."""
 
-    Attributes
-    ----------
-    name
-        The stem of its job.
-    nominal
-        The path that the control was told to run.
-    angle, sense, run, deviation
-        Of each reading, in the order of time within its run, shape (N,): θ from the plane's first axis
-        towards its second, rad; +1 counter-clockwise, −1 clockwise; number of the turn from 1, counted over
-        both senses together or each by itself; actual − nominal radius, m.
-    time
-        Seconds from the beginning of the test.
-    tool
-        The tool's offset, m; None for that of the machine.
-    """
-
-    name: str
-    nominal: NominalCircle
+    name: str  #: The stem of its job.
+    nominal: NominalCircle  #: The path that the control was told to run.
+    #: angle, sense, run, deviation: Of each reading, in the order of time within its run, shape (N,): θ from
+    #: the plane's first axis towards its second, rad; +1 counter-clockwise, −1 clockwise; number of the turn
+    #: from 1, counted over both senses together or each by itself; actual − nominal radius, m.
     angle: FloatArray
     sense: FloatArray
     run: IntArray
     deviation: FloatArray
-    time: FloatArray
-    tool: Point | None = None
+    time: FloatArray  #: Seconds from the beginning of the test.
+    tool: Point | None = None  #: The tool's offset, m; None for that of the machine.
 
     @property
     def axes(self) -> tuple[int, int]:

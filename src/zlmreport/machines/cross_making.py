@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.files import Document
 from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, is_held, plan_tables
 from zlmreport.machines.reading import MachineFile
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: Height of a trial value, m: an indicator shows it, and no axis is hurt by it.
@@ -24,23 +24,13 @@ _MOVES = {"plus": 1, "minus": -1}
 
 @dataclass(frozen=True, slots=True)
 class CrossWanted:
-    """What somebody asks for.
+    """What somebody asks for."""
 
-    Attributes
-    ----------
-    controller
-        The control's identifier.
-    moves
-        Which way a positive value moves an axis, ``plus`` or ``minus``; None where that is known.
-    step
-        Between rows, m; None for that of the measured positions.
-    place, is_command
-        Who asks, and whether by a command: remedies are then said as its options.
-    """
-
-    controller: str | None
+    controller: str | None  #: The control's identifier.
+    #: Which way a positive value moves an axis, ``plus`` or ``minus``; None where that is known.
     moves: str | None
-    step: float | None
+    step: float | None  #: Between rows, m; None for that of the measured positions.
+    #: place, is_command: Who asks, and whether by a command: remedies are then said as its options.
     place: Place
     is_command: bool
 
@@ -51,30 +41,14 @@ class CrossWanted:
 
 @dataclass(frozen=True, slots=True)
 class CrossMade:
-    """Tables in the words of a control.
+    """Tables in the words of a control."""
 
-    Attributes
-    ----------
-    control
-        The control.
-    moves
-        Which way a positive value moves an axis, +1 or −1.
-    plan
-        What the tables hold.
-    files
-        Their text by the end of the file's name.
-    decoded
-        The tables as the control reads its files back.
-    forecast
-        What they will leave.
-    """
-
-    control: Any
-    moves: int
-    plan: CrossPlan
-    files: Mapping[str, str]
-    decoded: tuple[CrossTable, ...]
-    forecast: CrossForecast
+    control: Any  #: The control.
+    moves: int  #: Which way a positive value moves an axis, +1 or −1.
+    plan: CrossPlan  #: What the tables hold.
+    files: Mapping[str, str]  #: Their text by the end of the file's name.
+    decoded: tuple[CrossTable, ...]  #: The tables as the control reads its files back.
+    forecast: CrossForecast  #: What they will leave.
 
     @property
     def held(self) -> tuple[str, ...]:

@@ -29,7 +29,7 @@ from zlmreport.machines.volume import (
     predict_diagonals,
 )
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.model.compensation.making import count_steps
 from zlmreport.model.effects.circle_design import AXES
 from zlmreport.plugin.registry import Registry

@@ -23,31 +23,17 @@ _TOUCHING = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class AxisErrorCurve:
-    """One of the 21 errors as it is known.
+    """One of the 21 errors as it is known."""
 
-    Attributes
-    ----------
-    name
-        ``EXX`` … or a squareness error, which has one node at 0.
-    nodes
-        Positions of its axis, rising, shape (m,), m.
-    values
-        Of the nodes, shape (m,) or (2·m,): the positive direction of travel, then the negative, m or rad.
-    factor
-        Columns whose random combination is the error of the values, shape (len(values), r): their covariance
-        is factor·factorᵀ.
-    line
-        Where it was measured.
-    source
-        What it was taken from, as pages name it; empty of a value that is stated and no more.
-    """
-
-    name: str
-    nodes: FloatArray
+    name: str  #: ``EXX`` … or a squareness error, which has one node at 0.
+    nodes: FloatArray  #: Positions of its axis, rising, shape (m,), m.
+    #: Of the nodes, shape (m,) or (2·m,): the positive direction of travel, then the negative, m or rad.
     values: FloatArray
+    #: Columns whose random combination is the error of the values, shape (len(values), r): their covariance
+    #: is factor·factorᵀ.
     factor: FloatArray
-    line: ErrorLine
-    source: str
+    line: ErrorLine  #: Where it was measured.
+    source: str  #: What it was taken from, as pages name it; empty of a value that is stated and no more.
 
     @property
     def axis(self) -> str:

@@ -56,23 +56,13 @@ class MachineDocument:
 
 @dataclass(frozen=True, slots=True)
 class _Material:
-    """What a document is made of.
-
-    Attributes
-    ----------
-    by_axes
-        The tests beside what the axes predict.
-    by_model
-        The circles beside the effects of the model, too.
-    complete
-        The same with all that was found.
-    """
+    """What a document is made of."""
 
     machine: MachineFile
     diagnosis: MachineDiagnosis | None
-    by_axes: tuple[ComparedTest, ...]
-    by_model: tuple[ComparedTest, ...]
-    complete: tuple[ComparedTest, ...]
+    by_axes: tuple[ComparedTest, ...]  #: The tests beside what the axes predict.
+    by_model: tuple[ComparedTest, ...]  #: The circles beside the effects of the model, too.
+    complete: tuple[ComparedTest, ...]  #: The same with all that was found.
 
 
 def make_machine_document(
@@ -242,11 +232,11 @@ def _list_facts(machine: MachineFile, say: Sayer) -> Facts:
         (say(_CUSTOMER), keys.customer.name if keys.customer else ""),
         (say(_MACHINE), keys.machine.type),
         (say(_SERIAL), keys.machine.serial or ""),
-        (say(_CHAIN), machine.machine.chain.letters),
+        (say(Words("Axes, from workpiece to tool")), machine.machine.chain.letters),
         (say(_TOOL), f"{', '.join(map(say.write_stated, keys.tool))} mm"),
         (say(_KNOWN), say(say_known(machine.machine))),
         (say(_ISSUED), stated.issued.isoformat() if stated.issued else ""),
-        (say(_AUTHORISED), write_person(stated.authorised_by) if stated.authorised_by else ""),
+        (say(Words("Authorised by")), write_person(stated.authorised_by) if stated.authorised_by else ""),
     ]
     return Facts(tuple((name, value) for name, value in pairs if value))
 
@@ -255,8 +245,6 @@ _TITLE = Words("Report on a Machine")
 _RESULTS = Words("Results for programs")
 _NUMBER, _CUSTOMER = Words("Number"), Words("Customer")
 _MACHINE, _SERIAL = Words("Machine"), Words("Serial number")
-_CHAIN = Words("Axes, from workpiece to tool")
 _TOOL = Words("Tool offset")
 _KNOWN = Words("Known errors")
 _ISSUED = Words("Date of issue")
-_AUTHORISED = Words("Authorised by")

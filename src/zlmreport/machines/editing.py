@@ -9,14 +9,7 @@ from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import demand, rewrite
 from zlmreport.job.contradictions import validate
 from zlmreport.job.extents import Written
-from zlmreport.job.list_edits import (
-    ListKey,
-    UneditableError,
-    add_item,
-    add_list,
-    drop_item,
-    find_own_list,
-)
+from zlmreport.job.list_edits import ListKey, UneditableError, add_item, add_list, drop_item, find_own_list
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Scalar
 from zlmreport.machines.keys import MachineFileKeys

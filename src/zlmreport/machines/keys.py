@@ -8,7 +8,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from zlmreport.job.document_keys import Customer, Laboratory, Number, Output, Person
 from zlmreport.job.measurement_keys import MachineUnderTest as MachineNames
-from zlmreport.job.types import Date, Finite, JobPart, JobPath, NotNegative, Positive, Text
+from zlmreport.job.types import Date, Finite, JobPart, JobPath, NotNegative, Positive, Text, optional
 from zlmreport.language import Language
 
 Place3 = tuple[Finite, Finite, Finite]
@@ -17,12 +17,10 @@ Place3 = tuple[Finite, Finite, Finite]
 class ErrorLineKeys(JobPart):
     """Where the others stood while an error was measured."""
 
-    X: Finite | None = Field(None, description="Position of X, mm.", examples=[250])
-    Y: Finite | None = Field(None, description="Position of Y, mm.", examples=[150])
-    Z: Finite | None = Field(None, description="Position of Z, mm.", examples=[80])
-    tool: Place3 | None = Field(
-        None, description="The tool's offset in X, Y and Z, mm.", examples=[[0, 0, 120]]
-    )
+    X: Finite | None = optional("Position of X, mm.", example=250)
+    Y: Finite | None = optional("Position of Y, mm.", example=150)
+    Z: Finite | None = optional("Position of Z, mm.", example=80)
+    tool: Place3 | None = optional("The tool's offset in X, Y and Z, mm.", example=[0, 0, 120])
 
 
 class StatedKeys(BaseModel):
@@ -34,9 +32,7 @@ class StatedKeys(BaseModel):
         description="Of each value, k = 2: µm, of angles and squareness arc seconds.", examples=[0.6]
     )
     at: ErrorLineKeys = Field(default_factory=ErrorLineKeys, description="Where the others stood.")
-    source: Text | None = Field(
-        None, description="Where it comes from, in words.", examples=["granite square"]
-    )
+    source: Text | None = optional("Where it comes from, in words.", example="granite square")
 
 
 def _take_as_list(value: Any) -> Any:
@@ -57,17 +53,15 @@ class ModelKeys(JobPart):
 class DocumentKeys(JobPart):
     """The document on a machine."""
 
-    number: Number | None = Field(
-        None, description="Its number; the file's stem without it.", examples=["CAL-2026-0117-M"]
-    )
+    number: Number | None = optional("Its number; the file's stem without it.", example="CAL-2026-0117-M")
     kind: Literal["report"] = Field(
         "report",
         description="A report: most of what it says is predicted and not measured. A calibration certificate "
         "is that of a measurement.",
     )
-    issued: Date | None = Field(None, description="Date of issue.", examples=["2026-11-20"])
+    issued: Date | None = optional("Date of issue.", example="2026-11-20")
     language: Language = Field(Language.ENGLISH, description="Its language.")
-    authorised_by: Person | None = Field(None, description="Who authorises the document.")
+    authorised_by: Person | None = optional("Who authorises the document.")
     layout: Literal["sheet", "standard"] = Field(
         "standard", description="sheet: all that fits on a page; standard: with the map and every circle."
     )
@@ -80,8 +74,8 @@ class MachineFileKeys(JobPart):
     schema_: Literal["zlmreport/machine/1"] = Field(
         alias="schema", description="Version of this format.", examples=["zlmreport/machine/1"]
     )
-    extends: list[Text] | Text | None = Field(
-        None, description="Files whose keys this one builds on; paths are relative to this file."
+    extends: list[Text] | Text | None = optional(
+        "Files whose keys this one builds on; paths are relative to this file."
     )
     machine: MachineNames = Field(default_factory=MachineNames, description="Which machine it is.")
     chain: Text = Field(
@@ -115,6 +109,6 @@ class MachineFileKeys(JobPart):
     certificate: DocumentKeys = Field(
         default_factory=DocumentKeys, description="Its document, for `zlmreport machine certificate`."
     )
-    laboratory: Laboratory | None = Field(None, description="Who issues the document.")
-    customer: Customer | None = Field(None, description="For whom the work was done.")
+    laboratory: Laboratory | None = optional("Who issues the document.")
+    customer: Customer | None = optional("For whom the work was done.")
     output: Output = Field(default_factory=Output, description="What the document is written as, and where.")

@@ -20,7 +20,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
@@ -40,9 +39,7 @@ SQUARENESS = ("C0Y", "B0Z", "A0Z")
 #: All 21 errors of three linear axes, X being the primary axis and Y the secondary.
 ERRORS = (*COMPONENTS, *SQUARENESS)
 #: Of each squareness error, the direction in which Δ shows it and the axis that it grows along, with sign.
-_SQUARE: Mapping[str, tuple[int, int, float]] = MappingProxyType(
-    {"C0Y": (0, 1, -1.0), "B0Z": (0, 2, 1.0), "A0Z": (1, 2, -1.0)}
-)
+_SQUARE: Mapping[str, tuple[int, int, float]] = {"C0Y": (0, 1, -1.0), "B0Z": (0, 2, 1.0), "A0Z": (1, 2, -1.0)}
 
 
 def find_square_slope(error: str) -> tuple[str, str, float]:

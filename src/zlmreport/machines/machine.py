@@ -17,9 +17,7 @@ from zlmreport.model.effects.circle_design import AXES
 
 #: How large an error that nobody measured may be where the file states no bound: half-widths of a range, µm
 #: over the travel or arc seconds. An assumption of this program, of the order of what machine tools have.
-ASSUMED_BOUNDS: Mapping[str, float] = MappingProxyType(
-    {"position": 10.0, "straightness": 5.0, "angle": 6.0, "squareness": 8.0}
-)
+ASSUMED_BOUNDS: Mapping[str, float] = {"position": 10.0, "straightness": 5.0, "angle": 6.0, "squareness": 8.0}
 
 
 def find_kind_of(error: str) -> str:
@@ -66,28 +64,16 @@ class MachineModel:
 
 @dataclass(frozen=True, slots=True)
 class TestPrediction:
-    """What the axes of a machine predict along a course.
+    """What the axes of a machine predict along a course."""
 
-    Attributes
-    ----------
-    values
-        The deviation in the sensing direction, shape (N,), m.
-    factor
-        Columns whose random combination is its error, shape (N, r): from the covariance of the errors that
-        were measured.
-    shares
-        What each error makes of it, by name, shape (N,).
-    outside
-        Where an error that counts was asked for beyond its measured range, shape (N,).
-    bound
-        Standard deviation of what errors that nobody measured may add, shape (N,); each is taken as
-        anywhere within its bound, independently.
-    """
-
-    values: FloatArray
+    values: FloatArray  #: The deviation in the sensing direction, shape (N,), m.
+    #: Columns whose random combination is its error, shape (N, r): from the covariance of the errors that
+    #: were measured.
     factor: FloatArray
-    shares: Mapping[str, FloatArray]
-    outside: BoolArray
+    shares: Mapping[str, FloatArray]  #: What each error makes of it, by name, shape (N,).
+    outside: BoolArray  #: Where an error that counts was asked for beyond its measured range, shape (N,).
+    #: Standard deviation of what errors that nobody measured may add, shape (N,); each is taken as anywhere
+    #: within its bound, independently.
     bound: FloatArray
 
     @property

@@ -12,13 +12,7 @@ from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import MachineModel, find_unit_of
 from zlmreport.machines.residual import Stretch
-from zlmreport.machines.volume import (
-    Diagonal,
-    VolumeMap,
-    find_measured_space,
-    map_volume,
-    predict_diagonals,
-)
+from zlmreport.machines.volume import Diagonal, VolumeMap, find_measured_space, map_volume, predict_diagonals
 from zlmreport.model.effects.circle_design import AXES
 
 SCHEMA = "zlmreport/prediction/1"

@@ -69,33 +69,17 @@ class EstimatedTerm:
 
 @dataclass(frozen=True)
 class CircleStudy:
-    """Circles, thinned, with what the axes predict of them and the effects of a model.
+    """Circles, thinned, with what the axes predict of them and the effects of a model."""
 
-    Attributes
-    ----------
-    design
-        Where each reading was taken.
-    deviation
-        Measured minus predicted by the axes, (N,), m.
-    predicted
-        What the axes predict, (N,), m.
-    factor
-        Its covariance as a factor, (N, r), m.
-    effects
-        The effects of the model, each in its form.
-    shared
-        What the noise of the design has in common, whatever the model.
-    unnamed
-        What is left that no effect explains: a curve whose random combination it is, (N, r), m. The
-        uncertainties of the parameters hold it.
-    """
-
-    design: ThinnedDesign
-    deviation: FloatArray
-    predicted: FloatArray
-    factor: FloatArray
+    design: ThinnedDesign  #: Where each reading was taken.
+    deviation: FloatArray  #: Measured minus predicted by the axes, (N,), m.
+    predicted: FloatArray  #: What the axes predict, (N,), m.
+    factor: FloatArray  #: Its covariance as a factor, (N, r), m.
+    #: What the noise of the design has in common, whatever the model.
     shared: CircleNoise = field(repr=False)
-    effects: tuple[Chosen, ...] = ()
+    effects: tuple[Chosen, ...] = ()  #: The effects of the model, each in its form.
+    #: What is left that no effect explains: a curve whose random combination it is, (N, r), m. The
+    #: uncertainties of the parameters hold it.
     unnamed: FloatArray | None = field(default=None, repr=False)
 
     @property

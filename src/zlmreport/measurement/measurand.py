@@ -48,16 +48,12 @@ class Coordinate(StrEnum):
 _UNITS = {Coordinate.LENGTH: MILLIMETRE, Coordinate.ANGLE: DEGREE, Coordinate.TIME: HOUR}
 _SPELLINGS = {Coordinate.LENGTH: LENGTH_UNITS, Coordinate.ANGLE: ANGLE_UNITS, Coordinate.TIME: TIMES}
 
-_NAME_WITH_SYMBOL = Words("{name} {symbol}")
 _OF_AXIS = Words("{name} of axis {axis}")
 _AXIS = Words("Axis {axis}")
 _TARGET = Words("Target position")
 _ACTUAL = Words("actual − target position")
 _REVERSAL = Words("reversal value")
-_SENSES = (
-    Words("positive direction ↑"),
-    Words("negative direction ↓"),
-)
+_SENSES = (Words("positive direction ↑"), Words("negative direction ↓"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +137,7 @@ class Measurand:
 
     def named(self, axis: str, symbol: str | Words = "") -> Words:
         """Return what a document is about: ``Straightness EYX of axis X``."""
-        name = _NAME_WITH_SYMBOL.given(name=self.title, symbol=symbol) if symbol else self.title
+        name = Words("{name} {symbol}").given(name=self.title, symbol=symbol) if symbol else self.title
         return self.subject.given(name=name, axis=axis)
 
     def sign_of(self, letter: str) -> Words:
@@ -206,10 +202,7 @@ CIRCLE = Measurand(
     subject=Words("{name} in the plane {axis}"),
     bearer=Words("Plane {axis}"),
     target=Words("Angle"),
-    senses=(
-        Words("counter-clockwise"),
-        Words("clockwise"),
-    ),
+    senses=(Words("counter-clockwise"), Words("clockwise")),
     is_continuous=True,
 )
 
@@ -225,10 +218,7 @@ DISPLACEMENT = Measurand(
     subject=Words("{name}, sensor {axis}"),
     bearer=Words("Sensor {axis}"),
     target=Words("Time"),
-    senses=(
-        Words("as time goes on"),
-        Words("back in time"),
-    ),
+    senses=(Words("as time goes on"), Words("back in time")),
     is_continuous=True,
 )
 

@@ -11,9 +11,8 @@ from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import write_new
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
-from zlmreport.machines.cross_confirmation import confirm as confirmed
+from zlmreport.machines.cross_confirmation import collect_confirmation, collect_cross, confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
-from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.reading import MachineFile, read_machine

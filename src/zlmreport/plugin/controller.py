@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from zlmreport.model.compensation.cross import (
-    CrossTable,
-)
 from zlmreport.model.compensation.curve import (
     CompensationTable,
+    CrossTable,
 )
 from zlmreport.plugin.protocols import (
     Controller,

@@ -91,26 +91,13 @@ STANDARD: Kind[Standard] = Kind(
     reserved=frozenset({"standard", "tolerances"}),
 )
 SOURCE: Kind[DataSource] = Kind(
-    name="source",
-    label="data source",
-    door="source",
-    interface="DataSource",
-    reserved=frozenset({"plugin"}),
+    name="source", label="data source", door="source", interface="DataSource", reserved=frozenset({"plugin"})
 )
 RENDERER: Kind[Renderer] = Kind(
-    name="renderer",
-    label="format",
-    door="renderer",
-    interface="Renderer",
-    suffix=".pdf",
-    has_keys=False,
+    name="renderer", label="format", door="renderer", interface="Renderer", suffix=".pdf", has_keys=False
 )
 EFFECT: Kind[Effect] = Kind(
-    name="effect",
-    label="effect",
-    door="effect",
-    interface="Effect",
-    lacks=_say_meaning_two_things,
+    name="effect", label="effect", door="effect", interface="Effect", lacks=_say_meaning_two_things
 )
 CIRCLE_EFFECT: Kind[CircleEffect] = Kind(
     name="circle_effect",
@@ -135,10 +122,7 @@ CONTROLLER: Kind[Controller] = Kind(
     reserved=frozenset({"controller"}),
 )
 EXTENSION: Kind[Extension] = Kind(
-    name="extension",
-    label="extension",
-    door="extension",
-    interface="Extension",
+    name="extension", label="extension", door="extension", interface="Extension"
 )
 INSTRUMENT: Kind[Instrument] = Kind(
     name="instrument",

@@ -15,7 +15,7 @@ from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.plugin.protocols import Standard
-from zlmreport.testing.expectations import check, expect, is_same_value
+from zlmreport.testing.expectations import check, expect, is_same_value, list_checks_of
 from zlmreport.testing.measurements import is_of_circles, names_of_lines
 
 _POSITIONS, _RUNS = 7, 5
@@ -322,19 +322,4 @@ def _expect_close(found: FloatArray, expected: FloatArray, sentence: str) -> Non
 
 
 #: Every check of a standard's formulas.
-ARITHMETIC_CHECKS = (
-    gives_every_quantity,
-    stack_equals_loop,
-    order_of_runs_is_irrelevant,
-    scales_with_the_readings,
-    moves_no_more_than_an_offset,
-    no_part_exceeds_its_whole,
-    one_missing_reading_takes_nothing_away,
-    undefined_is_nan,
-    nothing_gives_nothing,
-    defines_what_it_declares,
-    values_are_lengths_that_readings_have,
-    directions_are_not_swapped,
-    alters_no_input,
-    gives_the_same_again,
-)
+ARITHMETIC_CHECKS = list_checks_of(__name__)

@@ -24,7 +24,7 @@ from zlmreport.model.effects.circle_effect import (
     SearchedParameter,
 )
 from zlmreport.plugin.kinds import CIRCLE_EFFECT
-from zlmreport.testing.expectations import check, expect, expect_named, expect_words, run_all
+from zlmreport.testing.expectations import check, expect, expect_named, expect_words, list_checks_of, run_all
 
 #: m: what no effect of a usual size makes of a radius; micrometres given as metres do.
 _NO_DEVIATION = 0.01
@@ -225,14 +225,7 @@ def _make_grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
     return grid
 
 
-CIRCLE_EFFECT_CHECKS = (
-    is_described,
-    has_columns,
-    keeps_its_parity,
-    keeps_its_law,
-    knows_each_reading_by_itself,
-    says_what_it_found,
-)
+CIRCLE_EFFECT_CHECKS = list_checks_of(__name__)
 
 
 def check_circle_effect(effect: CircleEffect) -> None:

@@ -17,7 +17,7 @@ from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.planning.circle_path import CirclePath, PlannedTurn
 from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram, find_circle_writer
-from zlmreport.testing.expectations import check, expect, expect_members, run_all
+from zlmreport.testing.expectations import check, expect, expect_members, list_checks_of, run_all
 from zlmreport.testing.part_programs import HOSTILE, NUMBER, PLACE, expect_plain_text
 
 #: Digits that every control takes, mm, and what a circle may miss by them.
@@ -162,12 +162,7 @@ def _write_program(program: PartProgram, path: CirclePath, keys: Mapping[str, An
 
 
 #: Every check of a writer of circles, each called with the writer, an interpreter, and its job keys.
-CIRCLE_PROGRAM_CHECKS = (
-    runs_every_turn_in_its_sense,
-    keeps_to_circle_and_feed,
-    writes_circles_as_plain_text,
-    refuses_points_off_the_circle,
-)
+CIRCLE_PROGRAM_CHECKS = list_checks_of(__name__)
 
 
 def check_circle_program(

@@ -22,6 +22,7 @@ from zlmreport.testing.expectations import (
     expect_named,
     expect_options,
     expect_words,
+    list_checks_of,
     run_all,
 )
 
@@ -226,15 +227,7 @@ def takes_tables_across_axes(
 
 
 #: Every check of a controller, each called with it, its job keys, and the example of its maker.
-CONTROLLER_CHECKS = (
-    is_named,
-    options_are_described,
-    reads_what_it_writes,
-    reads_what_its_maker_prints,
-    writes_the_same_again,
-    refuses_rows_that_do_not_rise,
-    takes_tables_across_axes,
-)
+CONTROLLER_CHECKS = list_checks_of(__name__)
 
 
 def check_controller(

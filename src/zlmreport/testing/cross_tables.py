@@ -11,7 +11,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.testing.expectations import expect, expect_words
 
 #: Of a deviation, what rounding in a file may take, m.

@@ -29,6 +29,7 @@ from zlmreport.testing.expectations import (
     expect_options,
     expect_words,
     is_same_value,
+    list_checks_of,
     run_all,
 )
 from zlmreport.testing.measurements import full_designs, poor_designs
@@ -424,27 +425,7 @@ def _select_some(grid: FloatArray) -> FloatArray:
 
 
 #: Every check of an effect, each called with it, designs on which it may be tested, and effects beside it.
-EFFECT_CHECKS = (
-    is_complete,
-    is_described,
-    says_what_to_do,
-    names_what_it_is_taken_for,
-    parameters_are_described,
-    keys_are_described,
-    settings_make_the_form,
-    says_what_it_lacks,
-    cannot_be_tested_where_it_is_not_seen,
-    shape_is_what_it_follows,
-    grid_stays_in_range,
-    grid_is_one,
-    columns_are_readings_by_parameters,
-    rows_stand_alone,
-    plausible_sizes_are_metres,
-    is_seen_somewhere,
-    every_parameter_matters,
-    formula_determines_its_parameters,
-    expected_values_are_of_parameters,
-)
+EFFECT_CHECKS = list_checks_of(__name__)
 
 
 def check_effect(effect: Effect, designs: Designs | None = None, *, beside: Iterable[str] = ()) -> None:

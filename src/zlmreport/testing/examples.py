@@ -23,7 +23,7 @@ from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard, find_contributions_of
-from zlmreport.testing.expectations import check, expect, is_same_value
+from zlmreport.testing.expectations import check, expect, is_same_value, list_checks_of
 from zlmreport.testing.measurements import good_tests, poor_tests
 
 #: Of the largest standard deviation: by such a reversal the spread of both directions together is wider
@@ -231,4 +231,4 @@ def _change_options(options: Options, key: str, value: Any) -> Options | None:
 
 
 #: What only an author's own numbers show, each called with them beside the standard and its options.
-EXAMPLE_CHECKS = (gives_the_worked_values, every_key_matters)
+EXAMPLE_CHECKS = list_checks_of(__name__)

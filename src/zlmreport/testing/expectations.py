@@ -22,6 +22,7 @@ PATIENCE = 120.0
 
 _IDENTIFIER = re.compile(r"[a-z0-9]+([-.:][a-z0-9]+)*")
 _SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
+_MADE_IN: dict[str, list[Callable[..., None]]] = {}
 
 
 def expect(condition: object, sentence: str) -> None:
@@ -58,7 +59,13 @@ def check(body: Callable[..., None]) -> Callable[..., None]:
             sentence = str(error) if isinstance(error, ZlmreportError) else tell_failure(error, subject[0])
             raise AssertionError(f"{name}: {sentence}") from error
 
+    _MADE_IN.setdefault(body.__module__, []).append(checked)
     return checked
+
+
+def list_checks_of(module: str) -> tuple[Callable[..., None], ...]:
+    """Return every check that a module makes, in their order there: none can be left out."""
+    return tuple(_MADE_IN[module])
 
 
 def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:

@@ -14,6 +14,7 @@ from zlmreport.testing.expectations import (
     expect_members,
     expect_options,
     expect_words,
+    list_checks_of,
     run_all,
 )
 
@@ -65,12 +66,7 @@ def commands_are_described(extension: Extension) -> None:
 
 
 #: Every check of an extension, each called with it.
-EXTENSION_CHECKS = (
-    is_named,
-    keys_are_described,
-    lists_part_programs_where_it_says,
-    commands_are_described,
-)
+EXTENSION_CHECKS = list_checks_of(__name__)
 
 
 def check_extension(extension: Extension) -> None:

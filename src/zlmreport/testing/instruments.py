@@ -28,6 +28,7 @@ from zlmreport.testing.expectations import (
     expect_members,
     expect_named,
     expect_options,
+    list_checks_of,
     run_all,
 )
 
@@ -375,20 +376,7 @@ def _serve(emulator: Any, stage: _Stage) -> Iterator[None]:
 
 
 #: Every check of an instrument, each called with it and with what its author knows of its protocol.
-INSTRUMENT_CHECKS = (
-    is_named,
-    options_are_described,
-    follows_the_axis,
-    sign_turns_it_round,
-    no_wrong_reading_is_usable,
-    no_cut_answer_is_usable,
-    no_garbled_answer_is_usable,
-    tells_of_a_lost_beam,
-    notices_the_cable,
-    refuses_silence,
-    refuses_another_device,
-    refuses_a_port_that_is_not_there,
-)
+INSTRUMENT_CHECKS = list_checks_of(__name__)
 
 
 def check_instrument(instrument: Instrument, *, traits: InstrumentTraits | None = None) -> None:

@@ -15,6 +15,7 @@ from zlmreport.testing.expectations import (
     expect_members,
     expect_named,
     expect_options,
+    list_checks_of,
     run_all,
 )
 
@@ -144,14 +145,7 @@ def _check_shows_no_secret(notifier: Notifier, text: str, trial: NotifierTrial) 
 
 
 #: Every check of a notifier, each called with it and a trial.
-NOTIFIER_CHECKS = (
-    is_named,
-    options_are_described,
-    names_who_is_told,
-    tells_all_of_it_once,
-    tells_whom_its_keys_name,
-    says_when_nobody_takes_it,
-)
+NOTIFIER_CHECKS = list_checks_of(__name__)
 
 
 def check_notifier(notifier: Notifier, trial: NotifierTrial) -> None:

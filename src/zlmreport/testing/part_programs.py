@@ -24,6 +24,7 @@ from zlmreport.testing.expectations import (
     expect_members,
     expect_named,
     expect_options,
+    list_checks_of,
     run_all,
 )
 
@@ -50,18 +51,11 @@ def expect_same_deeds(
 ) -> None:
     """Expect that a program with a hostile name does what the one with a plain name does.
 
-    Parameters
-    ----------
-    text
-        The program.
-    understand
-        From a text of its language to what a machine does of it.
-    plain
-        What it does with a plain name.
-    where
-        Of which program and name, for the message.
-    verb
-        What `understand` does with a text: ``run``, ``read``.
+    `text`: The program.
+    `understand`: From a text of its language to what a machine does of it.
+    `plain`: What it does with a plain name.
+    `where`: Of which program and name, for the message.
+    `verb`: What `understand` does with a text: ``run``, ``read``.
     """
     expect(text.isascii(), f"{where}, the program holds characters beyond ASCII")
     try:
@@ -265,18 +259,7 @@ def _is_near(one: Sequence[float], other: Sequence[float]) -> bool:
 
 
 #: Every check of a writer of part programs, each called with the writer, an interpreter, and its job keys.
-PART_PROGRAM_CHECKS = (
-    is_named,
-    options_are_described,
-    leads_to_every_reading_from_its_side,
-    moves_at_the_planned_feed,
-    is_plain_text,
-    names_the_job,
-    writes_the_same_again,
-    takes_no_name_for_a_command,
-    refuses_what_it_cannot_program,
-    writes_rotary_axes,
-)
+PART_PROGRAM_CHECKS = list_checks_of(__name__)
 
 
 def check_part_program(

@@ -28,7 +28,14 @@ from zlmreport.testing.certificates import (
     make_worded_certificate,
     sample_certificate,
 )
-from zlmreport.testing.expectations import check, expect, expect_members, expect_named, run_all
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_members,
+    expect_named,
+    list_checks_of,
+    run_all,
+)
 
 #: From the bytes of a file to its text, as somebody reads it who opens it.
 Reader: TypeAlias = Callable[[bytes], str]
@@ -280,16 +287,7 @@ _TABLES = frozenset({".csv"})
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 #: Every check of a renderer, each called with it and with how its author reads its files.
-RENDERER_CHECKS = (
-    is_named,
-    writes_every_block,
-    reads_no_clock,
-    names_the_certificate,
-    prints_what_the_document_says,
-    sets_markup_as_text,
-    keeps_letters_and_signs,
-    keeps_the_order,
-)
+RENDERER_CHECKS = list_checks_of(__name__)
 
 
 def check_renderer(renderer: Renderer, read: Reader | None = None) -> None:

@@ -26,6 +26,7 @@ from zlmreport.testing.expectations import (
     expect_options,
     expect_words,
     is_same_value,
+    list_checks_of,
     run_all,
 )
 
@@ -399,21 +400,7 @@ def _make_context(axis: OfAxis) -> SourceContext:
 
 
 #: Every check of a data source, each called with the source, its job keys, the axis, and what the file holds.
-SOURCE_CHECKS = (
-    is_named,
-    options_are_described,
-    reads_a_measurement_set,
-    reads_what_the_file_holds,
-    keeps_the_axis,
-    values_are_read_only,
-    reads_the_same_again,
-    names_its_files,
-    remarks_are_worded,
-    damaged_files_are_refused,
-    no_number_is_guessed,
-    no_short_line_is_dropped,
-    follows_the_kind_of_axis,
-)
+SOURCE_CHECKS = list_checks_of(__name__)
 
 
 def check_source(

@@ -36,6 +36,7 @@ from zlmreport.testing.expectations import (
     expect_options,
     expect_words,
     is_same_value,
+    list_checks_of,
     run_all,
 )
 from zlmreport.testing.measurements import good_tests, poor_tests
@@ -342,23 +343,7 @@ def _list_values_of(bracket: Bracket, evaluation: Evaluation, unit: Unit) -> Ite
 
 
 #: Every check of a standard, each called with it, its options, its author's examples and other keys.
-STANDARD_CHECKS = (
-    has_all_members,
-    is_named,
-    options_are_described,
-    symbols_are_unique,
-    quantities_are_worded,
-    requirements_never_refuse,
-    *ARITHMETIC_CHECKS,
-    figures_of_any_test,
-    figures_are_worded,
-    marks_stand_at_targets,
-    curves_have_a_value_at_each_position,
-    marks_have_finite_ends,
-    brackets_span_what_is_drawn,
-    brackets_are_as_long_as_their_parameter,
-    *EXAMPLE_CHECKS,
-)
+STANDARD_CHECKS = (*list_checks_of(__name__), *ARITHMETIC_CHECKS, *EXAMPLE_CHECKS)
 
 
 def check_standard(

@@ -71,7 +71,6 @@ def _list_kids(element: Any) -> list[Any]:
 
 
 def _list_numbers(node: Any) -> Iterator[tuple[int, Any]]:
-    """Yield the entries of a tree of numbers."""
     waiting, walked = [node], 0
     while waiting:
         found = _find_value(waiting.pop())

@@ -379,11 +379,7 @@ def _compare_printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) 
         )
     objects = table.check_table(carrier.content, is_signed=is_signed)
     printed = pages.compare(carrier, again, is_signed=is_signed)
-    document = (
-        objects,
-        guard(lambda: structure.compare(carrier.reader), carrier.place),
-        *printed.document,
-    )
+    document = (objects, guard(lambda: structure.compare(carrier.reader), carrier.place), *printed.document)
     if all(each.verdict is VerificationVerdict.HOLDS for each in (*printed.pages, *document)):
         seen = guard(
             lambda: readers.compare(carrier, expected.content, is_drawn_alike=printed.is_same), carrier.place
@@ -431,9 +427,7 @@ def _leave_open(found: CheckedCertificate) -> CheckedCertificate:
         )
 
     return replace(
-        found,
-        pages=tuple(map(left_open, found.pages)),
-        document=tuple(map(left_open, found.document)),
+        found, pages=tuple(map(left_open, found.pages)), document=tuple(map(left_open, found.document))
     )
 
 
@@ -451,10 +445,7 @@ def _find_on_signatures(state: SignatureState, *, is_required: bool) -> CheckedS
             VerificationVerdict.DIFFERS,
             Words("the file is signed, but {reason}").given(reason=state.reason),
         ),
-        Integrity.UNSIGNED: (
-            VerificationVerdict.OPEN,
-            Words("not signed: nothing tells who made the file"),
-        ),
+        Integrity.UNSIGNED: (VerificationVerdict.OPEN, Words("not signed: nothing tells who made the file")),
         Integrity.UNCHECKED: (
             VerificationVerdict.OPEN,
             Words("signed, but the signature is not checked: {reason}").given(reason=state.reason),
@@ -467,7 +458,6 @@ def _find_on_signatures(state: SignatureState, *, is_required: bool) -> CheckedS
 
 
 def _join_statements(parts: Sequence[Words]) -> Words:
-    """Return statements in a row."""
     return same(PartRow(tuple(parts)))
 
 

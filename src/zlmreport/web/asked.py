@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import Any, Literal
 
 from zlmreport import pipeline
@@ -17,7 +16,6 @@ from zlmreport.model.diagnosis.asking import name_length
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
-_FULL_RANGE = Words("{name}: full range")
 _INSTRUMENT_U = "instrument.expanded_uncertainty"
 
 
@@ -36,73 +34,50 @@ class Field:
 COMPENSATION_TABLE = Words("Compensation table")
 
 #: Of the items that clause 7.8 demands, by the keys that its check names.
-_FIELDS: Mapping[str, Field] = MappingProxyType(
-    {
-        each.key: each
-        for each in (
-            Field("laboratory.name", Words("Laboratory")),
-            Field("laboratory.address", Words("Its address")),
-            Field("location", Words("Place of the work"), "place"),
-            Field("customer.name", Words("Customer")),
-            Field("customer.address", Words("The customer's address")),
-            Field("machine.model", Words("Model of the machine")),
-            Field("machine.serial", Words("Its serial number")),
-            Field("measurement.date", Words("Date of the measurement"), "date"),
-            Field(
-                "as_found.measurement.date",
-                Words("Date of the measurement before the adjustment"),
-                "date",
-            ),
-            Field("certificate.issued", Words("Date of issue"), "date"),
-            Field("certificate.authorised_by.name", Words("Authorised by")),
-            Field("instrument.name", DEVICE),
-            Field(_INSTRUMENT_U, Words("Its U (k = 2)"), "number"),
-            Field(
-                "instrument.certificate",
-                Words("Its calibration certificate"),
-            ),
-            Field("as_found.adjustment", Words("What was adjusted")),
-            Field(
-                "environment.air_temperature",
-                Words("Air temperature"),
-                "number",
-                "°C",
-            ),
-            Field(
-                "environment.axis_temperature",
-                Words("Temperature of the machine's scale"),
-                "number",
-                "°C",
-            ),
-            Field(
-                "environment.expansion_coefficient",
-                Words("Expansion coefficient of the machine"),
-                "number",
-                "µm/(m·K)",
-            ),
-        )
-    }
-)
+_FIELDS: Mapping[str, Field] = {
+    each.key: each
+    for each in (
+        Field("laboratory.name", Words("Laboratory")),
+        Field("laboratory.address", Words("Its address")),
+        Field("location", Words("Place of the work"), "place"),
+        Field("customer.name", Words("Customer")),
+        Field("customer.address", Words("The customer's address")),
+        Field("machine.model", Words("Model of the machine")),
+        Field("machine.serial", Words("Its serial number")),
+        Field("measurement.date", Words("Date of the measurement"), "date"),
+        Field("as_found.measurement.date", Words("Date of the measurement before the adjustment"), "date"),
+        Field("certificate.issued", Words("Date of issue"), "date"),
+        Field("certificate.authorised_by.name", Words("Authorised by")),
+        Field("instrument.name", DEVICE),
+        Field(_INSTRUMENT_U, Words("Its U (k = 2)"), "number"),
+        Field("instrument.certificate", Words("Its calibration certificate")),
+        Field("as_found.adjustment", Words("What was adjusted")),
+        Field("environment.air_temperature", Words("Air temperature"), "number", "°C"),
+        Field("environment.axis_temperature", Words("Temperature of the machine's scale"), "number", "°C"),
+        Field(
+            "environment.expansion_coefficient",
+            Words("Expansion coefficient of the machine"),
+            "number",
+            "µm/(m·K)",
+        ),
+    )
+}
 #: Items that groups of keys state: the first of their keys.
-_FIRST_OF = MappingProxyType(
-    {
-        "certificate.authorised_by": "certificate.authorised_by.name",
-        "environment": "environment.air_temperature",
-    }
-)
+_FIRST_OF = {
+    "certificate.authorised_by": "certificate.authorised_by.name",
+    "environment": "environment.air_temperature",
+}
 _TEMPERATURES = ("environment.axis_temperature", "environment.expansion_coefficient")
-_UNITS = MappingProxyType(
-    {
-        "misalignment": "mm",
-        "machine_temperature": "K",
-        "device_temperature": "K",
-        "expansion_coefficient": "µm/(m·K)",
-        "device_expansion_coefficient": "µm/(m·K)",
-        "air_temperature": "K",
-        "air_pressure": "hPa",
-        "relative_humidity": "%",
-    }
-)
+_UNITS = {
+    "misalignment": "mm",
+    "machine_temperature": "K",
+    "device_temperature": "K",
+    "expansion_coefficient": "µm/(m·K)",
+    "device_expansion_coefficient": "µm/(m·K)",
+    "air_temperature": "K",
+    "air_pressure": "hPa",
+    "relative_humidity": "%",
+}
 
 
 def list_what_is_lacking(loaded: Loaded, registry: Registry) -> tuple[Field, ...]:
@@ -136,7 +111,7 @@ def _list_lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Fiel
                 f"uncertainty.{name}",
                 name_contributor(name)
                 if name == "resolution"
-                else _FULL_RANGE.given(name=name_contributor(name)),
+                else Words("{name}: full range").given(name=name_contributor(name)),
                 "number",
                 _UNITS.get(name, unit),
                 f"uncertainty.negligible.{name}",

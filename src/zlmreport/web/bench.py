@@ -190,5 +190,4 @@ def _write_basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bo
 
 
 def _list_files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
-    """Return the files from which readings came."""
     return tuple(file for each in measurements for file in each.provenance.files)

@@ -211,5 +211,4 @@ def _list_choices(question: Unclear, writer: AxisWriter) -> Iterator[dict[str, s
 
 
 def _write_sentence(text: str) -> str:
-    """Return what is said as a sentence of its own."""
     return f"{text[0].upper()}{text[1:]}."

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
@@ -260,16 +259,14 @@ def _write_rms(fitted: Fitted) -> float:
 
 
 #: What a page can ask for.
-ACTIONS: Mapping[str, Callable[[Bench, Loaded, Request], _Step]] = MappingProxyType(
-    {
-        "add": _add,
-        "remove": _remove,
-        "fix": _fix,
-        "free": _free,
-        "exclude": _exclude,
-        "include": _include,
-        "state": _state,
-        UNDO: _undo,
-        REDO: _redo,
-    }
-)
+ACTIONS: Mapping[str, Callable[[Bench, Loaded, Request], _Step]] = {
+    "add": _add,
+    "remove": _remove,
+    "fix": _fix,
+    "free": _free,
+    "exclude": _exclude,
+    "include": _include,
+    "state": _state,
+    UNDO: _undo,
+    REDO: _redo,
+}

@@ -19,11 +19,11 @@ from zlmreport.machines.diagnosis import (
 from zlmreport.machines.planning import NextRun, plan_next_run
 from zlmreport.machines.subjects.findings import (
     lay_out_absence,
+    lay_out_plan,
     lay_out_verdict,
     say_how_told,
     say_what_is_next,
 )
-from zlmreport.machines.subjects.plan import lay_out_plan
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.plugin.registry import find_plugins

@@ -156,6 +156,5 @@ def draw_page(path: Path, number: int) -> bytes | None:
 
 
 def _count_pages(path: Path) -> int:
-    """Return how many pages a PDF has."""
     with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
         return len(document)

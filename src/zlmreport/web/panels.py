@@ -38,9 +38,8 @@ from zlmreport.web.texts import TEXTS
 
 _RMS_IS = Words("Root mean square of the residuals: what the model does not explain.")
 _LEFT_OUT_IS = Words(
-    "Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
-    " of what is wrong with these predictions. If it is much larger than the error, the model "
-    "follows noise."
+    "Each run in turn is predicted by a model that was fitted to the other runs: root mean square of what is "
+    "wrong with these predictions. If it is much larger than the error, the model follows noise."
 )
 _CHI2_IS = Words(
     "Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "

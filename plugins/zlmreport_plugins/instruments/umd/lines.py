@@ -302,7 +302,6 @@ class UmdEmulator:
         return b""
 
     def _write_line(self, at: float) -> bytes:
-        """Return the line of the next sample."""
         manner = self._manner
         slot = self._sequence % self._model.slots
         if slot == 0:
@@ -331,7 +330,6 @@ class UmdEmulator:
         return b"%d %d %d %d %d %d %d %d\r\n" % fields
 
     def _say_low_speed(self, slot: int, at: float) -> tuple[int, int]:
-        """Return what the low-speed channel says."""
         if slot not in self._manner.sensors:
             return self._manner.says.get(slot, (0, 0))
         code, condition, unit, parts = self._manner.sensors[slot]

@@ -53,7 +53,6 @@ _PLACES = {
 }
 _AXIS = Words("Axis {axis}")
 _AXIS_OF = Words("Axis {axis} of {machine}")
-_AXIS_NAME = Words("Axis")
 _SERIAL = Words("Serial number")
 
 
@@ -198,7 +197,7 @@ def _make_item(job: Job, writer: AdministrativeWriter) -> ET.Element:
                 "identification",
                 dcc("issuer", "other"),
                 dcc("value", job.axis.name),
-                writer.make_named("name", _AXIS_NAME),
+                writer.make_named("name", Words("Axis")),
             ),
         ),
     )
@@ -237,17 +236,9 @@ _CONDITIONS = {
     "relative_humidity": (PERCENT, "basic_humidityRelative"),
     "expansion_coefficient": (MICROMETRE_PER_METRE_KELVIN, ""),
 }
-_NAMES = {
-    **CONDITION_NAMES,
-    "expansion_coefficient": Words("Expansion coefficient of the machine"),
-}
-_STATE = Words("State of the axis")
-_STATES = {
-    "before": Words("as found"),
-    "after": Words("as left"),
-}
+_NAMES = {**CONDITION_NAMES, "expansion_coefficient": Words("Expansion coefficient of the machine")}
+_STATES = {"before": Words("as found"), "after": Words("as left")}
 _BY_CUSTOMER = Words("Provided by the customer")
-_SENSORS = Words("Sensor locations")
 _REMARKS = Words("Remarks on the environment")
 _CALIBRATION = Words("Calibration certificate: {number}")
 
@@ -279,7 +270,7 @@ def make_state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.
         return None
     return dcc(
         "influenceCondition",
-        writer.make_named("name", _STATE),
+        writer.make_named("name", Words("State of the axis")),
         dcc("status", f"{when}{work.capitalize()}"),
         dcc("data", dcc("text", writer.make_content(_STATES[when]))),
     )
@@ -301,7 +292,7 @@ def make_influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Eleme
         )
         whose = {"environment", f"environment.{key}"} & set(job.keys.provided_by_customer)
         yield _make_condition(name, stated, writer, kind, _BY_CUSTOMER if whose else None)
-    for name, text in ((_SENSORS, environment.sensors), (_REMARKS, environment.remarks)):
+    for name, text in ((Words("Sensor locations"), environment.sensors), (_REMARKS, environment.remarks)):
         if text:
             yield _make_condition(name, dcc("text", writer.make_content(text)), writer)
 

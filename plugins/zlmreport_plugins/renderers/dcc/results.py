@@ -87,7 +87,6 @@ _INTERVAL = Words(
     "Interval that holds, with 95 %, what another test of this axis by the same plan would find with the "
     "same set-up left in place; errors of the set-up are not in it"
 )
-_LOWEST = Words("Lower end")
 _HIGHEST = Words("Upper end")
 _BUDGET = Words("Uncertainty budget: standard uncertainties at the end of the measured length")
 _BUDGET_OF_NO_LENGTH = Words("Uncertainty budget: standard uncertainties of a reading")
@@ -228,7 +227,6 @@ def _make_measurement_result(
 
 
 def _make_used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWriter) -> ET.Element:
-    """Return the standards and methods by which something was measured."""
     return dcc(
         "usedMethods",
         *(
@@ -314,7 +312,7 @@ def _make_interval(
                     writer.make_named("name", name),
                     make_real(axis_unit.from_si(end), write_unit_of(axis_unit)),
                 )
-                for name, end in zip((_LOWEST, _HIGHEST), parameter.axis_interval, strict=True)
+                for name, end in zip((Words("Lower end"), _HIGHEST), parameter.axis_interval, strict=True)
             ),
         ),
     )

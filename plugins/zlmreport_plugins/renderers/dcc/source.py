@@ -112,7 +112,6 @@ def _read_root(text: TextFile) -> ET.Element:
 
 
 def _find_readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.Element:
-    """Return the readings of the measurement that is meant."""
     found = root.findall(f".//{{{DCC}}}result[@refType='{READINGS}']")
     if not found:
         message = (

@@ -128,7 +128,6 @@ def _collect_certificate(certificate: Certificate) -> Json:
 
 
 def _collect_as_found(certificate: Certificate) -> Json:
-    """Return the results of the axis before it was adjusted."""
     found = certificate.evaluations_as_found
     measurements = found[0].measurements
     job = certificate.job.as_found if certificate.job else None

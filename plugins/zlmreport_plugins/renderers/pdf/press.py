@@ -22,9 +22,10 @@ from cssselect2 import ElementWrapper
 from weasyprint import CSS, HTML, Attachment
 from weasyprint.css.properties import INITIAL_VALUES
 from weasyprint.draw.text import draw_first_line
+from weasyprint.layout import inline
 from weasyprint.matrix import Matrix
 from weasyprint.text.fonts import FontConfiguration
-from weasyprint.text.line_break import create_layout
+from weasyprint.text.line_break import create_layout, split_first_line
 from weasyprint.urls import URLFetcher, URLFetcherResponse
 
 from zlmreport.plugin import Figure, Language
@@ -46,7 +47,7 @@ from zlmreport.plugin.page import (
 )
 from zlmreport.plugin.renderer import Certificate, Look
 from zlmreport_plugins.letters import refuse_letters
-from zlmreport_plugins.renderers.pdf import blanks, structure, subset
+from zlmreport_plugins.renderers.pdf import structure, subset
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -73,7 +74,7 @@ class Press:
 
     def __init__(self) -> None:
         subset.settle()
-        blanks.settle()
+        _settle_blanks()
         self._fonts = FontConfiguration()
         # It takes the fonts that it unpacked with it when it is collected; where a process ends, none is.
         atexit.register(self._fonts.__del__)
@@ -347,3 +348,36 @@ class _TextBox:
         self.pango_layout = layout
         self.style = style
         self.text = layout.text
+
+
+#: Em that a letter of a text has at least, in the mean: a text of more letters fits into no such line.
+_NARROWEST = 0.25
+
+
+def _settle_blanks() -> None:
+    """Make WeasyPrint leave a blank at the end of a line out of its width in this process.
+
+    WeasyPrint 70 takes a text that fits into its line but for the blank at its end to be too long for it, and
+    puts its first word alone on the line, however many more would fit.
+    """
+    inline.split_first_line = _split_first_line
+
+
+def _split_first_line(
+    text: str, style: Any, context: Any, max_width: float | None, *others: Any, **named: Any
+) -> Any:
+    """Return the first line of a text as WeasyPrint does: all of it if only its last blank is too much."""
+    found = split_first_line(text, style, context, max_width, *others, **named)
+    _, _, resume_index, *_ = found
+    words = text.rstrip(" ")
+    if (
+        resume_index is None
+        or words == text
+        or max_width is None
+        or len(words) * style["font_size"] * _NARROWEST > max_width
+    ):
+        return found
+    _, _, rest, width, *_ = split_first_line(words, style, context, max_width, *others, **named)
+    if rest is None and width <= max_width:
+        return split_first_line(text, style, context, None, *others, **named)
+    return found

@@ -238,7 +238,6 @@ _LONG_CELL = 400
 
 
 def _collect_table(table: Table, *, is_compact: bool) -> dict[str, Any]:
-    """Return the columns and rows of a table."""
     rows = [row for group in table.groups for row in group.rows]
     columns, rooms = _share_columns(
         table, rows, [column.align for column in table.columns], is_compact=is_compact

@@ -42,7 +42,6 @@ from zlmreport.plugin.source import (
     collect_readings,
 )
 from zlmreport.plugin.table import folded, heading_of
-from zlmreport_plugins.sources.channels_csv.averaging import average_channel, choose_interval_for
 from zlmreport_plugins.sources.channels_csv.options import DATE, TIME, VALUE, ChannelsCsvOptions
 from zlmreport_plugins.sources.channels_csv.proposals import SENSOR, find_channels_called, find_columns_called
 from zlmreport_plugins.sources.channels_csv.tracks import (
@@ -50,6 +49,8 @@ from zlmreport_plugins.sources.channels_csv.tracks import (
     Channels,
     ChannelTrack,
     add_dates,
+    average_channel,
+    choose_interval_for,
     find_unit_of,
     read_channels_of,
 )
@@ -175,7 +176,6 @@ def _say_counted_from(options: ChannelsCsvOptions) -> Words:
 
 
 def _read_channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
-    """Return the channels of the table that the keys name."""
     table = add_dates(options.read_table(lambda name: _is_column_name(name, options)), options)
     # The decimal sign is that of all numbers: which columns have any is known only with it.
     numbers = [

@@ -65,14 +65,12 @@ _FEWEST = 8
 #: Readings of a turn that are kept as they are.
 _MOST_KEPT = 3600
 _FROM = Words("Angles from {angles}, {quantity} from the column “{column}” ({unit}).")
-_ANGLE_COLUMN = Words("the column “{column}” ({unit})")
 _RECKONED = Words("time and feed: each turn begins at {start}° and goes on with {feed} mm/min")
 _QUANTITIES = {
     "deviation": Words("radial deviations"),
     "radius": Words("radii, less the nominal one,"),
 }
 _ONE_SENSE = Words("The sense is not in the file; the job states it ({sense}).")
-_ONE_RUN = Words("The file names no runs: all readings of a sense were taken as one turn.")
 _ARCS = Words(
     "Evaluated of each turn: one round at most; {before}° before it and {behind}° behind it are set aside "
     "as feed-in and feed-out ({why})."
@@ -86,7 +84,6 @@ _AVERAGED = Words(
     "{readings} readings were averaged over arcs of {arc}°. What the averages leave out has a root mean "
     "square of {left} µm; {vibration}."
 )
-_NO_VIBRATION = Words("no vibration stands out of it")
 _VIBRATION = Words(
     "the strongest vibration in it has {frequency} Hz (by the stated feed) and an amplitude of {amplitude} µm"
 )
@@ -152,7 +149,6 @@ class CircleCsv:
 
 
 def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
-    """Return the cells of a table, and which columns it has."""
     table = options.read_table()
     layout = find_circle_columns(table, options, context)
     return options.cells_of(table, [column.index for column in layout.list_number_columns()]), layout
@@ -312,7 +308,7 @@ def _list_as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]
 
 
 def _say_averaging(averaging: Averaging, number: int) -> Words:
-    vibration = _NO_VIBRATION
+    vibration = Words("no vibration stands out of it")
     if averaging.amplitude:
         vibration = _VIBRATION.given(
             frequency=float(f"{averaging.frequency:.3g}"), amplitude=float(f"{averaging.amplitude * 1e6:.2g}")
@@ -328,7 +324,7 @@ def _say_averaging(averaging: Averaging, number: int) -> Words:
 def _list_remarks(layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions) -> Iterator[Words]:
     """Yield what a reader of the results must know of the table."""
     if layout.angle:
-        angles = _ANGLE_COLUMN.given(
+        angles = Words("the column “{column}” ({unit})").given(
             column=layout.angle.text, unit=layout.angle.unit.symbol if layout.angle.unit else ""
         )
     else:
@@ -342,7 +338,7 @@ def _list_remarks(layout: CircleColumns, circle: NominalCircle, options: CircleC
     if options.sense:
         yield _ONE_SENSE.given(sense=options.sense)
     if layout.run is None:
-        yield _ONE_RUN
+        yield Words("The file names no runs: all readings of a sense were taken as one turn.")
 
 
 @hookimpl

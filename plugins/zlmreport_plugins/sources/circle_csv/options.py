@@ -38,17 +38,15 @@ UNITS: Mapping[str, tuple[Mapping[str, Unit | ReadingScale], Unit | ReadingScale
         **{name: (kind.units, kind.unit) for name, kind in CONDITIONS.items()},
     }
 )
-_SENSES: Mapping[str, Approach] = MappingProxyType(
-    {
-        **dict.fromkeys(
-            ("ccw", "counter_clockwise", "counterclockwise", "anticlockwise", "anti_clockwise", "acw"),
-            Approach.POSITIVE,
-        ),
-        **dict.fromkeys(("gegenuhrzeigersinn", "guz", "guzs", "↺", "g3", "g03", "+"), Approach.POSITIVE),
-        **dict.fromkeys(("cw", "clockwise"), Approach.NEGATIVE),
-        **dict.fromkeys(("uhrzeigersinn", "uz", "uzs", "↻", "g2", "g02", "-"), Approach.NEGATIVE),
-    }
-)
+_SENSES: Mapping[str, Approach] = {
+    **dict.fromkeys(
+        ("ccw", "counter_clockwise", "counterclockwise", "anticlockwise", "anti_clockwise", "acw"),
+        Approach.POSITIVE,
+    ),
+    **dict.fromkeys(("gegenuhrzeigersinn", "guz", "guzs", "↺", "g3", "g03", "+"), Approach.POSITIVE),
+    **dict.fromkeys(("cw", "clockwise"), Approach.NEGATIVE),
+    **dict.fromkeys(("uhrzeigersinn", "uz", "uzs", "↻", "g2", "g02", "-"), Approach.NEGATIVE),
+}
 
 
 def read_sense(spelling: str) -> Approach:

@@ -8,13 +8,7 @@ from statistics import median
 from typing import Any
 
 from zlmreport.plugin import listed
-from zlmreport.plugin.table import (
-    DELIMITERS,
-    PARTED_BY_BLANKS,
-    THOUSANDS_SIGNS,
-    UNITS_IN_TABLES,
-    first_cell,
-)
+from zlmreport.plugin.table import DELIMITERS, PARTED_BY_BLANKS, THOUSANDS_SIGNS, UNITS_IN_TABLES, first_cell
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import READING, read_number
@@ -23,44 +17,18 @@ from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 #: What stands for a missing reading, in lower case.
 _MISSING = frozenset(
     (
-        *(
-            "-",
-            "--",
-            "---",
-            "–",
-            "—",
-            "?",
-            "*",
-            "x",
-            "n/a",
-            "na",
-            "n.a.",
-            "nan",
-            "null",
-            "none",
-            "missing",
-            "fehlt",
-        ),
-        *("#n/a", "#nv", "#wert!", "#value!", "#div/0!", "invalid", "ungültig", "error", "err"),
+        *("-", "--", "---", "–", "—", "?", "*", "x", "n/a", "na", "n.a.", "nan", "null", "none"),
+        *("missing", "fehlt", "invalid", "ungültig", "error", "err"),
+        *("#n/a", "#nv", "#wert!", "#value!", "#div/0!"),
     )
 )
 #: Spellings of units that mean another one elsewhere, or are none of the program's.
 _UNITS = {
     "grad": "deg",
-    "mikrometer": "um",
-    "micrometer": "um",
-    "micrometers": "um",
-    "my": "um",
-    "millimeter": "mm",
-    "millimetre": "mm",
+    **dict.fromkeys(("mikrometer", "micrometer", "micrometers", "my"), "um"),
+    **dict.fromkeys(("millimeter", "millimetre"), "mm"),
     "zoll": "inch",
-    "bogensekunde": "arcsec",
-    "bogensekunden": "arcsec",
-    "winkelsekunden": "arcsec",
-    "sek": "arcsec",
-    "arc": "arcsec",
-    '"': "arcsec",
-    "''": "arcsec",
+    **dict.fromkeys(("bogensekunde", "bogensekunden", "winkelsekunden", "sek", "arc", '"', "''"), "arcsec"),
 }
 _NAMED_UNIT = re.compile(
     r"(?:abweich|deviation|einheit|unit|error|fehler|werte|values|readings|messwert)[^;\t]*?"

@@ -62,8 +62,7 @@ _CALLED = MappingProxyType(
             "rep wiederholung lauf_nr lauf_nr. run_# reihe messreihe passe parcours passage série essai "
             "répétition passata ciclo prova serie ripetizione recorrido pasada ensayo repetición",
             NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
-            "point "
-            "n° nº numéro ligne numero riga número fila",
+            "point n° nº numéro ligne numero riga número fila",
         }.items()
         for name in list_spellings(names)
     }
@@ -71,36 +70,11 @@ _CALLED = MappingProxyType(
 #: Words that stand beside run and direction in the name of a column of readings.
 _BESIDE = frozenset(
     (
-        *(
-            "run",
-            "runs",
-            "cycle",
-            "pass",
-            "meas",
-            "measurement",
-            "test",
-            "series",
-            "no",
-            "number",
-            "position",
-            "pos",
-        ),
+        *("run", "runs", "cycle", "pass", "meas", "measurement", "test", "series", "no", "number"),
+        *("position", "pos"),
         *("lauf", "messlauf", "durchlauf", "durchgang", "zyklus", "messung", "messreihe", "reihe", "serie"),
-        *(
-            "versuch",
-            "nr",
-            "nummer",
-            "m",
-            "x",
-            "xi",
-            "dev",
-            "deviation",
-            "abw",
-            "abweichung",
-            "ist",
-            "actual",
-        ),
-        *("wert", "value", "richtung", "direction", "fahrt"),
+        *("versuch", "nr", "nummer", "m", "x", "xi", "dev", "deviation", "abw", "abweichung", "ist"),
+        *("actual", "wert", "value", "richtung", "direction", "fahrt"),
         *list_spellings("passe parcours passage essai mesure série numéro écart valeur sens lecture"),
         *list_spellings("passata ciclo prova misura serie numero scostamento valore senso direzione lettura"),
         *list_spellings("recorrido pasada ensayo medida medición número desviación valor sentido lectura"),

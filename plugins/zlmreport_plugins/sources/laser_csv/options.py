@@ -26,26 +26,13 @@ from zlmreport_plugins.logged_columns import list_spellings
 COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
 
 _SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS_SIGN: Approach.NEGATIVE}
-_ARROWS = {
-    **dict.fromkeys("↑→", Approach.POSITIVE),
-    **dict.fromkeys("↓←", Approach.NEGATIVE),
-}
+_ARROWS = {**dict.fromkeys("↑→", Approach.POSITIVE), **dict.fromkeys("↓←", Approach.NEGATIVE)}
 _WORDS = {
     **dict.fromkeys(
         (
             *("up", "forward", "forwards", "fwd", "positive", "pos", "plus", "increasing"),
-            *(
-                "auf",
-                "aufwärts",
-                "hin",
-                "hinweg",
-                "hinfahrt",
-                "vor",
-                "vorwärts",
-                "vorlauf",
-                "positiv",
-                "steigend",
-            ),
+            *("auf", "aufwärts", "hin", "hinweg", "hinfahrt"),
+            *("vor", "vorwärts", "vorlauf", "positiv", "steigend"),
             *list_spellings("aller montant montée positif croissant"),
             *list_spellings("andata salita avanti positivo positiva crescente"),
             *list_spellings("ida subida adelante ascendente creciente"),
@@ -54,18 +41,8 @@ _WORDS = {
     ),
     **dict.fromkeys(
         (
-            *(
-                "down",
-                "reverse",
-                "rev",
-                "backward",
-                "backwards",
-                "bwd",
-                "negative",
-                "neg",
-                "minus",
-                "decreasing",
-            ),
+            *("down", "reverse", "rev", "backward", "backwards", "bwd"),
+            *("negative", "neg", "minus", "decreasing"),
             *("ab", "abwärts", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
             *("negativ", "fallend"),
             *list_spellings("retour descendant descente négatif décroissant"),
@@ -76,10 +53,7 @@ _WORDS = {
     ),
 }
 #: In cells only: in a header they may be the initial of anything.
-_LETTERS = {
-    **dict.fromkeys("fvuph", Approach.POSITIVE),
-    **dict.fromkeys("brdn", Approach.NEGATIVE),
-}
+_LETTERS = {**dict.fromkeys("fvuph", Approach.POSITIVE), **dict.fromkeys("brdn", Approach.NEGATIVE)}
 _NUMBERS = {
     "1": Approach.POSITIVE,
     "+1": Approach.POSITIVE,

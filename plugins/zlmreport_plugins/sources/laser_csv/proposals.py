@@ -72,7 +72,6 @@ def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
 
 
 def _list_drafts(table: FoundTable) -> Iterator[Draft]:
-    """Yield the ways in which a table may be read."""
     draft = Draft(table)
     _ask_for_averages(draft)
     place_table(draft)

@@ -44,19 +44,8 @@ _TARGET = ("target", PLACE)
 #: How the rows of means, scatters and spans below a table begin.
 _SUMMARIES = (
     *("mean", "average", "avg", "std", "stdev", "standard", "sigma", "range", "span", "max", "min", "median"),
-    *(
-        "sum",
-        "count",
-        "mittel",
-        "durchschnitt",
-        "spannweite",
-        "streu",
-        "summe",
-        "anzahl",
-        "umkehr",
-        "reversal",
-    ),
-    *("repeat", "wiederhol"),
+    *("sum", "count", "mittel", "durchschnitt", "spannweite", "streu", "summe", "anzahl"),
+    *("umkehr", "reversal", "repeat", "wiederhol"),
 )
 _VALUES = frozenset({"deviation", "position", VALUE, READING, PLACE})
 

@@ -184,7 +184,6 @@ _ANGLES = Words(
     "Angular errors are spans: no line is taken off, and where the instrument was set to zero has no "
     "influence."
 )
-_ONE_ARC_SECOND = Words("1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm.")
 
 
 def _list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
@@ -192,7 +191,7 @@ def _list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
     if measurand.joins_tests:
         yield from between.list_notes(what)
     elif measurand.identifier == ANGLE.identifier:
-        yield from (_ANGLES, _ONE_ARC_SECOND)
+        yield from (_ANGLES, Words("1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm."))
     else:
         yield from (_SPAN, _DIRECTIONS)
 

@@ -140,7 +140,7 @@ def check_requirements(
     else:
         found = ", ".join(filter(None, errors)) or ", ".join(measurements.tests)
         yield Finding(
-            _PAIR_OF.given(pair=" + ".join(what.lines)),
+            Words("Straightness of both axes, {pair}").given(pair=" + ".join(what.lines)),
             same_in_all_languages(found),
             sorted(errors) == sorted(what.lines),
         )
@@ -159,7 +159,7 @@ def _check_square(square: SquareKeys | None) -> Finding:
     if abs(square.error) > _NO_SQUARE:
         turned = _NO_SUCH_SQUARE.given(error=square.error, angle=float(f"{90 + square.error / 3600:.6g}"))
         return Finding(_SQUARE_IS_STATED, turned, met=False)
-    return Finding(_SQUARE_IS_STATED, _SQUARE_STATED, met=True)
+    return Finding(_SQUARE_IS_STATED, Words("stated"), met=True)
 
 
 def _check_meeting(lines: Sequence[MeasurementSet]) -> Finding:
@@ -175,7 +175,7 @@ def _check_meeting(lines: Sequence[MeasurementSet]) -> Finding:
         if (distance := max(each[name] for each in places) - min(each[name] for each in places)) > _ALIKE
     ]
     if not apart:
-        return Finding(_MEET, _IN_ONE_PLANE, met=True)
+        return Finding(_MEET, Words("they are", context="all are"), met=True)
     name, distance = apart[0]
     words = _APART.given(axis=name, distance=position_in_words(lines[0].axis, distance))
     return Finding(_MEET, words, met=False)
@@ -187,7 +187,7 @@ def list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
         yield _OF_PARALLELISM
     else:
         yield _LEANS[what.symbol]
-        yield _OWN_READING
+        yield Words("The sign of squareness errors is this program's reading of ISO 230-1.")
     yield _OF_THE_LINES
 
 
@@ -257,7 +257,7 @@ def _draw_sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
     return Figure(
         key="sketch",
         title=_SKETCH.given(symbol=what.symbol, axis=what.axis, way=way, reference=what.reference),
-        alternative=_LEANS_IN_WORDS.given(
+        alternative=Words("Sketch: {symbol} = {value}; +{axis} leans {way} +{reference}.").given(
             symbol=what.symbol, value=written, axis=what.axis, way=way, reference=what.reference
         ),
         x_title=same_in_all_languages(what.reference),
@@ -283,17 +283,14 @@ def _write_slope(value: float | None) -> Words:
 
 _PAIR = ("slope_1", "slope_2")
 _TWO = Words("Two lines")
-_PAIR_OF = Words("Straightness of both axes, {pair}")
 _POSITIONS = Words("At least {number} positions on each line")
 _MEET = Words("Both lines in one plane (measurement.at)")
-_IN_ONE_PLANE = Words("they are", context="all are")
 _APART = Words("{distance} apart in {axis}")
 _NOT_STATED = Words("not stated")
 _SQUARE_IS_STATED = Words("The angle of the square with its uncertainty (square)")
 _NO_SUCH_SQUARE = Words(
     "90° + {error}″ = {angle}° is the angle of no square; square.error is its angle minus 90°"
 )
-_SQUARE_STATED = Words("stated")
 _LEANS = {
     "C0Y": Words(
         "C0Y is the turn of +Y against +X, right-handed about +Z: above zero the angle between +X and +Y is "
@@ -308,7 +305,6 @@ _LEANS = {
         "larger than 90°."
     ),
 }
-_OWN_READING = Words("The sign of squareness errors is this program's reading of ISO 230-1.")
 _OF_PARALLELISM = Words(
     "The value is the slope of the first line minus that of the second: readings of both must be positive in "
     "the same direction."
@@ -324,5 +320,4 @@ _SEEN = Words(
     "Two graphs of deviation over position: {lines}. Slopes of the reference lines: {first} and {second}."
 )
 _SKETCH = Words("What the sign of {symbol} says: +{axis} leans {way} +{reference}, drawn far too large")
-_LEANS_IN_WORDS = Words("Sketch: {symbol} = {value}; +{axis} leans {way} +{reference}.")
 _AWAY, _TOWARDS = Words("away from"), Words("towards")

@@ -2,15 +2,7 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import (
-    ANGLE,
-    ARCSECOND,
-    MICROMETRE_PER_METRE,
-    SQUARENESS,
-    ErrorSymbol,
-    Measurand,
-    Words,
-)
+from zlmreport.plugin import ANGLE, ARCSECOND, MICROMETRE_PER_METRE, SQUARENESS, ErrorSymbol, Measurand, Words
 from zlmreport.plugin.standard import PositionQuantity, Quantity, QuantityGroup
 
 #: Two axes, or an axis and a spindle, whose reference lines should have one direction.
@@ -39,8 +31,6 @@ _SPAN_OF_ANGLE = Words(
     "The largest turn of the moving component between two positions on average over all runs: a full width, "
     "not ±."
 )
-_OF_ONE_DIRECTION = Words("The same of runs in one direction only, each about its own line.")
-_TURN_IN_ONE_DIRECTION = Words("The same of runs in one direction only.")
 
 
 def find_measurand(what: ErrorSymbol | Measurand) -> Measurand:
@@ -85,7 +75,7 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
                 name.given(name=_STRAIGHT),
                 systematic,
                 f"max(d̄_{{i}}{arrow}) − min(d̄_{{i}}{arrow})",
-                _OF_ONE_DIRECTION,
+                Words("The same of runs in one direction only, each about its own line."),
             )
             for way, (arrow, name) in _DIRECTIONS.items()
         ),
@@ -138,7 +128,7 @@ def _define_angles(symbol: str, notation: str) -> list[Quantity]:
                 name.given(name=_TURNED),
                 systematic,
                 f"max(x̄_{{i}}{arrow}) − min(x̄_{{i}}{arrow})",
-                _TURN_IN_ONE_DIRECTION,
+                Words("The same of runs in one direction only."),
             )
             for way, (arrow, name) in _DIRECTIONS.items()
         ),
@@ -178,25 +168,9 @@ def _define_between(measurand: Measurand, symbol: str, notation: str) -> tuple[Q
 
 
 #: Of each squareness error, by the slopes of its two lines and the error ε of the square.
-FORMULAS = {
-    "C0Y": "−(m_{1} + m_{2}) + ε",
-    "B0Z": "(m_{1} + m_{2}) − ε",
-    "A0Z": "−(m_{1} + m_{2}) + ε",
-}
+FORMULAS = {"C0Y": "−(m_{1} + m_{2}) + ε", "B0Z": "(m_{1} + m_{2}) − ε", "A0Z": "−(m_{1} + m_{2}) + ε"}
 _COLUMNS = (
-    PositionQuantity(
-        "d_fwd",
-        "d̄_{i}↑",
-        Words("Deviation from the reference line, positive direction"),
-    ),
-    PositionQuantity(
-        "d_bwd",
-        "d̄_{i}↓",
-        Words("Deviation from the reference line, negative direction"),
-    ),
-    PositionQuantity(
-        "d",
-        "d̄_{i}",
-        Words("Deviation from the reference line, mean of all runs"),
-    ),
+    PositionQuantity("d_fwd", "d̄_{i}↑", Words("Deviation from the reference line, positive direction")),
+    PositionQuantity("d_bwd", "d̄_{i}↓", Words("Deviation from the reference line, negative direction")),
+    PositionQuantity("d", "d̄_{i}", Words("Deviation from the reference line, mean of all runs")),
 )

@@ -9,7 +9,6 @@ stands for a position without a value.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -174,10 +173,14 @@ def _level_by_middle(tilted: FloatArray) -> FloatArray:
     return np.asarray((highest + lowest) / 2)
 
 
-_SLOPES: Mapping[LineName, Callable[[FloatArray, FloatArray], FloatArray]] = MappingProxyType(
-    {"least-squares": _fit_least_squares, "end-points": _end_points, "minimum-zone": _fit_minimum_zone}
-)
+_SLOPES: Mapping[LineName, Callable[[FloatArray, FloatArray], FloatArray]] = {
+    "least-squares": _fit_least_squares,
+    "end-points": _end_points,
+    "minimum-zone": _fit_minimum_zone,
+}
 #: Where a line of known slope lies.
-_LEVELS: Mapping[LineName, Callable[[FloatArray], FloatArray]] = MappingProxyType(
-    {"least-squares": _level_by_mean, "end-points": _level_by_first, "minimum-zone": _level_by_middle}
-)
+_LEVELS: Mapping[LineName, Callable[[FloatArray], FloatArray]] = {
+    "least-squares": _level_by_mean,
+    "end-points": _level_by_first,
+    "minimum-zone": _level_by_middle,
+}

@@ -22,10 +22,7 @@ _SINCE_1988 = {
     "B_mean": Words("Mean reversal value"),
 }
 
-_SINCE_2006 = _SINCE_1988 | {
-    "B": Words("Reversal error"),
-    "B_mean": Words("Mean reversal error"),
-}
+_SINCE_2006 = _SINCE_1988 | {"B": Words("Reversal error"), "B_mean": Words("Mean reversal error")}
 
 _SINCE_2014 = _SINCE_2006 | {
     "A": Words("Bidirectional positioning error (accuracy)"),
@@ -213,20 +210,12 @@ def list_by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
     i = f"_{{{edition.position_index}}}"
     return (
         PositionQuantity(
-            "R_fwd",
-            f"R{i}↑",
-            Words("Unidirectional repeatability at a position, positive direction"),
+            "R_fwd", f"R{i}↑", Words("Unidirectional repeatability at a position, positive direction")
         ),
         PositionQuantity(
-            "R_bwd",
-            f"R{i}↓",
-            Words("Unidirectional repeatability at a position, negative direction"),
+            "R_bwd", f"R{i}↓", Words("Unidirectional repeatability at a position, negative direction")
         ),
-        PositionQuantity(
-            "R",
-            f"R{i}",
-            Words("Bidirectional repeatability at a position"),
-        ),
+        PositionQuantity("R", f"R{i}", Words("Bidirectional repeatability at a position")),
     )
 
 

@@ -23,14 +23,7 @@ from zlmreport_plugins.standards.iso230_3.hours import Hours, compute_tilt_over_
 from zlmreport_plugins.standards.iso230_3.quantities import PAIRS, write_shown
 from zlmreport_plugins.standards.iso230_3.requirements import list_temperatures
 
-_ROLES = (
-    Role.CHANNEL_1,
-    Role.CHANNEL_2,
-    Role.CHANNEL_3,
-    Role.CHANNEL_4,
-    Role.CHANNEL_5,
-    Role.CHANNEL_6,
-)
+_ROLES = (Role.CHANNEL_1, Role.CHANNEL_2, Role.CHANNEL_3, Role.CHANNEL_4, Role.CHANNEL_5, Role.CHANNEL_6)
 #: Brackets beside a graph; more would leave it no room.
 _MOST_BRACKETS = 5
 _ENDING = "_temperature"
@@ -55,7 +48,7 @@ def draw_figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, f
             sensors=same_in_all_languages(", ".join(tests)), largest=_say_largest(evaluation)
         ),
         x_title=_TIME,
-        y_title=_DISPLACEMENT,
+        y_title=Words("Displacement"),
         x_unit=HOUR.symbol,
         y_unit=unit.symbol,
         panels=tuple(panels),
@@ -79,7 +72,7 @@ def _draw_displacements(
         if evaluation.value(f"E_{name}") is not None:
             brackets.append(_make_bracket(f"E_{{{name}}}", line.positions, values, hours))
     return Panel(
-        heading=_DISPLACEMENTS,
+        heading=Words("Displacements"),
         curves=tuple(curves),
         brackets=tuple(brackets) if len(brackets) <= _MOST_BRACKETS else (),
     )
@@ -106,7 +99,7 @@ def _draw_tilts(
             brackets.append(_make_bracket(f"φ_{{{letter}}}", one.positions, values, hours))
     if curves:
         yield Panel(
-            heading=_TILTS,
+            heading=Words("Tilts"),
             curves=tuple(curves),
             brackets=tuple(brackets),
             y_title=_TILT,
@@ -124,7 +117,7 @@ def _draw_temperatures(tests: Mapping[str, MeasurementSet]) -> Iterator[Panel]:
                 found.setdefault(name, (at, values))
     if found:
         yield Panel(
-            heading=_OF_WHAT,
+            heading=Words("Temperatures"),
             curves=tuple(
                 Curve(_write_theta(name), _choose_role(number), at, values)
                 for number, (name, (at, values)) in enumerate(found.items())
@@ -153,7 +146,6 @@ def _make_bracket(notation: str, times: FloatArray, values: FloatArray, hours: H
 
 
 def _say_largest(evaluation: Evaluation) -> Words:
-    """Return the largest drift in words."""
     found = [each for each in evaluation.parameters if each.quantity.unit is None]
     if not found:
         return _NOT_DEFINED
@@ -171,9 +163,5 @@ _SEEN = Words(
 )
 _NOT_DEFINED = Words("not defined")
 _TIME = Words("Time")
-_DISPLACEMENT = Words("Displacement")
-_DISPLACEMENTS = Words("Displacements")
 _TILT = Words("Tilt")
-_TILTS = Words("Tilts")
 _TEMPERATURE = Words("Temperature")
-_OF_WHAT = Words("Temperatures")

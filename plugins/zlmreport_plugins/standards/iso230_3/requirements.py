@@ -89,7 +89,7 @@ def _check_covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding
         if not hours.are_covered(each.target_positions)
     }
     if not short:
-        return Finding(_OVER_ALL, _THEY_DO, met=True)
+        return Finding(_OVER_ALL, Words("they go over all of them"), met=True)
     name = min(short, key=lambda each: short[each])
     found = _TOO_SHORT.given(
         names=", ".join(short),
@@ -103,7 +103,7 @@ def _check_covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding
 def _check_long_enough(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     duration = _find_duration(tests, hours)
     is_enough = duration >= HOUR.to_si(_AT_LEAST) * (1 - 1e-9)
-    found = _LASTED.given(hours=_convert_to_hours(duration))
+    found = Words("{hours} h").given(hours=_convert_to_hours(duration))
     return Finding(_LONG.given(least=_AT_LEAST, day=_A_DAY), found, is_enough)
 
 
@@ -116,7 +116,7 @@ def _check_without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Fi
     }
     name = max(gaps, key=lambda each: gaps[each], default="")
     if not gaps or not gaps[name]:
-        return Finding(_NO_GAP, _TOO_FEW, met=False)
+        return Finding(_NO_GAP, Words("a sensor has fewer than two readings"), met=False)
     most = _PART * (hours.length if hours.are_stated else _find_duration(tests, hours))
     usual = find_usual_interval(tests[name].target_positions)
     found = _LONGEST.given(name=name, gap=float(f"{gaps[name] / 60:.3g}"), usual=float(f"{usual / 60:.3g}"))
@@ -172,7 +172,7 @@ def _check_completeness(tests: Mapping[str, MeasurementSet]) -> Finding:
     total = sum(len(each.deviation) for each in tests.values())
     lacking = {name: count for name, count in missing.items() if count}
     if not lacking:
-        return Finding(_NO_MISSING, _ALL_THERE.given(total=total), met=True)
+        return Finding(_NO_MISSING, Words("all {total} readings").given(total=total), met=True)
     found = _SOME.given(missing=sum(lacking.values()), total=total, names=", ".join(lacking))
     return Finding(_NO_MISSING, found, met=False)
 
@@ -204,15 +204,12 @@ _HOURS = Words("Hours over which the drift is taken")
 _WHOLE = Words("not stated (hours); the whole record is taken: {hours} h from {start} h on")
 _THESE = Words("{hours} h from {start} h on")
 _OVER_ALL = Words("Readings over all these hours, but for one interval of readings and a fiftieth at most")
-_THEY_DO = Words("they go over all of them")
 _TOO_SHORT = Words(
     "{name}: {hours} h of {of} h; what follows from {names} is not reported, for a range in a shorter time "
     "is another quantity"
 )
 _LONG = Words("A test of at least {least} h; {day} h show a whole day")
-_LASTED = Words("{hours} h")
 _NO_GAP = Words("No time without readings longer than a twentieth of the hours")
-_TOO_FEW = Words("a sensor has fewer than two readings")
 _LONGEST = Words("{gap} min at most ({name}), usually {usual} min")
 _ALL = Words("Sensors in X, Y and Z")
 _ONLY = Words("{measured}; none in {lacking}")
@@ -226,7 +223,6 @@ _SPAN = Words("{name} {span} K")
 _BESIDE = Words("Temperatures recorded beside the displacements, with their ranges")
 _NONE = Words("none")
 _NO_MISSING = Words("No reading missing")
-_ALL_THERE = Words("all {total} readings")
 _SOME = Words("{missing} of {total} missing ({names}); evaluated by what is there")
 _HIDDEN = Words("No extreme hidden by averages of readings")
 _LEFT = Words("left out of the averages: {left} µm at most ({name}, root mean square)")

@@ -144,7 +144,6 @@ def check_requirements(measurements: MeasurementSet, options: Iso230Part4Options
 
 
 def _check_both_senses(measurements: MeasurementSet) -> Finding:
-    """Ask for paths in both senses."""
     requirement = Words("Paths in both senses, counter-clockwise and clockwise")
     there = np.isfinite(measurements.deviation)
     senses = [

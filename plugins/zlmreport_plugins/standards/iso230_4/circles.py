@@ -90,8 +90,6 @@ def find_zone_about(centre: FloatArray, points: FloatArray, angles: FloatArray) 
 def find_minimum_zone(points: FloatArray, angles: FloatArray) -> Zone:
     """Return the two circles about one centre, as near to each other as can be, that hold all points.
 
-    Notes
-    -----
     min over e of max(r − e·u) − min(r − e·u), u = (cos θ, sin θ), is a linear programme. By its dual the
     width is the largest of those of four points that lie outside, inside, outside, inside by turns round the
     circle, or of one angle at which one point lies outside and another inside: so four points are exchanged

@@ -31,9 +31,7 @@ from zlmreport_plugins.standards.iso230_4.quantities import SENSES
 ZoneOf = Callable[[FloatArray, FloatArray, Any], Zone]
 
 _RADIAL = Words("Radial deviation")
-_FROM_MEAN = Words("{paths}, from the mean radius")
 _ANGLE = Words("Angle from +{first} towards +{second}")
-_BOTH_PATHS = Words("Plane {plane}: paths of both senses")
 _ONE_PATH = Words("Plane {plane}: path, {sense}")
 _ON_CIRCLE = Words(
     "{paths}, and the two circles of {symbol} about {centre}; radius {radius} mm, feed {feed} mm/min. Arrow: "
@@ -44,9 +42,7 @@ _CENTRES = {
     "least-squares": Words("the centre of the circle of least squares"),
 }
 _OVER_ANGLE = Words("{paths}, over the angle")
-_CENTRE = Words("The centre lies at {first} = {x} and {second} = {y} from that of the set-up.")
 _PATH = Words("Path, {sense}:")
-_CIRCLES = Words("{symbol} = {width}: its circles lie at {inner} and {outer}.")
 
 
 def draw_figures(evaluation: Evaluation, zone_of: ZoneOf, options: Any) -> Iterator[Figure]:
@@ -144,10 +140,10 @@ class _Graphs:
     def paths_in_words(self) -> Words:
         """What the graphs show, and from where deviations are reckoned."""
         if len(self.senses) > 1:
-            paths = _BOTH_PATHS.given(plane=self.axis.name)
+            paths = Words("Plane {plane}: paths of both senses").given(plane=self.axis.name)
         else:
             paths = _ONE_PATH.given(plane=self.axis.name, sense=list(SENSES.values())[self.senses[0].index])
-        return paths if self.is_about_nominal else _FROM_MEAN.given(paths=paths)
+        return paths if self.is_about_nominal else Words("{paths}, from the mean radius").given(paths=paths)
 
     def _draw_as_run(self, sense: Approach, path: FloatArray) -> Curve:
         """Return a path in the order in which it was run; a full turn ends where it began."""
@@ -173,13 +169,13 @@ class _Graphs:
             range_in_words(self.axis, _PATH.given(sense=list(SENSES.values())[sense.index]), path)
             for sense, path in zip(self.senses, self.paths, strict=True)
         )
-        circles = _CIRCLES.given(
+        circles = Words("{symbol} = {width}: its circles lie at {inner} and {outer}.").given(
             symbol=self.symbol,
             width=deviation_in_words(self.axis, float(zone.width)),
             inner=deviation_in_words(self.axis, self.inner),
             outer=deviation_in_words(self.axis, self.outer),
         )
-        centre = _CENTRE.given(
+        centre = Words("The centre lies at {first} = {x} and {second} = {y} from that of the set-up.").given(
             first=first,
             second=second,
             x=deviation_in_words(self.axis, float(zone.centre[0])),

@@ -10,7 +10,6 @@ SENSES = {
     "ccw": Words("counter-clockwise"),
     "cw": Words("clockwise"),
 }
-_CIRCULAR = Words("Circular deviation, {sense}")
 _RADIAL = Words("{which} radial deviation, {sense}")
 _LARGEST = Words("Largest")
 _SMALLEST = Words("Smallest")
@@ -20,7 +19,7 @@ def _define_circular(sense: str) -> Quantity:
     return Quantity(
         symbol=f"G_{sense}",
         notation=f"G({sense})",
-        name=_CIRCULAR.given(sense=SENSES[sense]),
+        name=Words("Circular deviation, {sense}").given(sense=SENSES[sense]),
         group=QuantityGroup.SYSTEMATIC,
         formula=f"max(r({sense})) − min(r({sense}))",
         meaning=Words(

@@ -63,7 +63,6 @@ _WHOLE = (
 
 
 def _define_of_one(name: str) -> Iterator[Quantity]:
-    """Yield the parameters of a diagonal."""
     for way, arrow, of in (
         ("", "", Words("both directions")),
         ("_fwd", "↑", Words("positive direction")),

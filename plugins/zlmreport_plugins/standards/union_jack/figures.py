@@ -19,13 +19,7 @@ from zlmreport.plugin import (
 )
 from zlmreport.plugin.standard import Curve, Note, Panel, Role, range_in_words
 from zlmreport_plugins.standards.union_jack.heights import Plate, find_plate_of
-from zlmreport_plugins.union_jack_lines import (
-    CENTRE_LINES,
-    DIAGONALS,
-    EDGES,
-    LINES,
-    PLACES,
-)
+from zlmreport_plugins.union_jack_lines import CENTRE_LINES, DIAGONALS, EDGES, LINES, PLACES
 
 _SLOPE = math.radians(30)
 #: Of the picture's height: that of the largest height of the plate.
@@ -63,7 +57,6 @@ def draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
 
 
 def _make_figure(key: str, title: Words, axis: Axis, plate: Plate, panel: Panel, below: Words) -> Figure:  # noqa: PLR0913, PLR0917 - the parts of a figure
-    """Return a figure of one picture."""
     heights, points = plate.heights - plate.heights.min(), plate.points
     low, high = int(heights.argmin()), int(heights.argmax())
     alternative = _SEEN.given(

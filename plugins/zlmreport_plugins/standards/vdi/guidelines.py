@@ -141,11 +141,7 @@ def list_quantities(guideline: Guideline) -> tuple[Quantity, ...]:
             f"max[P_{{sj}}], {spread}",
         ),
         quantity(
-            "Ps_mean",
-            "P_{s mit}",
-            Words("Mean position spread"),
-            QuantityGroup.RANDOM,
-            "(1/n) · ∑ P_{sj}",
+            "Ps_mean", "P_{s mit}", Words("Mean position spread"), QuantityGroup.RANDOM, "(1/n) · ∑ P_{sj}"
         ),
         quantity(
             "U_max",
@@ -155,11 +151,7 @@ def list_quantities(guideline: Guideline) -> tuple[Quantity, ...]:
             f"max[U_{{j}}], {reversal}",
         ),
         quantity(
-            "U_mean",
-            "U_{mit}",
-            Words("Mean reversal span"),
-            QuantityGroup.SYSTEMATIC,
-            "(1/n) · ∑ U_{j}",
+            "U_mean", "U_{mit}", Words("Mean reversal span"), QuantityGroup.SYSTEMATIC, "(1/n) · ∑ U_{j}"
         ),
     )
 

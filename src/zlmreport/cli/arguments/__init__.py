@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 
 from zlmreport.cli.arguments import documents, measuring
 from zlmreport.cli.arguments.documents import main_job
@@ -18,54 +17,34 @@ MAIN_JOB = "report"
 EXTENSION = "extension"
 
 #: Each command: what it does, in a line, and what makes its parser.
-COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProxyType(
-    {
-        "capture": ("take the readings live, from the instrument that a job names", measuring.capture),
-        "check": ("validate jobs, their data and the tests; write nothing", documents.check),
-        "compensate": (
-            "write a compensation table for a control, and say what it will leave",
-            measuring.compensate,
-        ),
-        "emulate": (
-            "put an instrument that is not there on a line, to try capture",
-            measuring.emulate,
-        ),
-        "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
-        "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
-        "fleet rebuild": ("make the ledger of a fleet again from its certificates", documents.fleet_rebuild),
-        "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
-        "init": ("write a commented job with sample data that runs as it is", documents.init),
-        "look": ("say what a file of measurements holds, and the keys that read it", documents.look),
-        "machine": (
-            "hold a machine against its tests: what its axes predict, what they lack",
-            documents.machine,
-        ),
-        "model": (
-            "fit a job's error model, find what it lacks, add it, watch the error fall",
-            documents.model,
-        ),
-        "new": ("write a plugin to begin with, and its conformance test", documents.new),
-        "plan": (
-            "choose targets and their sequence, and say what such a test will not see",
-            measuring.plan,
-        ),
-        "plugins": ("list the plugins found, and why one failed to load", documents.plugins),
-        "schema": ("print the JSON Schema of the job file, for editors", documents.schema),
-        "simulate": (
-            "write simulated readings of a described axis, and a job for them",
-            measuring.simulate,
-        ),
-        "surface": ("fit the deviation over a plane, from lines that were measured in it", documents.surface),
-        "verify": (
-            "evaluate a certificate again from what it carries, and say whether it holds",
-            documents.verify,
-        ),
-        "workbench": (
-            "work on a job's error model with a mouse, on a page in the browser",
-            documents.workbench,
-        ),
-    }
-)
+COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = {
+    "capture": ("take the readings live, from the instrument that a job names", measuring.capture),
+    "check": ("validate jobs, their data and the tests; write nothing", documents.check),
+    "compensate": (
+        "write a compensation table for a control, and say what it will leave",
+        measuring.compensate,
+    ),
+    "emulate": ("put an instrument that is not there on a line, to try capture", measuring.emulate),
+    "fleet": ("make the certificates of many machines that are due, every night", documents.fleet),
+    "fleet backup": ("copy the ledger of a fleet into one file", documents.fleet_backup),
+    "fleet rebuild": ("make the ledger of a fleet again from its certificates", documents.fleet_rebuild),
+    "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
+    "init": ("write a commented job with sample data that runs as it is", documents.init),
+    "look": ("say what a file of measurements holds, and the keys that read it", documents.look),
+    "machine": ("hold a machine against its tests: what its axes predict, what they lack", documents.machine),
+    "model": ("fit a job's error model, find what it lacks, add it, watch the error fall", documents.model),
+    "new": ("write a plugin to begin with, and its conformance test", documents.new),
+    "plan": ("choose targets and their sequence, and say what such a test will not see", measuring.plan),
+    "plugins": ("list the plugins found, and why one failed to load", documents.plugins),
+    "schema": ("print the JSON Schema of the job file, for editors", documents.schema),
+    "simulate": ("write simulated readings of a described axis, and a job for them", measuring.simulate),
+    "surface": ("fit the deviation over a plane, from lines that were measured in it", documents.surface),
+    "verify": (
+        "evaluate a certificate again from what it carries, and say whether it holds",
+        documents.verify,
+    ),
+    "workbench": ("work on a job's error model with a mouse, on a page in the browser", documents.workbench),
+}
 
 
 #: What somebody wants, and the command for it: for those who typed none.
@@ -114,10 +93,8 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     if command in COMMANDS:
         parser = make_parser_for(command)
         options = parser.parse_strictly(rest)
-        if command == "model":
-            documents.demand_model_action(options, parser)
-        if command == "machine":
-            documents.demand_machine_action(options, parser)
+        if command in {"model", "machine"}:
+            documents.demand_action(command, options, parser)
         return command, options
     options = make_parser_for("").parse_strictly(arguments)
     for job in options.jobs:
@@ -151,6 +128,5 @@ def _refuse_mistaken_command(job: Path) -> None:
     if word in COMMANDS:
         raise InputError.at(Place("zlmreport"), f"the command comes first: zlmreport {word} …")
     raise InputError.at(
-        Place("zlmreport"),
-        f"{word!r} is neither a file nor a command; {did_you_mean(word, list(COMMANDS))}",
+        Place("zlmreport"), f"{word!r} is neither a file nor a command; {did_you_mean(word, list(COMMANDS))}"
     )

@@ -53,24 +53,29 @@ MACHINE_ACTIONS = {
     "add": "write an effect into the machine file, and show the error before and after",
     "remove": "take an effect out of the machine file, and show the same",
 }
-#: To which actions an option belongs.
-_OPTIONS_OF_MACHINE = {
-    **dict.fromkeys(("controller", "moves", "confirm", "trial", "step"), ("compensate",)),
-    "output": ("certificate", "compensate"),
-    "format": ("certificate",),
-    "dry_run": ("build",),
+#: Of each command: its actions, an effect, and to which actions an option belongs.
+_ACTIONS: dict[str, tuple[dict[str, str], str, dict[str, tuple[str, ...]]]] = {
+    "model": (MODEL_ACTIONS, "backlash", {"at": ("fit",), "output": ("learn",), "dry_run": ("build",)}),
+    "machine": (
+        MACHINE_ACTIONS,
+        "servo-mismatch",
+        {
+            **dict.fromkeys(("controller", "moves", "confirm", "trial", "step"), ("compensate",)),
+            "output": ("certificate", "compensate"),
+            "format": ("certificate",),
+            "dry_run": ("build",),
+        },
+    ),
 }
 _MOST_WORKERS = 1024
 
 
 def main_job(commands: Mapping[str, str]) -> CommandParser:
     """Return the parser of the main job; its help lists the other commands, each with a line."""
-    parser = CommandParser("zlmreport", _describe(commands), _MAIN_EPILOG)
+    parser = CommandParser("", _describe(commands), _MAIN_EPILOG)
     parser.add_argument("--version", action="version", version=f"zlmreport {__version__}")
     add_jobs(parser)
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the job's"
-    )
+    parser.add_output("DIR", "folder of the files, instead of the job's")
     parser.add_argument(
         "--format", metavar="F,F", help="formats, parted by commas, instead of the job's: pdf,html,json"
     )
@@ -97,7 +102,7 @@ def _describe(commands: Mapping[str, str]) -> str:
 def check(command: str) -> CommandParser:
     """Return the parser of ``zlmreport check``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Validate jobs and their data, and hold each standard's requirements against the test.\n"
         "Nothing is written. A requirement that is not met is no mistake; the certificate says so.",
         "example:\n  zlmreport check x-axis.yaml",
@@ -111,7 +116,7 @@ def check(command: str) -> CommandParser:
 def init(command: str) -> CommandParser:
     """Return the parser of ``zlmreport init``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Write a commented job, a laboratory's shared data and sample readings, to begin with.\n"
         "With --machine: a machine file and a job for each file of readings; what nobody but you\n"
         "knows is marked in them. No file that is there already is touched.",
@@ -142,7 +147,7 @@ def init(command: str) -> CommandParser:
 def look(command: str) -> CommandParser:
     """Return the parser of ``zlmreport look``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Say what a file of measurements holds, what only its author can say of it, and the source:\n"
         "block of a job that reads it as it is: text in any usual encoding, or a workbook (.xlsx); with\n"
         "lines above and below the table, a row of units, on its side, long or wide.",
@@ -163,7 +168,7 @@ def _add_sheet(parser: CommandParser) -> None:
 def new(command: str) -> CommandParser:
     """Return the parser of ``zlmreport new``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Write the folder of a plugin that works as it is, with its conformance test: put your own in\n"
         "its place. No file that is there already is touched.",
         "examples:\n  zlmreport new standard shop-rule && python -m pytest shop-rule\n"
@@ -191,7 +196,7 @@ def new(command: str) -> CommandParser:
 def plugins(command: str) -> CommandParser:
     """Return the parser of ``zlmreport plugins``."""
     return CommandParser(
-        f"zlmreport {command}",
+        command,
         "List every plugin found, by kind, with its identifier, title and distribution,\n"
         "and why one failed to load. ZLMREPORT_DISABLE_PLUGINS=name,name switches plugins off.",
     )
@@ -200,7 +205,7 @@ def plugins(command: str) -> CommandParser:
 def schema(command: str) -> CommandParser:
     """Return the parser of ``zlmreport schema``."""
     return CommandParser(
-        f"zlmreport {command}",
+        command,
         "Print the JSON Schema of the job file, with the keys of all installed plugins.",
         "example, for editors that use the YAML language server: write the schema to a file,\n"
         "  zlmreport schema > job.schema.json\n"
@@ -212,7 +217,7 @@ def schema(command: str) -> CommandParser:
 def verify(command: str) -> CommandParser:
     """Return the parser of ``zlmreport verify``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Evaluate a certificate again from the job and the readings that it carries, print it again, and\n"
         "say for every number, page and attached file whether it holds. Nothing is written. A file that\n"
         "was made beside a PDF (json, xml, html, csv, xlsx) is held against the PDF of its name beside it.",
@@ -244,7 +249,7 @@ def verify(command: str) -> CommandParser:
 def model(command: str) -> CommandParser:
     """Return the parser of ``zlmreport model``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Work on the error model of a job (its key model.effects):\n\n"
         + "\n".join(f"  {action:9} {text}" for action, text in MODEL_ACTIONS.items())
         + "\n\nThe job is edited in place; comments and layout stay. It is left as it is if the effect\n"
@@ -265,45 +270,19 @@ def model(command: str) -> CommandParser:
         default="",
         help="of add and remove: an installed effect; add takes it with keys as in a job, too",
     )
-    parser.add_argument(
-        "--at",
-        metavar="P",
-        type=read_position,
-        action="append",
-        default=[],
-        help="of fit: a position, mm or degrees, at which to state the deviation; may be given several times",
+    parser.add_repeated(
+        "--at", "P", read_position, "of fit: a position, mm or degrees, at which to state the deviation"
     )
-    parser.add_argument(
-        "-o", "--output", metavar="FILE", type=Path, help="of learn: the file; without it, it is printed"
-    )
+    parser.add_output("FILE", "of learn: the file; without it, it is printed")
     parser.add_flag("--dry-run", "of build: show what would be added, and leave the job as it is")
     parser.add_flag("--json", "print the values in full precision as JSON")
     return parser
 
 
-def demand_model_action(options: argparse.Namespace, parser: CommandParser) -> None:
-    """Refuse an action that there is not, and an effect that is missing or too much."""
-    if options.action not in MODEL_ACTIONS:
-        parser.error(
-            f"unknown action {options.action!r}; {did_you_mean(options.action, list(MODEL_ACTIONS))}"
-        )
-    takes_effect = options.action in {"add", "remove"}
-    if takes_effect and not options.effect.strip():
-        parser.error(f"{options.action} needs the name of an effect, such as backlash")
-    if options.at and options.action != "fit":
-        parser.error(f"--at belongs to fit, not to {options.action}")
-    if options.output and options.action != "learn":
-        parser.error(f"--output belongs to learn, not to {options.action}")
-    if options.dry_run and options.action != "build":
-        parser.error(f"--dry-run belongs to build, not to {options.action}")
-    if not takes_effect and options.effect:
-        parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
-
-
 def machine(command: str) -> CommandParser:
     """Return the parser of ``zlmreport machine``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Hold a whole machine against its tests:\n\n"
         + "\n".join(f"  {action:12} {text}" for action, text in MACHINE_ACTIONS.items()),
         "examples:\n  zlmreport machine predict configs/machine/machine.yaml",
@@ -313,13 +292,7 @@ def machine(command: str) -> CommandParser:
     parser.add_argument(
         "effect", metavar="EFFECT", nargs="?", default="", help="of add and remove: an effect of circles"
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=Path,
-        help="folder, of certificate (out beside the file without it) and of compensate",
-    )
+    parser.add_output("DIR", "folder, of certificate (out beside the file without it) and of compensate")
     parser.add_argument(
         "--format", metavar="F,F", help="of certificate: formats, parted by commas; without it pdf,json"
     )
@@ -329,64 +302,56 @@ def machine(command: str) -> CommandParser:
         choices=("plus", "minus"),
         help="of compensate: which way a positive value moves an axis, where that is not known",
     )
-    parser.add_argument(
+    parser.add_repeated(
         "--confirm",
-        type=Path,
-        action="append",
-        metavar="CIRCLE.yaml",
-        help="of compensate: job of a circle that was run again with the tables in effect; may be given "
-        "several times",
+        "CIRCLE.yaml",
+        Path,
+        "of compensate: job of a circle that was run again with the tables in effect",
     )
     parser.add_flag("--trial", "of compensate: a file with one value, which shows that way")
     parser.add_argument(
-        "--step",
-        metavar="MM",
-        type=read_number,
-        help="of compensate: between rows; as measured without it",
+        "--step", metavar="MM", type=read_number, help="of compensate: between rows; as measured without it"
     )
     parser.add_flag("--dry-run", "of build: write nothing")
     parser.add_flag("--json", "print the values in full precision as JSON")
     return parser
 
 
-def demand_machine_action(options: argparse.Namespace, parser: CommandParser) -> None:
-    """Refuse an action that there is not, and what does not belong to it."""
-    if options.action not in MACHINE_ACTIONS:
-        parser.error(
-            f"unknown action {options.action!r}; {did_you_mean(options.action, list(MACHINE_ACTIONS))}"
-        )
-    takes_effect = options.action in {"add", "remove"}
+def demand_action(command: str, options: argparse.Namespace, parser: CommandParser) -> None:
+    """Refuse an action of ``model`` or ``machine`` that there is not, and what does not belong to it."""
+    actions, example, options_of = _ACTIONS[command]
+    action = options.action
+    if action not in actions:
+        parser.error(f"unknown action {action!r}; {did_you_mean(action, list(actions))}")
+    takes_effect = action in {"add", "remove"}
     if takes_effect and not options.effect.strip():
-        parser.error(f"{options.action} needs the name of an effect, such as servo-mismatch")
-    if not takes_effect and options.effect:
-        parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
-    for name, actions in _OPTIONS_OF_MACHINE.items():
+        parser.error(f"{action} needs the name of an effect, such as {example}")
+    for name, belonging in options_of.items():
         given = getattr(options, name)
-        if given is not None and given is not False and options.action not in actions:
-            belongs = " and ".join(actions)
-            parser.error(f"--{name.replace('_', '-')} belongs to {belongs}, not to {options.action}")
-    if options.trial and options.confirm:
+        if given is not None and given is not False and given != [] and action not in belonging:
+            parser.error(f"--{name.replace('_', '-')} belongs to {' and '.join(belonging)}, not to {action}")
+    if not takes_effect and options.effect:
+        parser.error(f"{action} takes no effect, but {options.effect!r} is given")
+    if command == "machine" and options.trial and options.confirm:
         parser.error("--trial writes one value, --confirm holds circles against tables: take one of them")
 
 
 def surface(command: str) -> CommandParser:
     """Return the parser of ``zlmreport surface``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Fit the deviation of an axis over a plane of two axes. Each job measures one line; its key\n"
         "measurement.plane says where: {axis: Y, at: 200}. Printed are the polynomial of each direction\n"
         "of approach, and the deviation at points of the plane with its expanded uncertainty.",
         "example:\n  zlmreport surface y-100.yaml y-200.yaml y-300.yaml y-400.yaml --at 250,130",
     )
     add_jobs(parser)
-    parser.add_argument(
+    parser.add_repeated(
         "--at",
-        metavar="P,R",
-        type=read_point,
-        action="append",
-        default=[],
-        help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
-        "is negative); may be given several times",
+        "P,R",
+        read_point,
+        "a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "
+        "is negative)",
     )
     parser.add_flag("--json", "print the values in full precision as JSON (zlmreport/surface/1)")
     return parser
@@ -395,7 +360,7 @@ def surface(command: str) -> CommandParser:
 def fleet(command: str) -> CommandParser:
     """Return the parser of ``zlmreport fleet``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Make the certificates of a fleet that are due: new ones, and those whose job, readings, shared\n"
         "files, plugins or program changed. What was issued under a number is never replaced: another\n"
         "content becomes a draft. A job that fails does so alone, and is tried again the next night; one\n"
@@ -426,21 +391,21 @@ def fleet(command: str) -> CommandParser:
 def fleet_report(command: str) -> CommandParser:
     """Return the parser of ``zlmreport fleet report``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Write the overview of a fleet from its ledger: the state of every axis, failures, limits that are\n"
         "not met, who drifts, with small graphs; the same numbers as a text file for Prometheus; and a\n"
         "calendar of the tests that are due.",
         "example:\n  zlmreport fleet report fleet.yaml --output overview",
     )
     _add_fleet(parser)
-    parser.add_argument("-o", "--output", metavar="DIR", type=Path, help="folder of the overview")
+    parser.add_output("DIR", "folder of the overview")
     return parser
 
 
 def fleet_backup(command: str) -> CommandParser:
     """Return the parser of ``zlmreport fleet backup``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Copy the ledger of a fleet into one file, whatever database it is in, even while a night works.\n"
         "The file is a ledger itself: name it in the fleet file to work with it.",
         "example:\n  zlmreport fleet backup fleet.yaml -o backup/fleet.ledger.db",
@@ -453,7 +418,7 @@ def fleet_backup(command: str) -> CommandParser:
 def fleet_rebuild(command: str) -> CommandParser:
     """Return the parser of ``zlmreport fleet rebuild``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Make the ledger of a fleet again, where it is lost, from the certificates in its folder: their\n"
         "results files, or those that their PDFs carry. The next night makes each anew, and compares.",
         "example:\n  zlmreport fleet rebuild fleet.yaml\n\n"
@@ -464,7 +429,6 @@ def fleet_rebuild(command: str) -> CommandParser:
 
 
 def _read_minutes(text: str) -> float:
-    """Read a duration."""
     with contextlib.suppress(ValueError):
         minutes = float(text)
         if 0 < minutes < math.inf:
@@ -473,7 +437,6 @@ def _read_minutes(text: str) -> float:
 
 
 def _read_workers(text: str) -> int:
-    """Read a number of processes."""
     if WHOLE_NUMBER.fullmatch(text) and 0 < int(text) <= _MOST_WORKERS:
         return int(text)
     raise argparse.ArgumentTypeError(f"{quoted(text)} is no number of processes; write 2")
@@ -486,7 +449,7 @@ def _add_fleet(parser: CommandParser) -> None:
 def workbench(command: str) -> CommandParser:
     """Return the parser of ``zlmreport workbench``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Open the error model of a job as a web page of this computer: compare the model with the\n"
         "readings, see where it fails, add what is missing, watch the error fall. Every click is\n"
         "written into the job (comments stay) and recorded beside it. Further jobs are other tests of\n"

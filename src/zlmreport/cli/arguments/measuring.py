@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def plan(command: str) -> CommandParser:
     """Return the parser of ``zlmreport plan``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Plan the test of a job before anything is measured: target positions with random fractions, the\n"
         "sequence of its positioning method, and what such a test will see of each installed effect.\n"
         "The readings that the job names need not exist. Numbers come from its key plan.\n"
@@ -42,12 +42,9 @@ def plan(command: str) -> CommandParser:
         help="instead: simulate which plan tells these effects apart, or shows the one that is named, and "
         "print the job of the cheapest that will; with --output write it, <number>-decide.yaml",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=Path,
-        help="write the targets, a form for the readings, a picture of the sequence or of the path, and "
+    parser.add_output(
+        "DIR",
+        "write the targets, a form for the readings, a picture of the sequence or of the path, and "
         "programs into this folder",
     )
     parser.add_argument(
@@ -68,7 +65,7 @@ def plan(command: str) -> CommandParser:
 def compensate(command: str) -> CommandParser:
     """Return the parser of ``zlmreport compensate``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Write a compensation table for a control from a job's test, with a sheet (PDF) for who loads it,\n"
         "and say what that very table will leave. The job must say which table was active\n"
         "during the test: axis.compensation_table, a file or none. After the table has been loaded and the\n"
@@ -82,18 +79,9 @@ def compensate(command: str) -> CommandParser:
     )
     add_jobs(parser)
     parser.add_argument(
-        "--controller",
-        metavar="NAME",
-        help="the control, such as linuxcnc, instead of the job's own",
+        "--controller", metavar="NAME", help="the control, such as linuxcnc, instead of the job's own"
     )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        type=read_setting,
-        action="append",
-        default=[],
-        help="a key of the controller, such as type=1; may be given several times",
-    )
+    parser.add_repeated("--set", "KEY=VALUE", read_setting, "a key of the controller, such as type=1")
     parser.add_argument(
         "--step",
         metavar="S",
@@ -109,12 +97,8 @@ def compensate(command: str) -> CommandParser:
         "what the means show beyond it: as smooth as the readings are uncertain; periodic effects go in that "
         "have four rows in each period",
     )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="DIR",
-        type=Path,
-        help="folder of the table and its sheet; with --confirm of the job that shows both tests",
+    parser.add_output(
+        "DIR", "folder of the table and its sheet; with --confirm of the job that shows both tests"
     )
     parser.add_flag("--unconfirmed", "write a format, too, that was never tried on the control itself")
     parser.add_flag("--confirm", "two jobs: did the table of the first do what was forecast?")
@@ -127,7 +111,7 @@ def compensate(command: str) -> CommandParser:
 def emulate(command: str) -> CommandParser:
     """Return the parser of ``zlmreport emulate``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Put an instrument that is not there on a pseudo-terminal, or on a TCP port of this computer. It\n"
         "watches an axis that goes from position to position, and speaks as the real instrument does.\n"
         "It runs until Ctrl-C; 'zlmreport plugins' lists the instruments.",
@@ -182,7 +166,6 @@ def add_line(parser: CommandParser, *, with_link: bool = True) -> None:
 
 
 def _read_fault(text: str) -> Planned:
-    """Read a fault and when it happens."""
     from zlmreport.live.emulation.troubles import Planned, Trouble  # noqa: PLC0415 - likewise
 
     known = tuple(map(str, Trouble))
@@ -203,7 +186,7 @@ def _read_fault(text: str) -> Planned:
 def simulate(command: str) -> CommandParser:
     """Return the parser of ``zlmreport simulate``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Write simulated readings of an axis: its effects, noise, conditions and the plan of its test\n"
         "are described in a file. A job that evaluates them is written beside, unless it is there.\n"
         "With --emulate nothing is read: the axis carries out its plan before an emulated instrument, for\n"
@@ -215,9 +198,7 @@ def simulate(command: str) -> CommandParser:
     parser.add_argument(
         "specification", metavar="SPEC.yaml", type=Path, help="simulation file (zlmreport/simulation/1)"
     )
-    parser.add_argument(
-        "-o", "--output", metavar="DIR", type=Path, help="folder of the files, instead of the simulation's"
-    )
+    parser.add_output("DIR", "folder of the files, instead of the simulation's")
     parser.add_argument(
         "--emulate", metavar="INSTRUMENT", help="let this instrument watch the axis: umd1, nd28x or another"
     )
@@ -239,7 +220,7 @@ def _add_test(parser: CommandParser) -> None:
 def capture(command: str) -> CommandParser:
     """Return the parser of ``zlmreport capture``."""
     parser = CommandParser(
-        f"zlmreport {command}",
+        command,
         "Take the readings of a job's test from the instrument that its key measurement.source names, while\n"
         "the axis follows its plan. Each reading is on the disk, in the job's journal, before the next is\n"
         "waited for. Ctrl-C ends; nothing that was taken is lost. Points that a machine\n"

@@ -6,7 +6,7 @@ import argparse
 import math
 import re
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -72,22 +72,17 @@ def _wrap(text: str, room: int, further: str) -> list[str]:
 class CommandParser(argparse.ArgumentParser):
     """A parser whose errors are problems like all others, and name the nearest option."""
 
-    def __init__(self, program: str, description: str, epilog: str = "") -> None:
+    def __init__(self, command: str, description: str, epilog: str = "") -> None:
         super().__init__(
-            program,
+            f"zlmreport {command}".rstrip(),
             description=description,
             epilog=epilog,
             formatter_class=HelpFormatter,
             allow_abbrev=False,
         )
         self._known = ["--help"]
-        self.add_argument(
-            "--plugin",
-            metavar="FILE",
-            type=Path,
-            action="append",
-            default=[],
-            help="a plugin in a file of its own, beside the installed ones; may be given several times",
+        self.add_repeated(
+            "--plugin", "FILE", Path, "a plugin in a file of its own, beside the installed ones"
         )
         self.add_argument(
             "--confine",
@@ -106,6 +101,15 @@ class CommandParser(argparse.ArgumentParser):
     def add_flag(self, name: str, meaning: str) -> None:
         """Add an option that is there or is not."""
         self.add_argument(name, action="store_true", help=meaning)
+
+    def add_repeated(self, name: str, metavar: str, read: Callable[[str], Any], meaning: str) -> None:
+        """Add an option that may be given several times; without it, its values are an empty list."""
+        meaning = f"{meaning}; may be given several times"
+        self.add_argument(name, metavar=metavar, type=read, action="append", default=[], help=meaning)
+
+    def add_output(self, metavar: str, meaning: str) -> None:
+        """Add the option that says where to write."""
+        self.add_argument("-o", "--output", metavar=metavar, type=Path, help=meaning)
 
     def parse_strictly(self, arguments: Sequence[str]) -> argparse.Namespace:
         """Return the options; raise `InputError` for one that there is not, with the nearest."""
@@ -131,7 +135,6 @@ def add_jobs(parser: CommandParser) -> None:
 
 
 def _take_folder(text: str) -> Path:
-    """Take a folder that is there."""
     path = Path(text)
     if not path.is_dir():
         raise argparse.ArgumentTypeError(f"{quoted(text)} is no folder")

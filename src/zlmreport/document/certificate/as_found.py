@@ -52,14 +52,8 @@ if TYPE_CHECKING:
 
 #: What the two measurements are called, by the work between them.
 NAMES = {
-    "adjustment": (
-        Words("as found, before the adjustment"),
-        Words("as left, after the adjustment"),
-    ),
-    "repair": (
-        Words("as found, before the repair"),
-        Words("as left, after the repair"),
-    ),
+    "adjustment": (Words("as found, before the adjustment"), Words("as left, after the adjustment")),
+    "repair": (Words("as found, before the repair"), Words("as left, after the repair")),
 }
 _TITLE = Words("As found and as left")
 _ON_COVER = Words(
@@ -68,20 +62,10 @@ _ON_COVER = Words(
 )
 #: The work between the measurements, that it was done, and the same as the name of a fact.
 _WORK = {
-    "adjustment": (
-        Words("adjustment"),
-        Words("adjusted"),
-        Words("Adjusted"),
-    ),
-    "repair": (
-        Words("repair"),
-        Words("repaired"),
-        Words("Repaired"),
-    ),
+    "adjustment": (Words("adjustment"), Words("adjusted"), Words("Adjusted")),
+    "repair": (Words("repair"), Words("repaired"), Words("Repaired")),
 }
 _NOT_ALIKE = Words("The two measurements are not alike; differences between them may come from that")
-_OTHER_TARGETS = Words("Other target positions")
-_OTHER_APPROACHES = Words("Other directions of approach")
 _OTHER_RUNS = Words("Other number of runs: {before} before, {after} after")
 _LABELLED = Words("{title} ({state})")
 #: Evaluations of both measurements by one standard: as found, as left.
@@ -131,12 +115,7 @@ def lay_out_readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer
 
 
 def lay_out_uncertainty_beside_as_found(
-    keys: AsFound,
-    before: Sequence[Evaluated],
-    after: Sequence[Evaluated],
-    writer: Writer,
-    *,
-    with_bars: bool,
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer, *, with_bars: bool
 ) -> Iterator[Section]:
     """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
     as_left, as_found = (
@@ -221,9 +200,9 @@ def _find_differences(before: MeasurementSet, after: MeasurementSet, writer: Wri
     """Yield what hinders a comparison of like with like."""
     found = []
     if not np.array_equal(before.target_positions, after.target_positions):
-        found.append(_OTHER_TARGETS)
+        found.append(Words("Other target positions"))
     if before.approaches != after.approaches:
-        found.append(_OTHER_APPROACHES)
+        found.append(Words("Other directions of approach"))
     if len(before.runs) != len(after.runs):
         found.append(_OTHER_RUNS.given(before=len(before.runs), after=len(after.runs)))
     if found:

@@ -20,11 +20,9 @@ if TYPE_CHECKING:
 _IN_WORDS = Words("plane {plane}, radius {radius} mm, feed {feed} mm/min")
 _CALIBRATED = Words("calibrated")
 _CALIBRATED_BY = Words("calibrated, certificate {certificate}")
-_NOT_CALIBRATED = Words("not calibrated: nothing is said of radii")
 _SENSES = Words("{first} and {second}, {turns} each")
 _UNLIKE = Words("{first}, {turns}; {second}, {others}")
 _ONE_SENSE = Words("{first} only, {turns}")
-_BEGINS = Words("{sense} at {angle}")
 _ANGLES = Words("{count}, from {first} to {last} from +{from_axis} towards +{to_axis}")
 _AVERAGED = Words("{count}, averages of {readings} readings")
 
@@ -40,19 +38,11 @@ def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     stated = "centre" in keys.model_fields_set
     place = " / ".join(map(writer.number, keys.centre)) if stated else None
     by = _CALIBRATED_BY.given(certificate=keys.certificate) if keys.certificate else _CALIBRATED
-    length = writer.say(by if keys.calibrated_length else _NOT_CALIBRATED)
+    length = writer.say(by if keys.calibrated_length else Words("not calibrated: nothing is said of radii"))
     yield Fact(Words("Plane"), keys.plane, ("circle.plane",))
     yield Fact(Words("Nominal radius"), write_with_unit(keys.radius, "mm", writer), ("circle.radius",))
-    yield Fact(
-        Words("Feed along the path"),
-        write_with_unit(keys.feed, "mm/min", writer),
-        ("circle.feed",),
-    )
-    yield Fact(
-        Words("Centre at X / Y / Z"),
-        place and f"{place} mm",
-        ("circle.centre",),
-    )
+    yield Fact(Words("Feed along the path"), write_with_unit(keys.feed, "mm/min", writer), ("circle.feed",))
+    yield Fact(Words("Centre at X / Y / Z"), place and f"{place} mm", ("circle.centre",))
     yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length", "circle.certificate"))
 
 
@@ -65,17 +55,14 @@ def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -
     ]
     words = _ONE_SENSE if len(senses) == 1 else _SENSES if len(set(turns)) == 1 else _UNLIKE
     said = words.given(
-        first=senses[0],
-        second=senses[-1],
-        turns=_turns_in_words(turns[0]),
-        others=_turns_in_words(turns[-1]),
+        first=senses[0], second=senses[-1], turns=_turns_in_words(turns[0]), others=_turns_in_words(turns[-1])
     )
     yield Fact(Words("Senses and turns"), writer.say(said), source)
     begins = []
     for approach, sense in zip(measurements.approaches, senses, strict=True):
         first = int(measurements.target[np.flatnonzero(measurements.approach == approach)[0]])
         angle = units.with_unit(writer.position(float(measurements.target_positions[first])), "°")
-        begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
+        begins.append(writer.say(Words("{sense} at {angle}").given(sense=sense, angle=angle)))
     yield Fact(Words("Evaluated from"), join_parts(begins, writer.language), source)
     yield Fact(Words("Angles"), writer.say(_write_angles(measurements, writer)), source)
 

@@ -60,11 +60,7 @@ def list_measurement_facts(
     unit = writer.position_unit.symbol
     method, plane = measurement.method, measurement.plane
     yield fact(Words("Date"), write_days(measurement, writer), "date", "end")
-    yield fact(
-        Words("Positioning method"),
-        writer.say(_METHODS[method]) if method else None,
-        "method",
-    )
+    yield fact(Words("Positioning method"), writer.say(_METHODS[method]) if method else None, "method")
     if measurements.axis.circle is not None:
         from zlmreport.document.certificate.circle_facts import list_path_facts  # noqa: PLC0415 - of the few that need it
 
@@ -73,11 +69,7 @@ def list_measurement_facts(
         yield fact(Words("Record"), writer.say(_record(measurements)), "source")
     elif not measurements.tests:
         yield fact(Words("Target positions"), writer.say(_write_targets(measurements, writer)), "source")
-        yield fact(
-            Words("Approaches and runs"),
-            writer.say(_write_runs(measurements)),
-            "source",
-        )
+        yield fact(Words("Approaches and runs"), writer.say(_write_runs(measurements)), "source")
     yield fact(Words("Measured"), _write_measured(measurement, measurements, writer), "error", "symbols")
     yield fact(Words("Other axes at"), _write_elsewhere(measurement, writer), "at")
     feed = None if measurements.axis.circle else measurement.feed  # that of a circle stands with the circle
@@ -92,9 +84,7 @@ def list_measurement_facts(
         "plane",
     )
     yield fact(
-        Words("Deviations from the method"),
-        measurement.deviations_from_method,
-        "deviations_from_method",
+        Words("Deviations from the method"), measurement.deviations_from_method, "deviations_from_method"
     )
     yield fact(Words("Measured by"), measurement.operator, "operator")
     yield fact(Words("Remarks"), measurement.remarks, "remarks")
@@ -180,12 +170,7 @@ _CONDITIONS = (
             "relative_humidity",
         )
     ),
-    (
-        Words("Expansion coefficient of the machine"),
-        "expansion_coefficient",
-        "µm/(m·K)",
-        False,
-    ),
+    (Words("Expansion coefficient of the machine"), "expansion_coefficient", "µm/(m·K)", False),
 )
 
 

@@ -21,7 +21,7 @@ from zlmreport.document.certificate.statements import write_document_title, writ
 from zlmreport.document.certificate.values import Values
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation.evidence import find_lines_read_twice
-from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
+from zlmreport.evaluation.uncertainty.budget import join_budgets
 from zlmreport.language import Words, named
 
 if TYPE_CHECKING:
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 _SUBJECT = Words("{count} measurements of {machine}")
 _SUBJECT_OF_ONE = Words("One measurement of {machine}")
-_THE_MACHINE = Words("a machine")
 _DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 _SUMMARY = Words(
     "Summary: what has a limit, or else the first parameter of each measurement by each standard"
@@ -61,7 +60,7 @@ def collect_certificates(
     logo = next((each.file for each in files if each.role is SourceRole.LOGO), None)
     made_from = list_sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo)
     budget = join_budgets({name: part.budget for name, part in parts.items() if part.budget})
-    machine = keys.machine.type or writer.say(_THE_MACHINE)
+    machine = keys.machine.type or writer.say(Words("a machine"))
     subject = writer.say(
         (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
     )

@@ -39,12 +39,8 @@ _MACHINE_KINDS = {
     "surface plate": Words("surface plate"),
 }
 
-AXIS_KINDS = {
-    AxisKind.LINEAR: Words("linear axis"),
-    AxisKind.ROTARY: Words("rotary axis"),
-}
+AXIS_KINDS = {AxisKind.LINEAR: Words("linear axis"), AxisKind.ROTARY: Words("rotary axis")}
 
-_NO_TABLE = Words("none")
 _NO_INFLUENCE = Words("The laboratory names no environmental condition that influenced the results.")
 _CAPTION = Words("Corrections applied to the readings")
 _ALL_CORRECTED = Words(
@@ -189,21 +185,9 @@ def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
         is_rotary = axis.kind is AxisKind.ROTARY
         yield Fact(Words("Angular travel") if is_rotary else Words("Travel"), travel, ("axis.travel",))
     for name, length, key in (
-        (
-            Words("Screw or gear pitch"),
-            axis.screw_pitch,
-            "screw_pitch",
-        ),
-        (
-            Words("Signal period of the scale"),
-            axis.signal_period,
-            "signal_period",
-        ),
-        (
-            Words("Length of a scale element"),
-            axis.scale_element,
-            "scale_element",
-        ),
+        (Words("Screw or gear pitch"), axis.screw_pitch, "screw_pitch"),
+        (Words("Signal period of the scale"), axis.signal_period, "signal_period"),
+        (Words("Length of a scale element"), axis.scale_element, "scale_element"),
         (Words("Distance of like poles"), axis.pole_pitch, "pole_pitch"),
     ):
         yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
@@ -212,11 +196,7 @@ def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
         _write_table(keys.compensation_table, writer),
         ("axis.compensation_table",),
     )
-    yield Fact(
-        Words("Angular errors"),
-        _write_table(keys.angular_errors, writer),
-        ("axis.angular_errors",),
-    )
+    yield Fact(Words("Angular errors"), _write_table(keys.angular_errors, writer), ("axis.angular_errors",))
     yield Fact(
         Words("Distance of the measuring line from the scale"),
         write_with_unit(keys.abbe_offset, "mm", writer),
@@ -228,18 +208,14 @@ def _write_table(stated: str | Path | None, writer: Writer) -> str | None:
     """Write the table that was active during the test; the word for none."""
     if isinstance(stated, Path):
         return stated.name
-    return writer.say(_NO_TABLE) if stated else None
+    return writer.say(Words("none")) if stated else None
 
 
 def _list_measurement_facts(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
     yield from list_measurement_facts(keys.measurement, measurements, writer, "measurement")
     yield Fact(Words("Procedure"), keys.procedure)
     yield Fact(Words("Sampling"), keys.sampling, ("sampling",))
-    yield Fact(
-        Words("Date of sampling"),
-        write_date(keys.dates.sampled, writer),
-        ("dates.sampled",),
-    )
+    yield Fact(Words("Date of sampling"), write_date(keys.dates.sampled, writer), ("dates.sampled",))
 
 
 def _list_instrument_facts(
@@ -268,11 +244,7 @@ def _list_instrument_facts(
         write_with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
         ("instrument.expansion_coefficient",),
     )
-    yield Fact(
-        Words("Compensation by the instrument"),
-        instrument.compensation,
-        ("instrument.compensation",),
-    )
+    yield Fact(Words("Compensation by the instrument"), instrument.compensation, ("instrument.compensation",))
     yield Fact(
         Words("Corrected by the instrument"),
         _write_compensates(instrument.compensates, writer),

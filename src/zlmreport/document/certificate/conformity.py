@@ -38,14 +38,8 @@ _OF_RULES = ("T_{L}",)
 #: What each statement looks like, and its words.
 STATEMENTS = {
     Conformity.MET: (Mark.MET, Words("conforms")),
-    Conformity.CONDITIONALLY_MET: (
-        Mark.MET,
-        Words("conforms, conditionally"),
-    ),
-    Conformity.CONDITIONALLY_FAILED: (
-        Mark.NOT_MET,
-        Words("does not conform, conditionally"),
-    ),
+    Conformity.CONDITIONALLY_MET: (Mark.MET, Words("conforms, conditionally")),
+    Conformity.CONDITIONALLY_FAILED: (Mark.NOT_MET, Words("does not conform, conditionally")),
     Conformity.FAILED: (Mark.NOT_MET, Words("does not conform")),
     Conformity.UNDECIDED: (Mark.OPEN, Words("not decided")),
 }
@@ -81,9 +75,7 @@ _WITHOUT_UNCERTAINTY = Words(
     "{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
     "conformity is therefore not decided."
 )
-_SPECIFICATION = Words("{rule} Limits{mark}: {names}.")
 _OF_STANDARD = Words("{specification} ({standard})")
-_NO_SPECIFICATION = Words("{rule} Limits as ordered; their source is not stated.")
 _NONE = Words("none")
 _CAPTION = Words(
     "Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
@@ -120,7 +112,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
     limited = [each for each in evaluations if any(one.limit is not None for one in each.parameters)]
     named = dict.fromkeys(each.specification for each in limited if each.specification)
     if not named:
-        return _NO_SPECIFICATION
+        return Words("{rule} Limits as ordered; their source is not stated.")
     some = len({each.specification for each in limited}) > 1
     names = join_parts(
         (
@@ -133,7 +125,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
         writer.language,
     )
     mark = writer.marks.write_after("evaluate.specification")
-    return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
+    return Words("{rule} Limits{mark}: {names}.").given(names=names if some else next(iter(named)), mark=mark)
 
 
 def lay_out_conformity(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
@@ -167,9 +159,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Amount")), unit, Align.RIGHT),
         Column(
-            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"),
-            unit,
-            Align.RIGHT,
+            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"), unit, Align.RIGHT
         ),
         Column(writer.say(Words("Accepted up to")), unit, Align.RIGHT),
         Column(writer.say(Words("Statement"))),

@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
@@ -37,29 +36,24 @@ class Information(Enum):
     STRAIGHTNESS_REFERENCE = "straightness reference"
 
 
-_REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
-    {
-        Information.MOTION: Words("Feed, dwell at each target and warm-up reported"),
-        Information.PATH: Words("Feed, place of the circle in the machine and warm-up reported"),
-        Information.MEASURING_LINE: Words("Measuring line, or where the other axes stood, reported"),
-        Information.COMPENSATION: Words("Compensations of the machine that were active reported"),
-        Information.TEMPERATURES: Words("Temperatures reported, and where they were measured"),
-        Information.REFERENCE_TEMPERATURE: Words(
-            "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
-        ),
-        Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
-        Information.STRAIGHTNESS_REFERENCE: Words(
-            "Reference of the straightness reported: a calibrated body, one that was turned over, or a beam"
-        ),
-    }
-)
+_REQUIREMENTS: Mapping[Information, Words] = {
+    Information.MOTION: Words("Feed, dwell at each target and warm-up reported"),
+    Information.PATH: Words("Feed, place of the circle in the machine and warm-up reported"),
+    Information.MEASURING_LINE: Words("Measuring line, or where the other axes stood, reported"),
+    Information.COMPENSATION: Words("Compensations of the machine that were active reported"),
+    Information.TEMPERATURES: Words("Temperatures reported, and where they were measured"),
+    Information.REFERENCE_TEMPERATURE: Words(
+        "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
+    ),
+    Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
+    Information.STRAIGHTNESS_REFERENCE: Words(
+        "Reference of the straightness reported: a calibrated body, one that was turned over, or a beam"
+    ),
+}
 _STATED = Words("stated")
 _LACKING = Words("not stated: {lacking}")
-_UNKNOWN_TEMPERATURE = Words("the temperature or the coefficient is not known")
-_NOT_CORRECTED = Words("not at 20 °C, and not corrected")
 _IN_U = Words("not corrected; U holds the expansion whole")
 _FAR_IN_U = Words("{difference} K from 20 °C, and not corrected; U holds the expansion whole")
-_BY_INSTRUMENT = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)")
 #: Instruments that have a straight line of their own.
 _BEAM = re.compile(r"laser|interf\w*met|autoco?l+imat|telescop|fernrohr|lunette|cannocchiale", re.IGNORECASE)
 _LEFT_BY_INSTRUMENT = Words("{corrected}; the machine has {stated} µm/(m·K), and {left} µm are left")
@@ -98,7 +92,7 @@ def _check_reference_temperature(
     if coefficient is not None:
         return Finding(requirement, _CORRECTED.given(coefficient=coefficient), met=True)
     if budget.uncorrected_expansion is None:
-        return Finding(requirement, _UNKNOWN_TEMPERATURE, met=None)
+        return Finding(requirement, Words("the temperature or the coefficient is not known"), met=None)
     by_instrument = find_compensated_by_instrument(job, measurements).material
     if by_instrument is not None:
         coefficient = float(f"{by_instrument / MICROMETRE_PER_METRE_KELVIN:.6g}")
@@ -106,7 +100,7 @@ def _check_reference_temperature(
     if not budget.uncorrected_expansion:
         return Finding(requirement, _AT_REFERENCE, met=True)
     if not isinstance(budget, Budget):
-        return Finding(requirement, _NOT_CORRECTED, met=False)
+        return Finding(requirement, Words("not at 20 °C, and not corrected"), met=False)
     is_near = abs(budget.difference) <= _NEAR
     difference = float(f"{budget.difference:.3g}")
     return Finding(requirement, _IN_U if is_near else _FAR_IN_U.given(difference=difference), met=is_near)
@@ -118,7 +112,7 @@ def _judge_compensation(coefficient: float, job: Job, budget: Budget | NoBudget)
     `coefficient`: By which it did, µm/(m·K). What another one of the machine leaves counts as so many kelvins
     of an expansion that nobody has corrected.
     """
-    found = _BY_INSTRUMENT.given(coefficient=coefficient)
+    found = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)").given(coefficient=coefficient)
     stated = job.keys.environment.expansion_coefficient if job.keys.environment else None
     if not isinstance(stated, float) or not stated or not isinstance(budget, Budget):
         return found, True
@@ -159,10 +153,7 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
             (Words("measuring line"), measurement.line or measurement.at or measurement.tests),
         ),
         Information.COMPENSATION: (
-            (
-                Words("state of the compensation"),
-                measurement.compensation or keys.axis.compensation_table,
-            ),
+            (Words("state of the compensation"), measurement.compensation or keys.axis.compensation_table),
         ),
         Information.TEMPERATURES: (
             (
@@ -173,17 +164,11 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
                 Words("temperature of the machine"),
                 length or logged & {"axis_temperature", "material_temperature"},
             ),
-            (
-                Words("sensor locations"),
-                environment and environment.sensors,
-            ),
+            (Words("sensor locations"), environment and environment.sensors),
         ),
         Information.INSTRUMENT: (
             (Words("instrument"), instrument),
-            (
-                Words("its calibration"),
-                instrument and is_reference(instrument.certificate or ""),
-            ),
+            (Words("its calibration"), instrument and is_reference(instrument.certificate or "")),
             (
                 Words("its compensation"),
                 instrument

@@ -74,10 +74,7 @@ def lay_out_origin_of_several(
 
 
 #: Above the files of each measurement: of the axis as left, and as found if it was adjusted.
-_READINGS = (
-    Words("Readings, read by {source}"),
-    Words("Readings as found, read by {source}"),
-)
+_READINGS = (Words("Readings, read by {source}"), Words("Readings as found, read by {source}"))
 _OF_LINE = Words("Readings of {name}, read by {source}")
 _READING_AID = Words(
     "Values were computed from the unrounded readings, and limits are compared with unrounded values; "
@@ -147,10 +144,7 @@ def _lay_out_files(
     others = tuple(_lay_out_row(source) for source in sources if source not in readings)
     groups.append(RowGroup(others, writer.say(Words("Job"))))
     return Table(
-        writer.say(Words("Files")),
-        columns,
-        tuple(group for group in groups if group.rows),
-        dense=True,
+        writer.say(Words("Files")), columns, tuple(group for group in groups if group.rows), dense=True
     )
 
 

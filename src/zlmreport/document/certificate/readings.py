@@ -37,9 +37,8 @@ _ONE_MISSING = Words("{count} of {all} readings is missing; nothing was filled i
 _MISSING = Words("{count} of {all} readings are missing; nothing was filled in")
 _TITLE = Words("Readings")
 _IN_FILES = Words(
-    "The {count} readings that are evaluated are not printed. The files that they were read from are "
-    "named under “Origin of the results”; the PDF carries them, and the means at each angle in its results "
-    "file."
+    "The {count} readings that are evaluated are not printed. The files that they were read from are named "
+    "under “Origin of the results”; the PDF carries them, and the means at each angle in its results file."
 )
 _IN_FILES_OVER_TIME = Words(
     "The {count} readings that are evaluated are not printed. The files that they were read from are "

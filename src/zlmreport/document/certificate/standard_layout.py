@@ -137,7 +137,6 @@ def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:
 
 
 def _lay_out_one(each: Evaluated, writer: Writer) -> Section:
-    """Return the results by one standard."""
     return _lay_out_page((each,), writer)
 
 

@@ -20,14 +20,8 @@ if TYPE_CHECKING:
     from zlmreport.measurement.provenance import Exclusion
 
 #: What a document of each kind is about: a measuring report calibrates nothing.
-ITEM = {
-    "certificate": Words("Item calibrated"),
-    "report": Words("Item measured"),
-}
-WORK = {
-    "certificate": Words("Calibration"),
-    "report": Words("Report"),
-}
+ITEM = {"certificate": Words("Item calibrated"), "report": Words("Item measured")}
+WORK = {"certificate": Words("Calibration"), "report": Words("Report")}
 NEXT_DUE = {
     "certificate": Words("Next calibration due, as agreed with the customer"),
     "report": Words("Next measurement due, as agreed with the customer"),
@@ -65,7 +59,6 @@ _SUPPLIED = Words(
     "the validity of the results."
 )
 _DEVIATIONS = Words("Additions to, deviations and exclusions from the method")
-_EXTERNAL = Words("{mark} Results from external providers")
 _ONE = Words("{count} reading was set aside and did not enter the results")
 _SEVERAL = Words("{count} readings were set aside and did not enter the results")
 _READING = Words("target {target} {arrow}, run {run}, read {deviation}: {reason}")
@@ -76,16 +69,11 @@ _ARROWS = {"+": "↑", "-": "↓"}
 #: Readings that the first page names one by one.
 _MOST_NAMED = 6
 _MORE = Words("Set aside besides: {count} more, see the section on the readings")
-TITLES = {
-    "certificate": Words("Calibration Certificate"),
-    "report": Words("Measuring Report"),
-}
+TITLES = {"certificate": Words("Calibration Certificate"), "report": Words("Measuring Report")}
 _AMENDMENT = {
     "certificate": Words("Amendment to Calibration Certificate {number}"),
     "report": Words("Amendment to Measuring Report {number}"),
 }
-_AMENDMENT_OF_OWN_TITLE = Words("Amendment to {title} {number}")
-_RUNNING_AMENDMENT = Words("Amendment {number}")
 
 _AMENDS = Words("This document amends {number}, which remains valid in all that is not changed here")
 _REPLACES = Words("This document replaces {number}, which is no longer valid")
@@ -93,7 +81,6 @@ _REASON = Words("Reason: {reason}")
 _CHANGE = Words("Changed: {change}")
 #: Above every opinion of a document.
 OPINION = Words("Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement")
-_OPINIONS = Words("Opinions and interpretations")
 _RESTS = Words("Each is stated by an authorised person and rests on what is named as its basis.")
 
 
@@ -109,7 +96,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
         yield Notice(
-            writer.say(_EXTERNAL.given(mark=EXTERNAL)),
+            writer.say(Words("{mark} Results from external providers").given(mark=EXTERNAL)),
             tuple(
                 writer.say(named(each.results, ", ".join(filter(None, (each.provider, each.reference)))))
                 for each in keys.external
@@ -207,10 +194,7 @@ def write_document_title(keys: CertificateKeys) -> Words:
         return usual if keys.title is None else Words("{title}").given(title=keys.title)
     if keys.title is None:
         return _AMENDMENT[keys.kind].given(number=amends.number)
-    return _AMENDMENT_OF_OWN_TITLE.given(title=keys.title, number=amends.number)
-
-
-_BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})")
+    return Words("Amendment to {title} {number}").given(title=keys.title, number=amends.number)
 
 
 def name_subject_of(job: Job) -> Words:
@@ -218,14 +202,16 @@ def name_subject_of(job: Job) -> Words:
     axis = job.axis
     if not axis.error or job.keys.measurement.symbols == "iso230-1":
         return axis.subject
-    both = _BY_VDI.given(symbol=axis.error, vdi=find_error_named(axis.error).vdi)
+    both = Words("{symbol} (VDI/VDE 2617-3: {vdi})").given(
+        symbol=axis.error, vdi=find_error_named(axis.error).vdi
+    )
     return axis.measurand.named(axis.name, both)
 
 
 def write_running_title(keys: CertificateKeys) -> Words:
     """Return what stands on every page: what the document is, with its number."""
     if keys.amends and keys.amends.kind == "amendment":
-        return _RUNNING_AMENDMENT.given(number=keys.number)
+        return Words("Amendment {number}").given(number=keys.number)
     return Words("{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
 
 
@@ -248,12 +234,7 @@ def lay_out_opinions(keys: JobKeys, writer: Writer) -> Section:
     """Return the section of a job's opinions."""
     apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
     columns = tuple(
-        Column(writer.say(heading))
-        for heading in (
-            Words("Opinion"),
-            Words("Basis"),
-            Words("Stated by"),
-        )
+        Column(writer.say(heading)) for heading in (Words("Opinion"), Words("Basis"), Words("Stated by"))
     )
     rows = tuple(
         (
@@ -263,7 +244,7 @@ def lay_out_opinions(keys: JobKeys, writer: Writer) -> Section:
         )
         for opinion in keys.opinions
     )
-    title = writer.say(_OPINIONS)
+    title = writer.say(Words("Opinions and interpretations"))
     return Section("opinions", title, (apart, Table(title, columns, (RowGroup(rows),))))
 
 

@@ -40,9 +40,8 @@ _COVERAGE = Words(
     "value that a faultless measuring set-up would have found in it."
 )
 _INTERVAL = Words(
-    "{coverage} The interval of the axis holds, with the same probability, what another test of this "
-    "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in "
-    "it."
+    "{coverage} The interval of the axis holds, with the same probability, what another test of this axis by "
+    "the same plan would find with the same set-up left in place; errors of the set-up are not in it."
 )
 _INTERVAL_OF_ANOTHER_TEST = Words(
     "{coverage} The interval of another test holds, with the same probability, what another test by the same "
@@ -67,10 +66,9 @@ _KNOWN_ERRORS = Words(
 )
 _NEGLIGIBLE = Words("Declared negligible by the laboratory")
 _METHOD = Words(
-    "The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
-    "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
-    "formulas of each standard. Errors that readings share stay shared. y ± U holds at least 95.45 % of the "
-    "simulated values."
+    "The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): {trials} "
+    "simulated tests, the readings with errors drawn from the budget, were evaluated by the formulas of each "
+    "standard. Errors that readings share stay shared. y ± U holds at least 95.45 % of the simulated values."
 )
 _METHOD_BY_POSITION = Words(
     "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
@@ -104,7 +102,6 @@ _CAPTION = Words(
 )
 _COMBINED = Words("all contributions together")
 _KNOWN = Words("known errors, not corrected: in no u, and in every U whole")
-_OF_KNOWN_SIZE = Words("known")
 _AT_THE_END = Words(" at the end of the measured length, where every contribution has its full effect")
 _COMBINED_OF = Words("A single reading at the end of the measured length")
 _SINGLE = Words("A single reading")
@@ -254,7 +251,7 @@ def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
         Symbol(f"b_{{{number}}}"),
         Explained(writer.say(error.name), writer.say(error.source)),
         writer.say(error.stated),
-        writer.say(_OF_KNOWN_SIZE),
+        writer.say(Words("known")),
         "",
         "",
     )

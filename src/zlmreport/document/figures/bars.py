@@ -76,12 +76,6 @@ def _write_sentence(parameter: EvaluatedParameter, bar: Bar) -> Words:
     return _SENTENCE.given(bar=words)
 
 
-_BUDGET_TITLE = Words("Standard uncertainties of the contributions at full effect")
-_CONTRIBUTIONS = Words("Contributions")
-_STANDARD_UNCERTAINTY = Words("Standard uncertainty")
-_CONTRIBUTION = Words("{symbol}, {name}: {value}{unit}.")
-
-
 def draw_budget(budget: Budget, axis: Axis) -> Figure:
     """Return the graph of the standard uncertainties of a budget, in the order of its table."""
     unit = axis.deviation_unit
@@ -93,16 +87,16 @@ def draw_budget(budget: Budget, axis: Axis) -> Figure:
         bar = Bar(same(f"u_{{{number}}}"), size, write_part(size, whole), is_symbol=True)
         bars.append(bar)
         sentences.append(
-            _CONTRIBUTION.given(
+            Words("{symbol}, {name}: {value}{unit}.").given(
                 symbol=f"u{number}", name=each.name, value=bar.value, unit=write_behind(unit.symbol)
             )
         )
     return Figure(
         key="budget",
-        title=_BUDGET_TITLE,
+        title=Words("Standard uncertainties of the contributions at full effect"),
         alternative=alternative_text(*sentences),
-        x_title=_CONTRIBUTIONS,
-        y_title=_STANDARD_UNCERTAINTY,
+        x_title=Words("Contributions"),
+        y_title=Words("Standard uncertainty"),
         x_unit="",
         y_unit=unit.symbol,
         panels=(Panel(bars=tuple(bars)),),

@@ -136,7 +136,6 @@ def _draw_over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Sh
 
 
 def _draw_about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape]:
-    """Return the shapes of a polar panel."""
     frame, panel = layout.frame, place_on_circle(layout.panel, grid)
     yield from draw_polar_grid(layout.panel, grid, frame)
     for readings in panel.readings:
@@ -153,7 +152,6 @@ def _draw_about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape
 
 
 def _draw_body(layout: PanelLayout) -> Iterator[Shape]:
-    """Return the shapes of a wire picture."""
     for curve in layout.panel.curves:
         points = np.column_stack([curve.x, curve.y])
         stroke = ROLES[curve.role].stroke
@@ -175,7 +173,6 @@ def _place_curve_marks(
 def _place_reading_marks(
     kind: str, readings: PlottedReadings, points: FloatArray, frame: Frame | None = None
 ) -> PointMarks:
-    """Return the marks of single readings."""
     mark, stroke = READINGS[readings.approach]
     return PointMarks(kind, points, mark, READING_SIZE, stroke, frame=frame)
 

@@ -157,22 +157,14 @@ class Note:
 
 @dataclass(frozen=True, slots=True)
 class Tiles:
-    """Values over a grid, each as a tile about its place: the darker, the larger.
+    """Values over a grid, each as a tile about its place: the darker, the larger."""
 
-    Attributes
-    ----------
-    x, y
-        Places along both axes, rising, (n,) and (m,).
-    values
-        Not negative, (n, m), in the unit that is printed; every other one is written on its tile.
-    darkest
-        The value of the darkest tile: that of several panels is one.
-    """
-
+    #: x, y: Places along both axes, rising, (n,) and (m,).
     x: FloatArray
     y: FloatArray
+    #: Not negative, (n, m), in the unit that is printed; every other one is written on its tile.
     values: FloatArray
-    darkest: float
+    darkest: float  #: The value of the darkest tile: that of several panels is one.
 
     @property
     def edges(self) -> tuple[FloatArray, FloatArray]:

@@ -166,16 +166,15 @@ def _place_value_titles(
         yield PlacedLabel(label, box.left - room.left + _EDGE + 0.8 * TEXT_SIZE, foot, 90.0)
 
 
-_DIVISION = Words("{title}: from circle to circle {division} {unit}")
-
-
 def _say_magnification(figure: Figure, panels: Sequence[PanelLayout], language: Language) -> str:
     """Return what stands below circles: what their distances are, and of how much."""
     divisions = {each.grid.division for each in panels if each.grid}
     title, unit = figure.y_title, figure.y_unit
     if len(divisions) != 1:
         return write_axis_title(title, unit, language)
-    words = _DIVISION.given(title=title, division=float(divisions.pop()), unit=unit)
+    words = Words("{title}: from circle to circle {division} {unit}").given(
+        title=title, division=float(divisions.pop()), unit=unit
+    )
     return words.in_language(language)
 
 

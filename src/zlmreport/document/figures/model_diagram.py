@@ -158,7 +158,6 @@ _AT_THE_MEAN = Words("{title}; at the mean time and the mean logged conditions o
 _REACH = Words(
     "{title}; its waves are too short to be parted on this length: the line shows how far they reach"
 )
-_ESTIMATE = Words("Estimate {arrow}")
 _LARGEST = Words("The expanded uncertainty is {largest} at most.")
 
 
@@ -183,7 +182,7 @@ def estimate(diagram: ModelDiagram) -> Figure:
                 diagram.convert_to_printed(value + half),
             )
         )
-        sentences.append(diagram.say_range(_ESTIMATE.given(arrow=arrow), value))
+        sentences.append(diagram.say_range(Words("Estimate {arrow}").given(arrow=arrow), value))
         largest = max(largest, float(half.max()))
     moves = any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms)
     title = _AT_THE_MEAN.given(title=_TITLE) if moves else _TITLE

@@ -1,11 +1,11 @@
-"""Layout of a panel: where brackets, limit lines, values and the legend stand.
+"""Layout of a panel: where brackets, limit lines, values and the legend stand; frame and notes of a body.
 
 All places are points from the lower left corner of the drawing, y upwards.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -24,10 +24,11 @@ from zlmreport.document.figures.dimensions import (
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, PlottedReadings
 from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
 from zlmreport.document.figures.polar import PolarGrid, find_largest_square, make_polar_grid
-from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, PlacedLabel
+from zlmreport.document.figures.scale import AxisScale, find_extremes
+from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, Lettering, PlacedLabel
 from zlmreport.document.figures.tiles import place_tile_values
-from zlmreport.document.figures.wire import make_wire_frame, place_notes
 from zlmreport.language import Language, Words
+from zlmreport.language.formatting import write_fixed_number
 from zlmreport.measurement.arrays import FloatArray
 
 #: Between the frame and the first column of brackets, and between the end of a level and its label.
@@ -274,3 +275,40 @@ def _list_entries(panel: Panel, language: Language) -> tuple[LegendEntry, ...]:
         text = " ".join((_READINGS.in_language(language), *arrows))
         found["readings"] = LegendEntry(panel.readings, make_plain_label(text, TEXT_SIZE))
     return tuple(found.values())
+
+
+#: Round the body, in points: half a note has room there.
+_ROOM_BESIDE, _ROOM_ABOVE = 16.0, 12.0
+#: Between a place and its note.
+_GAP = 2.0
+
+
+def make_wire_frame(panel: Panel, box: Box) -> Frame:
+    """Return the area in which a body is drawn, as large as a box lets it be and in its middle."""
+    x_low, x_high = find_extremes(np.concatenate([np.empty(0), *(each.x for each in panel.curves)]))
+    y_low, y_high = find_extremes(np.concatenate([np.empty(0), *(each.y for each in panel.curves)]))
+    width, height = (x_high - x_low) or 1.0, (y_high - y_low) or 1.0
+    factor = min((box.width - 2 * _ROOM_BESIDE) / width, (box.height - 2 * _ROOM_ABOVE) / height)
+    return Frame(
+        box,
+        _scale((x_low + x_high) / 2, box.width / factor),
+        _scale((y_low + y_high) / 2, box.height / factor),
+    )
+
+
+def _scale(middle: float, span: float) -> AxisScale:
+    return AxisScale(middle - span / 2, middle + span / 2, (), ())
+
+
+def place_notes(panel: Panel, frame: Frame, language: Language) -> Iterator[PlacedLabel]:
+    """Yield the notes where they stand: above or below their places, in the middle."""
+    for note in panel.notes:
+        value = note.value
+        if isinstance(value, Words):
+            text = value.in_language(language)
+        else:
+            text = write_fixed_number(value, 1, language.decimal_sign)
+        label = make_plain_label(text, TICK_TEXT_SIZE)
+        x, y = frame.place_x(note.x), frame.place_y(note.y)
+        foot = y - _GAP - label.height if note.is_below else y + _GAP
+        yield PlacedLabel(label, x - label.width / 2, foot)

@@ -124,11 +124,7 @@ def make_compensation_sheet(
             Graph(_draw_figure(made, writer)),
         ),
         sections=(
-            Section(
-                "loading",
-                say(Words("Loading and checking")),
-                _lay_out_loading(made, writer),
-            ),
+            Section("loading", say(Words("Loading and checking")), _lay_out_loading(made, writer)),
             conditions.lay_out_conditions(job, measurements, (), writer),
         ),
         page_words=PageWords.in_language(keys.language, f"{title} {keys.number}"),
@@ -148,10 +144,7 @@ def _list_facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str
     yield say(Words("Format")), say(_CONFIDENCE[made.controller.confidence])
     first, last = (_write_length(float(made.decoded.positions[end]), writer) for end in (0, -1))
     yield say(Words("Rows")), f"{len(made.decoded.positions)} ({first} … {last})"
-    yield (
-        say(Words("Active during the test")),
-        active.name if isinstance(active, Path) else say(none),
-    )
+    yield (say(Words("Active during the test")), active.name if isinstance(active, Path) else say(none))
 
 
 def lay_out_forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Section:
@@ -338,10 +331,7 @@ def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     ).given(at=writer.length(float(at[0])), stood=both(stood), taken=both(taken), left=both(stood - taken))
     return (
         Paragraph(say(worked)),
-        Notice(
-            say(Words("For who loads it")),
-            (*map(say, made.controller.notes), say(_CHECK)),
-        ),
+        Notice(say(Words("For who loads it")), (*map(say, made.controller.notes), say(_CHECK))),
     )
 
 
@@ -392,11 +382,7 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
         y_unit=unit,
         panels=(
             Panel(Words("Before, and the table"), curves=before),
-            Panel(
-                Words("With the table, and U of a mean"),
-                bands=(band,) if known else (),
-                curves=left,
-            ),
+            Panel(Words("With the table, and U of a mean"), bands=(band,) if known else (), curves=left),
         ),
         spans_are_alike=False,
     )

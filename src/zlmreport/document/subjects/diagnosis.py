@@ -86,7 +86,6 @@ _VISIBILITY = Words(
 _SHAPE = Words("Shape")
 _WHERE = Words("Place")
 _SIZE = Words("Root mean square")
-_OF_THE_REST = Words("Share of what the model leaves")
 _BESIDE_IT, _PART = Words("Beside it"), Words("{shape}, {where}; {size}")
 _FORMULA = Words("Formula to try")
 _LOOK = Words("Look at {at}. Measure {measure}.")
@@ -97,7 +96,6 @@ MARKS = {
     DiagnosisVerdict.MISSING: Mark.OPEN,
     DiagnosisVerdict.UNEXPLAINED: Mark.NOT_MET,
 }
-_EXTRAPOLATED = Words("{p} (extrapolated)")
 _VISIBLE = Words("{share} % of it is visible beside this model")
 _FOUND_FROM = Words("{share} % of it is visible beside this model; found from {size} rms on")
 
@@ -390,7 +388,7 @@ def _make_candidate_row(
     design, sign = diagnosis.fit.design, language.decimal_sign
     p = write_p_value(candidate.p_value, sign, is_extrapolated=candidate.p_value_is_extrapolated)
     if candidate.p_value_is_extrapolated:
-        p = _EXTRAPOLATED.given(p=p).in_language(language)
+        p = Words("{p} (extrapolated)").given(p=p).in_language(language)
     tell, remedy = candidate.discriminate_by, candidate.effect.remedy
     return CandidateRow(
         effect=candidate.identifier,
@@ -435,7 +433,7 @@ def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | 
         (_SHAPE, left.shape.in_language(language)),
         (_WHERE, left.where.in_language(language)),
         (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
-        (_OF_THE_REST, f"{write_percentage(left.share, language.decimal_sign)} %"),
+        (Words("Share of what the model leaves"), f"{write_percentage(left.share, language.decimal_sign)} %"),
         *(
             (
                 _BESIDE_IT,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -31,46 +30,42 @@ _DIRECTION = Words("Direction")
 _DEVIATION = Words("Deviation")
 _RESIDUAL = Words("Residual")
 #: What the graphs say, on the workbench's page and in a certificate.
-GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
-    {
-        "measured": Words("Measured against the model"),
-        "residuals": Words("Residuals"),
-        "over": Words("over"),
-        "failures": FAILURES,
-        "noFailures": Words("No test of the residuals fails."),
-        "show": Words("Show the readings"),
-        "reset": Words("Whole axis"),
-        "point": Words("Point at a reading, or go from one to the next with the arrow keys."),
-        "target": Words("Target"),
-        "run": _RUN,
-        "deviation": _DEVIATION,
-        "modelValue": Words("Model"),
-        "residual": _RESIDUAL,
-        "flagged": Words("stands off; not fitted"),
-        "upwards": Words("upwards ↑"),
-        "downwards": Words("downwards ↓"),
-        "modelUp": Words("model ↑ with U"),
-        "modelDown": Words("model ↓ with U"),
-        "reach": Words(
-            "The waves are too short to be parted on this length: the line shows how far they reach."
-        ),
-        "noise": Words("± 2σ of single readings"),
-        "zoom": Words("Drag to look closer, with Shift to move; double-click for the whole axis."),
-        "direction": _DIRECTION,
-        "colour": Words("coloured by"),
-        "mode": Words("What dragging does"),
-        "modeZoom": Words("Look closer"),
-        "modeMove": Words("Move"),
-        "modeSelect": Words("Choose readings"),
-        "save": Words("Save …"),
-        "inSight": Words("Readings in sight"),
-        "asTable": Words("The readings in sight as a table"),
-        "more": Words("{count} more: look closer to see them."),
-        "chosen": Words("{count} readings chosen"),
-        "chosenOne": Words("1 reading chosen"),
-        "slope": Words("Slope of its pass"),
-    }
-)
+GRAPH_TEXTS: Mapping[str, Words] = {
+    "measured": Words("Measured against the model"),
+    "residuals": Words("Residuals"),
+    "over": Words("over"),
+    "failures": FAILURES,
+    "noFailures": Words("No test of the residuals fails."),
+    "show": Words("Show the readings"),
+    "reset": Words("Whole axis"),
+    "point": Words("Point at a reading, or go from one to the next with the arrow keys."),
+    "target": Words("Target"),
+    "run": _RUN,
+    "deviation": _DEVIATION,
+    "modelValue": Words("Model"),
+    "residual": _RESIDUAL,
+    "flagged": Words("stands off; not fitted"),
+    "upwards": Words("upwards ↑"),
+    "downwards": Words("downwards ↓"),
+    "modelUp": Words("model ↑ with U"),
+    "modelDown": Words("model ↓ with U"),
+    "reach": Words("The waves are too short to be parted on this length: the line shows how far they reach."),
+    "noise": Words("± 2σ of single readings"),
+    "zoom": Words("Drag to look closer, with Shift to move; double-click for the whole axis."),
+    "direction": _DIRECTION,
+    "colour": Words("coloured by"),
+    "mode": Words("What dragging does"),
+    "modeZoom": Words("Look closer"),
+    "modeMove": Words("Move"),
+    "modeSelect": Words("Choose readings"),
+    "save": Words("Save …"),
+    "inSight": Words("Readings in sight"),
+    "asTable": Words("The readings in sight as a table"),
+    "more": Words("{count} more: look closer to see them."),
+    "chosen": Words("{count} readings chosen"),
+    "chosenOne": Words("1 reading chosen"),
+    "slope": Words("Slope of its pass"),
+}
 _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 

@@ -1,9 +1,12 @@
-"""A test before it is done, as people read it: targets, sequence, what it will see, and what it hides."""
+"""A test before it is done, as people read it: targets or circles, what it will see, and what it hides."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from zlmreport.document.blocks import (
     Align,
@@ -17,15 +20,22 @@ from zlmreport.document.blocks import (
     Section,
     Table,
 )
+from zlmreport.document.subjects.plan_values import SCHEMA
 from zlmreport.evaluation.checks import position_in_words, readings_in_words
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, named
-from zlmreport.language.formatting import write_fixed_number, write_percentage, write_stated_number
+from zlmreport.language.formatting import (
+    write_fixed_number,
+    write_general_number,
+    write_percentage,
+    write_stated_number,
+)
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import with_unit, write_behind
+from zlmreport.measurement.units import MILLIMETRE, with_unit, write_behind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Shape, find_unit_of
+from zlmreport.model.planning.circle_path import SENSES, CirclePath
 from zlmreport.model.planning.methods import Method, Visit
 from zlmreport.model.planning.plan import ASSUMPTION
 from zlmreport.model.planning.planned_test import PlannedTest
@@ -43,7 +53,6 @@ _HALF_SEEN = Words(
     "check: all targets lie at two phases of {period}: of what repeats with it, a part stays hidden that "
     "no share below counts; choose targets with a random fraction"
 )
-_VISITS = Words("Visits")
 _METHOD = Words("{method} method{assumed}")
 _ASSUMED = Words(" (assumed)")
 _SEQUENCES = {
@@ -64,23 +73,16 @@ _ASKED = Words("What the standards ask")
 _MET = Words("met: {standard}")
 _NOT_MET = Words("not met: {standard}: {requirement}: {found}")
 _SEEN = Words("What this plan can see beside {model}{assumed}")
-_NO_EFFECT = Words("nothing")
-_LOG_NEEDED = Words("needs a log")
 _IF = Words("if single readings scatter by {scatter} (standard deviation{assumed}), and {rise}")
-_SCATTER_ASSUMED = Words(", assumed")
 _HIDDEN = Words("What it cannot see")
 _SHARE = Words("{share} % visible")
 _THEN = Words("{shares}, then {share} %")
 _HARDLY = Words("{shares}; found only from {size}, hardly plausible")
-_NO_REMEDY = Words("no other targets or sequence that were tried would show")
 _REMEDY = Words("{reason}; {advice}")
 _NEEDS_LOG = Words("cannot be tried without the logged column {columns}")
-_UNTRIED = Words("cannot be tried")
-_LOGS = Words("What to log beside the readings")
 _TIME = Words("time: else the number of the reading stands for it ({effects})")
 _TO_TELL = Words("{columns}: to be able to tell {effects}")
 _PARAMETER = Words("{name} {size}{unit}")
-_RMS = Words("{size} rms")
 
 
 def say_size_of_plan(planned: PlannedTest) -> Words:
@@ -92,10 +94,10 @@ def say_size_of_plan(planned: PlannedTest) -> Words:
 def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[Section, ...]:
     """Return what is said of a plan: ``targets``, ``visits``, ``asked``, ``seen``, ``hidden``, ``logs``."""
     said = _Plan(job, planned, language)
-    model = " + ".join(planned.model.identifiers) or said.say(_NO_EFFECT)
+    model = " + ".join(planned.model.identifiers) or said.say(Words("nothing"))
     sections = (
         Section("targets", said.say(_TARGETS), tuple(said.lay_out_targets())),
-        Section("visits", said.say(_VISITS), tuple(said.lay_out_visits())),
+        Section("visits", said.say(Words("Visits")), tuple(said.lay_out_visits())),
         Section("asked", said.say(_ASKED), tuple(said.lay_out_requirements())),
         Section(
             "seen",
@@ -103,7 +105,7 @@ def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[S
             tuple(said.lay_out_seen()),
         ),
         Section("hidden", said.say(_HIDDEN), tuple(said.lay_out_hidden())),
-        Section("logs", said.say(_LOGS), tuple(said.lay_out_logs())),
+        Section("logs", said.say(Words("What to log beside the readings")), tuple(said.lay_out_logs())),
     )
     return tuple(each for each in sections if each.blocks)
 
@@ -183,7 +185,7 @@ class _Plan:
                 each.effect.identifier,
                 self.write_percent(each.visibility.share),
                 self.say(self.say_smallest(each)),
-                self.say(_LOG_NEEDED) if each.logs else "",
+                self.say(Words("needs a log")) if each.logs else "",
             )
             for each in self.planned.seen_effects
             if each.sight is Sight.VISIBLE
@@ -198,7 +200,7 @@ class _Plan:
         expected, assumed = self.planned.proposal.expected, self.planned.proposal.assumed
         words = _IF.given(
             scatter=wording.deviation(self.axis, expected.sigma),
-            assumed=_SCATTER_ASSUMED if "plan.repeatability" in assumed else "",
+            assumed=Words(", assumed") if "plan.repeatability" in assumed else "",
             rise=ASSUMPTION.given(rise=expected.temperature_change),
         )
         yield Paragraph(self.say(words))
@@ -231,7 +233,7 @@ class _Plan:
         unexpected = [column for column in seen.logs if column not in self.planned.design.conditions]
         if unexpected:
             return _NEEDS_LOG.given(columns=", ".join(unexpected))
-        return seen.visibility.reason or _UNTRIED
+        return seen.visibility.reason or Words("cannot be tried")
 
     def lay_out_logs(self) -> Iterator[Block]:
         timed = [
@@ -251,7 +253,7 @@ class _Plan:
         """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
         seen = found.visibility
         if seen.smallest is None:
-            return _RMS.given(size=wording.deviation(self.axis, seen.smallest_rms))
+            return Words("{size} rms").given(size=wording.deviation(self.axis, seen.smallest_rms))
         parameter, value = seen.smallest
         unit = find_unit_of(parameter.dimension, self.axis.kind)
         size = write_significant(value * unit.per_si, 2)
@@ -263,7 +265,7 @@ class _Plan:
 
 def _say_what_to_do(remedy: Remedy | None) -> Words:
     if remedy is None:
-        return _NO_REMEDY
+        return Words("no other targets or sequence that were tried would show")
     return _REMEDY.given(reason=remedy.reason, advice=remedy.advice) if remedy.reason else remedy.advice
 
 
@@ -283,3 +285,117 @@ def _join_stretches(visits: Sequence[Visit]) -> Iterator[str]:
 def _is_going_on(one: Visit, other: Visit) -> bool:
     step = other.target - one.target
     return one.run == other.run and one.approach is other.approach and step == int(one.approach)
+
+
+_DIGITS = 3
+_SIZE_OF_ONE = Words("1 turn of radius {radius} mm")
+_SIZE = Words("{count} turns of radius {radius} mm")
+_PATH = Words("Path")
+_ROUND = Words(
+    "evaluated from {first} to {last}°, +{from_axis} towards +{to_axis}, counter-clockwise and back clockwise"
+)
+_RUNS = Words("{runs} in each sense{assumed}")
+_BESIDE = Words(
+    "{arc}° of the circle before and behind it; the tool comes up from {run_up} mm outside, and rests "
+    "{rest} s between two turns"
+)
+_SLOWER = Words(
+    "a control that allows less acceleration runs slower than it is told; the readings then tell their "
+    "own time"
+)
+_SOURCE = Words("source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}")
+
+
+def say_size_of_circle(path: CirclePath) -> Words:
+    """Return how many turns a test has, and of which radius."""
+    turns = len(path.turns)
+    return (_SIZE if turns != 1 else _SIZE_OF_ONE).given(count=turns, radius=path.radius)
+
+
+def lay_out_circle_plan(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:
+    """Return what is said of the path of a circular test: ``path``, ``feeds``, ``reading``.
+
+    `paths`: One for each feed.
+    """
+
+    def say(words: Words) -> str:
+        return words.in_language(language)
+
+    arc = write_stated_number(paths[0].turns[0].arc)
+    return (
+        Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _describe_path(job, paths[0]))),
+        Section("feeds", say(Words("Feeds")), tuple(_lay_out_feeds(paths, language))),
+        Section("reading", say(Words("To read the circle")), (Paragraph(say(_SOURCE.given(arc=arc))),)),
+    )
+
+
+def _describe_path(job: Job, path: CirclePath) -> Iterator[Words]:
+    turn = path.turns[0]
+    first, last = sorted((turn.first, turn.last))
+    from_axis, to_axis = path.circle.axes
+    yield _ROUND.given(first=first, last=last, from_axis=from_axis, to_axis=to_axis)
+    runs = len({each.run for each in path.turns})
+    yield _RUNS.given(runs=runs, assumed="" if job.keys.plan.runs else _ASSUMED)
+    yield _BESIDE.given(arc=turn.arc, run_up=path.run_up, rest=path.rest)
+
+
+def _lay_out_feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
+    columns = (
+        Column("", "mm/min", Align.RIGHT),
+        Column(Words("turn").in_language(language), "s", Align.RIGHT),
+        Column(Words("test").in_language(language), "min", Align.RIGHT),
+        Column(Words("acceleration").in_language(language), "m/s²", Align.RIGHT),
+    )
+    sign = language.decimal_sign
+    rows = tuple(
+        tuple(
+            write_general_number(float(f"{value:.{_DIGITS}g}"), sign)
+            for value in (path.feed, _compute_time_of_turn(path), path.duration / _MINUTE, path.acceleration)
+        )
+        for path in paths
+    )
+    yield Table("", columns, (RowGroup(rows),))
+    yield Paragraph(_SLOWER.in_language(language))
+
+
+def _compute_time_of_turn(path: CirclePath) -> float:
+    """Return the time of what is evaluated of a turn, s."""
+    turn = path.turns[0]
+    return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * _MINUTE
+
+
+def collect_circle_plan(job: Job, paths: Sequence[CirclePath], written: Sequence[Path]) -> dict[str, Any]:
+    """Return the path of a circular test as plain values for JSON; positions in mm, angles in degrees."""
+    path = paths[0]
+    return {
+        "schema": SCHEMA,
+        "certificate": {"number": job.keys.certificate.number},
+        "circle": {
+            "plane": path.circle.plane,
+            "radius": path.radius,
+            "centre": [MILLIMETRE.from_si(each) for each in path.circle.centre],
+        },
+        "units": {"position": "mm", "angle": "deg", "time": "s"},
+        "run_up": path.run_up,
+        "rest": path.rest,
+        "turns": [
+            {
+                "sense": SENSES[turn.sense],
+                "run": turn.run,
+                "first": turn.first,
+                "last": turn.last,
+                "arc": turn.arc,
+            }
+            for turn in path.turns
+        ],
+        "feeds": [
+            {
+                "feed_per_minute": each.feed,
+                "duration": each.duration,
+                "acceleration": each.acceleration,
+            }
+            for each in paths
+        ],
+        "assumed": [] if job.keys.plan.runs else ["plan.runs"],
+        "files": [str(each) for each in written],
+    }

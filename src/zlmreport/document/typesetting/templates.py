@@ -15,14 +15,7 @@ from math import inf
 from typing import ClassVar, TypeAlias
 from xml.etree import ElementTree as ET
 
-from jinja2 import (
-    ChoiceLoader,
-    DictLoader,
-    PackageLoader,
-    PrefixLoader,
-    StrictUndefined,
-    TemplateError,
-)
+from jinja2 import ChoiceLoader, DictLoader, PackageLoader, PrefixLoader, StrictUndefined, TemplateError
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 

@@ -58,13 +58,10 @@ def compute_dead_path_error(index: FloatArray, index_at_datum: float, dead_path:
 
 _AIR = Words("Refractive index of air")
 _AIR_METHOD = Words("updated Edlén equation (Birch and Downs 1993, 1994); D·nₐ/n")
-_AIR_INPUTS = Words("n from {low} to {high}; the instrument assumed {assumed}")
 _DEAD_PATH = Words("Dead path")
 _DEAD_PATH_METHOD = Words("change of the index since the first reading; Dp·(n − n₀)/n")
-_DEAD_PATH_INPUTS = Words("Dp = {length} mm")
 _MATERIAL = Words("Thermal expansion, to 20 °C")
 _MATERIAL_METHOD = Words("D·(1 − α·(T − 20 °C))")
-_MATERIAL_INPUTS = Words("α = {alpha} µm/(m·K), T − 20 °C from {low} to {high} K")
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +119,7 @@ def correct(measurements: MeasurementSet, corrections: Corrections) -> Measureme
 
 def _correct_for_air(displayed: FloatArray, air: Air) -> tuple[FloatArray, Correction]:
     displacement = correct_displacement_in_air(displayed, air.index, air.assumed_index)
-    inputs = _AIR_INPUTS.given(
+    inputs = Words("n from {low} to {high}; the instrument assumed {assumed}").given(
         low=number_words(float(air.index.min()), 8),
         high=number_words(float(air.index.max()), 8),
         assumed=number_words(float(air.assumed_index), 8),
@@ -132,7 +129,7 @@ def _correct_for_air(displayed: FloatArray, air: Air) -> tuple[FloatArray, Corre
 
 def _correct_dead_path(displacement: FloatArray, air: Air, dead_path: float) -> tuple[FloatArray, Correction]:
     error = compute_dead_path_error(air.index, float(air.index[0]), dead_path)
-    inputs = _DEAD_PATH_INPUTS.given(length=1e3 * abs(dead_path))
+    inputs = Words("Dp = {length} mm").given(length=1e3 * abs(dead_path))
     return displacement - error, Correction(_DEAD_PATH, _DEAD_PATH_METHOD, inputs, _find_largest(error))
 
 
@@ -141,7 +138,7 @@ def _correct_to_20_degrees(
 ) -> tuple[FloatArray, Correction]:
     difference = compute_above_reference(expansion.temperature)
     change = -displacement * expansion.coefficient * difference
-    inputs = _MATERIAL_INPUTS.given(
+    inputs = Words("α = {alpha} µm/(m·K), T − 20 °C from {low} to {high} K").given(
         alpha=1e6 * expansion.coefficient, low=float(difference.min()), high=float(difference.max())
     )
     return displacement + change, Correction(_MATERIAL, _MATERIAL_METHOD, inputs, _find_largest(change))

@@ -40,16 +40,11 @@ from zlmreport.measurement.units import METRE, MICROMETRE, REFERENCE_TEMPERATURE
 _STEP = 1e-4
 #: Range of the equation's own error: over the air of a workshop it agrees with Ciddor's to 2 parts in 10⁸.
 _EQUATION_RANGE = 4e-8
-_EQUATION = Words("Equation of the refractive index")
-_EQUATION_STATED = Words("R = {range} µm/m")
-_EQUATION_SOURCE = Words("updated Edlén equation against Ciddor's")
 _SOURCE = Words("sensitivity of the updated Edlén equation, {sensitivity} µm/m per {unit}, at L = {length}")
 
 
 #: The state of the air in which an instrument that does not look at it is right.
 _STANDARD_AIR = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
-_UNCOMPENSATED = Words("Refractive index of the air, not compensated")
-_UNCOMPENSATED_STATED = Words("Δn·L = {size} µm")
 _UNCOMPENSATED_SOURCE = Words(
     "of known size: n = {index} by the updated Edlén equation, where the instrument is taken to "
     "have assumed {assumed} (20 °C, 1013.25 hPa, 50 %); L = {length}"
@@ -88,9 +83,9 @@ def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownErro
     length = float(targets[-1] - targets[0])
     at_end = float(correct_displacement_in_air(np.array(length), np.array(np.mean(index)), assumed)) - length
     yield KnownError(
-        name=_UNCOMPENSATED,
+        name=Words("Refractive index of the air, not compensated"),
         correction=correction,
-        stated=_UNCOMPENSATED_STATED.given(size=float(f"{abs(MICROMETRE.from_si(at_end)):.3g}")),
+        stated=Words("Δn·L = {size} µm").given(size=float(f"{abs(MICROMETRE.from_si(at_end)):.3g}")),
         source=_UNCOMPENSATED_SOURCE.given(
             index=number_words(float(np.mean(index)), 7),
             assumed=number_words(assumed, 7),
@@ -143,12 +138,12 @@ def list_air_contributions(job: Job, measurements: MeasurementSet, length: float
     if not (by_program or is_blind):
         return
     yield Contribution(
-        name=_EQUATION,
+        name=Words("Equation of the refractive index"),
         standard_uncertainty=from_range(_EQUATION_RANGE * length, Distribution.RECTANGULAR),
         acts=Acts.ALONG_THE_LENGTH,
         distribution=Distribution.RECTANGULAR,
-        stated=_EQUATION_STATED.given(range=1e6 * _EQUATION_RANGE),
-        source=_EQUATION_SOURCE,
+        stated=Words("R = {range} µm/m").given(range=1e6 * _EQUATION_RANGE),
+        source=Words("updated Edlén equation against Ciddor's"),
     )
 
 

@@ -1,4 +1,4 @@
-"""The uncertainty budget: contributions, distributions, coverage factor; misalignment and expansion.
+"""The uncertainty budget: contributions, distributions, coverage factor; those of lines joined.
 
 The formulas are those of the contributors that ISO/TR 230-9:2005 lists for ISO 230-2, in this project's own
 words; each takes a full range R of possible values, so that u = R/√12 (JCGM 100, 4.3.7). Lengths in m, angles
@@ -8,14 +8,14 @@ in rad.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any
 
 import numpy as np
 
-from zlmreport.language import Words
+from zlmreport.language import Words, named
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -315,3 +315,33 @@ def compute_effect_along(target_positions: FloatArray) -> FloatArray:
     distance = target_positions - target_positions[0]
     length = float(distance[-1])
     return np.asarray(distance / length) if length else distance
+
+
+def join_budgets(
+    budgets: Mapping[str, Budget | NoBudget],
+    brought: Iterable[Mapping[str, Sequence[Contribution]]] = (),
+    demanded: Iterable[str] = (),
+    negligible: Iterable[tuple[str, str]] = (),
+) -> Budget | NoBudget:
+    """Return the budget of an evaluation of several lines; none where one of them has none.
+
+    `budgets`: Of each line, by its name.
+    `brought`: What standards know of the errors of a line beside that, as that of the artefact that joins two
+        lines.
+    `demanded`: Contributors that the evaluation asks for, by their keys.
+    `negligible`: Contributors that the laboratory declares negligible, by their keys, each with its reason.
+    """
+    tests: dict[str, Budget] = {}
+    lacking = tuple(dict.fromkeys(each for of in budgets.values() for each in of.missing))
+    declared = dict(pair for of in budgets.values() for pair in of.negligible) | dict(negligible)
+    longer = None if any(of.uncorrected_expansion is None for of in budgets.values()) else 0.0
+    more = [each for of in brought for each in of.items()]
+    considered = {each.contributor for _, of in more for each in of} | declared.keys()
+    missing = (*lacking, *(each for each in demanded if each not in considered))
+    for name, of in budgets.items():
+        if isinstance(of, NoBudget):
+            return NoBudget(named(name, of.reason), missing, tuple(declared.items()), longer)
+        own = (*of.contributions, *(each for test, found in more if test == name for each in found))
+        ordered = tuple(each for acts in Acts for each in own if each.acts is acts)
+        tests[name] = replace(of, contributions=ordered)
+    return Budget((), missing, tuple(declared.items()), uncorrected_expansion=longer, tests=tests)

@@ -93,8 +93,6 @@ def add_uncertainty(
 def compute_mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     """Return U of x̄_i↑, x̄_i↓ and x̄_i, by the law of propagation (JCGM 100, 5.1).
 
-    Notes
-    -----
     u²(x̄_i↑) = u_L²·((P_i − P_1)/L)² + u_0² + u_P² + u_A² + u_E² + u_R²/n, with the sums of squares u_L²
     of the contributions along the length, u_0² at the datum, u_P² at each position or round a circle,
     u_A² at each approach and u_R² at each reading, and u_E² of what a drift leaves in the mean;

@@ -106,21 +106,14 @@ class _Draws:
 
 
 def propagate(
-    budget: Budget,
-    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
-    trials: int,
+    budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], trials: int
 ) -> tuple[Mapping[str, Expanded], ...]:
     """Return the expanded uncertainty of each parameter by its symbol, for each evaluation of one test.
 
-    Parameters
-    ----------
-    evaluations
-        Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
-    trials
-        Simulated tests; kinds of drift share them.
+    `evaluations`: Of one test, one at least, each with the arithmetic that takes it from statistics to
+        parameters.
+    `trials`: Simulated tests; kinds of drift share them.
 
-    Notes
-    -----
     U is half the width of the interval y ± U, about the value that the standard gives for the readings, which
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
@@ -283,9 +276,7 @@ def _add_known_changes(expanded: Expanded, known_error: float) -> Expanded:
     if not known_error:
         return expanded
     return replace(
-        expanded,
-        uncertainty=shorten(expanded.uncertainty + abs(known_error)),
-        known_error=known_error,
+        expanded, uncertainty=shorten(expanded.uncertainty + abs(known_error)), known_error=known_error
     )
 
 
@@ -314,11 +305,7 @@ def _measure_distances(
 
 
 def _simulate_statistics(
-    budget: Budget,
-    measurements: MeasurementSet,
-    ways: _Ways,
-    trials: int,
-    draws: _Draws,
+    budget: Budget, measurements: MeasurementSet, ways: _Ways, trials: int, draws: _Draws
 ) -> Iterator[tuple[PositionStatistics, PositionStatistics | None, int]]:
     """Yield the statistics of simulated tests, so many at a time, those of what was shown, and how many.
 

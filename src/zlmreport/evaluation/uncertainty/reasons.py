@@ -7,136 +7,24 @@ import re
 _WORD = re.compile(r"[^\W\d_]{2,}")
 #: A size that is not zero, with its unit: ``below 1 nm``.
 _SIZE = re.compile(r"[\d.,]*[1-9][\d.,]*\s*(?:[nµμum]?m|m?K|°C?|%|hPa|″|arcsec|mrad|µrad)(?!\w)")
+
+
+def _list_words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
 #: Words that say of themselves nothing about why a contributor should be negligible.
-_EMPTY: frozenset[str] = frozenset(
-    {
-        "above",
-        "angabe",
-        "angaben",
-        "angegeben",
-        "any",
-        "applicable",
-        "are",
-        "as",
-        "aucun",
-        "auswirkung",
-        "because",
-        "bedeutung",
-        "beitrag",
-        "bekannt",
-        "below",
-        "benötigt",
-        "berücksichtigt",
-        "berücksichtigung",
-        "considered",
-        "contribution",
-        "das",
-        "der",
-        "die",
-        "does",
-        "effect",
-        "einfluss",
-        "entfaellt",
-        "entfällt",
-        "erforderlich",
-        "error",
-        "fehler",
-        "gegeben",
-        "gering",
-        "grund",
-        "ignored",
-        "ignoriert",
-        "impact",
-        "important",
-        "influence",
-        "insignificant",
-        "irrelevant",
-        "is",
-        "ist",
-        "it",
-        "its",
-        "ja",
-        "kein",
-        "keine",
-        "keinen",
-        "keiner",
-        "klein",
-        "known",
-        "later",
-        "leer",
-        "low",
-        "matter",
-        "matters",
-        "mm",
-        "na",
-        "needed",
-        "negligible",
-        "nein",
-        "nicht",
-        "nichts",
-        "nil",
-        "no",
-        "noetig",
-        "none",
-        "not",
-        "nothing",
-        "notwendig",
-        "nul",
-        "null",
-        "nötig",
-        "oben",
-        "ohne",
-        "ok",
-        "okay",
-        "present",
-        "reason",
-        "relevant",
-        "required",
-        "see",
-        "sehr",
-        "siehe",
-        "significant",
-        "sind",
-        "small",
-        "später",
-        "standard",
-        "stated",
-        "tba",
-        "tbd",
-        "test",
-        "the",
-        "there",
-        "this",
-        "todo",
-        "trivial",
-        "um",
-        "unbekannt",
-        "unimportant",
-        "unknown",
-        "unten",
-        "unwesentlich",
-        "unwichtig",
-        "usual",
-        "usually",
-        "vernachlaessigbar",
-        "vernachlässigbar",
-        "very",
-        "vorhanden",
-        "was",
-        "weil",
-        "wichtig",
-        "wie",
-        "wird",
-        "without",
-        "xx",
-        "xxx",
-        "yes",
-        "zero",
-        "zutreffend",
-        "µm",
-        "üblich",
-    }
-)
+_EMPTY: frozenset[str] = _list_words("""
+    above angabe angaben angegeben any applicable are as aucun auswirkung because bedeutung beitrag
+    bekannt below benötigt berücksichtigt berücksichtigung considered contribution das der die does effect
+    einfluss entfaellt entfällt erforderlich error fehler gegeben gering grund ignored ignoriert impact
+    important influence insignificant irrelevant is ist it its ja kein keine keinen keiner klein known
+    later leer low matter matters mm na needed negligible nein nicht nichts nil no noetig none not nothing
+    notwendig nul null nötig oben ohne ok okay present reason relevant required see sehr siehe significant
+    sind small später standard stated tba tbd test the there this todo trivial um unbekannt unimportant
+    unknown unten unwesentlich unwichtig usual usually vernachlaessigbar vernachlässigbar very vorhanden
+    was weil wichtig wie wird without xx xxx yes zero zutreffend µm üblich
+""")
 
 
 def says_something(reason: str) -> bool:
@@ -151,30 +39,10 @@ def says_something(reason: str) -> bool:
 
 
 #: Words that say of a document only that it is none, or none yet.
-_OF_NO_DOCUMENT: frozenset[str] = _EMPTY | {
-    "ausstehend",
-    "available",
-    "calibrated",
-    "calibration",
-    "certificate",
-    "fehlt",
-    "folgt",
-    "follows",
-    "kalibrierschein",
-    "kalibriert",
-    "kalibrierung",
-    "keines",
-    "liegt",
-    "missing",
-    "noch",
-    "pending",
-    "to",
-    "follow",
-    "verfügbar",
-    "vor",
-    "yet",
-    "zertifikat",
-}
+_OF_NO_DOCUMENT: frozenset[str] = _EMPTY | _list_words("""
+    ausstehend available calibrated calibration certificate fehlt folgt follows kalibrierschein kalibriert
+    kalibrierung keines liegt missing noch pending to follow verfügbar vor yet zertifikat
+""")
 
 
 def is_reference(text: str) -> bool:
@@ -188,42 +56,11 @@ def is_reference(text: str) -> bool:
 
 
 #: What stands where nobody has written anything yet, without its spaces and signs.
-_PLACEHOLDERS = frozenset(
-    {
-        "",
-        "ka",
-        "na",
-        "nb",
-        "nn",
-        "tba",
-        "tbc",
-        "tbd",
-        "todo",
-        "xx",
-        "xxx",
-        "xxxx",
-        "unknown",
-        "notapplicable",
-        "notavailable",
-        "notknown",
-        "notspecified",
-        "notstated",
-        "unbekannt",
-        "keineangabe",
-        "keineangaben",
-        "nichtangegeben",
-        "nichtbekannt",
-        "inconnu",
-        "inconnue",
-        "nonprécisé",
-        "sconosciuto",
-        "sconosciuta",
-        "nonspecificato",
-        "desconocido",
-        "desconocida",
-        "noespecificado",
-    }
-)
+_PLACEHOLDERS: frozenset[str] = frozenset({""}) | _list_words("""
+    ka na nb nn tba tbc tbd todo xx xxx xxxx unknown notapplicable notavailable notknown notspecified
+    notstated unbekannt keineangabe keineangaben nichtangegeben nichtbekannt inconnu inconnue nonprécisé
+    sconosciuto sconosciuta nonspecificato desconocido desconocida noespecificado
+""")
 #: Words by which something is said not to be there: no name, address or number.
 _NONE = frozenset({"no", "nil", "none", "nothing", "kein", "keine", "ohne", "aucun", "nessuno", "ninguno"})
 

@@ -9,7 +9,6 @@ of its own, and the first harmonic is taken off with the centre: what is left is
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from types import MappingProxyType
 
 import numpy as np
 
@@ -24,9 +23,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MICROMETRE
 
 #: Harmonics of the turn that an error smooth over the angle has.
-_HARMONICS: Mapping[Acts, tuple[int, ...]] = MappingProxyType(
-    {Acts.ROUND_THE_CIRCLE: (2, 3, 4), Acts.OFF_CENTRE: (1,)}
-)
+_HARMONICS: Mapping[Acts, tuple[int, ...]] = {Acts.ROUND_THE_CIRCLE: (2, 3, 4), Acts.OFF_CENTRE: (1,)}
 #: What a job must state of a circle whose radius counts.
 OF_A_RADIUS = (
     "calibrated_length",

@@ -39,8 +39,8 @@ from zlmreport.live.capture.motion import Programme, Route
 from zlmreport.live.capture.place import WORTH_SAYING, PlaceInProgram, TargetStandstill
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.standstill import Pace, Track, Window, expect_deviation
-from zlmreport.live.capture.stay import Stay
 from zlmreport.live.capture.stops import (
+    Stay,
     check_datum,
     find_target_around,
     is_plausible,

@@ -31,14 +31,17 @@ def _name_kind(kind: type) -> str:
     return _OTHER_NAMES.get(name, name)
 
 
-_NAMES: Mapping[type, str] = MappingProxyType(
-    {kind: _name_kind(kind) for kind in get_args(Event) if kind not in MOMENTARY}
-)
-_KINDS: Mapping[str, type] = MappingProxyType({name: kind for kind, name in _NAMES.items()})
+_NAMES: Mapping[type, str] = {kind: _name_kind(kind) for kind in get_args(Event) if kind not in MOMENTARY}
+_KINDS: Mapping[str, type] = {name: kind for kind, name in _NAMES.items()}
 #: Fields that a record leaves out where they say nothing, with what they are then.
-_UNSTATED: Mapping[str, Any] = MappingProxyType(
-    {"late": 0.0, "position": None, "mean": None, "expected": None, "factor": None, "drift": None}
-)
+_UNSTATED: Mapping[str, Any] = {
+    "late": 0.0,
+    "position": None,
+    "mean": None,
+    "expected": None,
+    "factor": None,
+    "drift": None,
+}
 
 
 def to_record(event: Event) -> Record:
@@ -67,7 +70,6 @@ def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Eve
 
 
 def _list_fields(kind: type) -> tuple[str, ...]:
-    """Return the names of a dataclass's fields."""
     return tuple(each.name for each in dataclasses.fields(kind))
 
 
@@ -122,32 +124,28 @@ def _read_list_of(name: str) -> _Reader:
     return lambda record, visits: _visit(record[name], visits)
 
 
-_READERS: Mapping[str, _Reader] = MappingProxyType(
-    {
-        **{name: _read_list_of(name) for name in ("visit", "first", "last")},
-        "candidates": lambda record, visits: tuple(
-            (_visit(number, visits), require_finite(odds)) for number, odds in record["candidates"]
-        ),
-        "void": lambda record, visits: tuple(_visit(number, visits) for number in record["void"]),
-        "mean": lambda record, _visits: _read_mean(record),
-        "approach": lambda record, _visits: (
-            None if record["approach"] is None else Approach(record["approach"])
-        ),
-        "holds": lambda record, _visits: bool(record["holds"]),
-        "target": lambda record, _visits: int(record["target"]),
-        "attempt": lambda record, _visits: int(record["attempt"]),
-        "message": lambda record, _visits: str(record["message"]),
-        "reason": lambda record, _visits: str(record["reason"]),
-        "text": lambda record, _visits: str(record["text"]),
-        **{
-            name: _read_number(name)
-            for name in (
-                *("position", "difference", "seconds", "silence", "spacing", "largest", "late", "expected"),
-                *("factor", "drift", "share"),
-            )
-        },
-    }
-)
+_READERS: Mapping[str, _Reader] = {
+    **{name: _read_list_of(name) for name in ("visit", "first", "last")},
+    "candidates": lambda record, visits: tuple(
+        (_visit(number, visits), require_finite(odds)) for number, odds in record["candidates"]
+    ),
+    "void": lambda record, visits: tuple(_visit(number, visits) for number in record["void"]),
+    "mean": lambda record, _visits: _read_mean(record),
+    "approach": lambda record, _visits: None if record["approach"] is None else Approach(record["approach"]),
+    "holds": lambda record, _visits: bool(record["holds"]),
+    "target": lambda record, _visits: int(record["target"]),
+    "attempt": lambda record, _visits: int(record["attempt"]),
+    "message": lambda record, _visits: str(record["message"]),
+    "reason": lambda record, _visits: str(record["reason"]),
+    "text": lambda record, _visits: str(record["text"]),
+    **{
+        name: _read_number(name)
+        for name in (
+            *("position", "difference", "seconds", "silence", "spacing", "largest", "late", "expected"),
+            *("factor", "drift", "share"),
+        )
+    },
+}
 
 
 SCHEMA = "zlmreport/journal/1"

@@ -73,7 +73,6 @@ STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(
 
 
 def _give_standard_conditions(_time: float) -> Mapping[str, float]:
-    """Return `STANDARD_CONDITIONS`, at any time."""
     return STANDARD_CONDITIONS
 
 

@@ -12,13 +12,7 @@ from zlmreport.language import Words, list_alternatives, list_in_words, same
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import MachineModel, find_unit_of
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
-from zlmreport.machines.volume import (
-    VolumeMap,
-    find_measured_space,
-    is_parted,
-    map_volume,
-    predict_diagonals,
-)
+from zlmreport.machines.volume import VolumeMap, find_measured_space, is_parted, map_volume, predict_diagonals
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
 

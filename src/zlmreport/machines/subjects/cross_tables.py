@@ -14,7 +14,7 @@ from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import CrossForecast, forecast, plan_worthwhile
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
-from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
 #: A part of tables is told to no more than this.
@@ -98,7 +98,7 @@ def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
         at=say.write_millimetres(middle),
         peak=say.write_micrometres(peak),
     )
-    return Section("trial", say(_TRIAL_TITLE), (Paragraph(say(said)),))
+    return Section("trial", say(Words("A trial value")), (Paragraph(say(said)),))
 
 
 def _lay_out_forecast(found: CrossForecast, say: Sayer) -> Section:
@@ -173,7 +173,6 @@ _STATED = {
 _CHECK = Words(
     "Load, and measure one line or circle again: the error must shrink. If it doubles, the sign is wrong."
 )
-_TRIAL_TITLE = Words("A trial value")
 _TRIAL = Words(
     "The file holds nothing of the machine: only +{peak} µm for {output} at {input} {at} mm, and zero at "
     "both ends. Load it with the axes clear, set an indicator against {output}, and move {input} from {low} "

@@ -1,4 +1,4 @@
-"""A diagnosis of a machine as people read it: verdict, what may be missing, what is not, values."""
+"""A diagnosis of a machine as people read it: verdict, what is missing or not, values, next run."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.subjects.diagnosis import CANDIDATES, MARKS, VERDICT
 from zlmreport.language import Words, list_alternatives, list_in_words, named
+from zlmreport.language.formatting import write_percentage
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
@@ -57,7 +58,7 @@ def say_verdict_after_build(diagnosis: MachineDiagnosis) -> Words:
         left = diagnosis.remainder
         return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
     if diagnosis.is_tied and diagnosis.found:
-        return _STILL_TIED
+        return Words("Something is still missing: this plan cannot tell what, so nothing more is named.")
     return say_verdict(diagnosis) if diagnosis.is_tied else _ADEQUATE
 
 
@@ -174,7 +175,7 @@ def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | Non
         note = "" if each.is_plausible else say(_IMPOSSIBLE)
         if each.indistinguishable_from:
             equals = [say(titles[name]) for name in each.indistinguishable_from]
-            note = say(_EQUALS.given(effects=", ".join(equals)))
+            note = say(Words("not to be told from {effects}").given(effects=", ".join(equals)))
         rows.append(
             (
                 say.explain_effect(each.effect),
@@ -273,7 +274,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
         first_run = planned.proposals[0]
         return _NEXT_RUN.given(run=first_run.what, number=round(first_run.minutes))
     if diagnosis.verdict is DiagnosisVerdict.ADEQUATE:
-        return _NEXT_DOCUMENT
+        return Words("Next: nothing is missing; write the document.")
     return _NEXT_LOOK
 
 
@@ -292,7 +293,6 @@ _NEXT_RUN = Words(
     "Next: run {run}, {number} minute; then one of them can be named.",
     plural="Next: run {run}, {number} minutes; then one of them can be named.",
 )
-_NEXT_DOCUMENT = Words("Next: nothing is missing; write the document.")
 _NEXT_LOOK = Words(
     "Next: repeat the run. If it comes again, look at the machine where the residual stands out: no "
     "effect of the catalogue has its shape."
@@ -300,7 +300,6 @@ _NEXT_LOOK = Words(
 _ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
 _MISSING = Words("Missing: {effects}.")
 _TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.")
-_STILL_TIED = Words("Something is still missing: this plan cannot tell what, so nothing more is named.")
 _UNEXPLAINED = Words("Something is left that no effect explains: {shape}, root mean square {size} µm.")
 _BESIDE = Words("Beside it something without a name is left: {shape}, root mean square {size} µm.")
 _TWO = Words("{one} {other}")
@@ -312,7 +311,6 @@ _NOT_FOUND = Words("Looked for and, beside all that, not found")
 _EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
 _EVIDENCE, _RMS_AFTER = Words("evidence"), Words("RMS after", context="machine")
 _IMPOSSIBLE = Words("impossible values")
-_EQUALS = Words("not to be told from {effects}")
 _TELL_APART = Words("To tell them apart: {how}.")
 _MODEL = Words("Effects of drives and structure")
 _PARAMETERS = Words("Parameters of the effects")
@@ -327,3 +325,47 @@ _CHANGE = Words(
     "from {before} µm to {after} µm; the noise is {noise} µm."
 )
 _NONE = Words("none")
+
+
+def lay_out_plan(found: NextRun, say: Sayer) -> Section:
+    """Return what is to be decided, the runs that do, and what these circles can see."""
+    between = [each.title for each in found.between]
+    heading = _NOTHING
+    if between:
+        heading = Words("To tell {effects} apart:").given(effects=list_in_words(between))
+    runs: list[tuple[Cell, ...]] = [
+        (
+            say(each.what),
+            say.write_number(each.minutes, 0),
+            write_percentage(each.decides, say.language.decimal_sign) if between else "",
+        )
+        for each in found.proposals
+    ]
+    blocks: list[Block] = [Paragraph(say(heading))]
+    columns = (Column(say(_RUN)), make_right_column(say(_MINUTES)), make_right_column(say(_DECIDES), "%"))
+    blocks.append(make_plain_table(say(_NEXT), columns, runs))
+    sizes: list[tuple[Cell, ...]] = [
+        (
+            each.effect,
+            say(each.title),
+            say.write_general(float(f"{each.unit.from_si(each.size):.2g}")),
+            each.unit.symbol,
+        )
+        for each in found.visible
+    ]
+    headings = (
+        Column(say(_EFFECT)),
+        Column(say(_PARAMETER)),
+        make_right_column(say(_SIZE)),
+        Column(say(_UNIT)),
+    )
+    blocks += [Paragraph(say(_VISIBLE)), make_plain_table(say(_VISIBLE), headings, sizes)]
+    return Section("plan", say(_NEXT), tuple(blocks))
+
+
+_NEXT = Words("The next run")
+_NOTHING = Words("Nothing is to be decided; runs that would add to this:")
+_RUN, _MINUTES = Words("run"), Words("minutes")
+_DECIDES = Words("decides")
+_VISIBLE = Words("Smallest size that these circles show half of the time:")
+_SIZE, _UNIT = Words("Size"), Words("Unit")

@@ -6,17 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.document.blocks import (
-    Block,
-    Cell,
-    Column,
-    Graph,
-    Notice,
-    Paragraph,
-    Section,
-    Symbol,
-    Table,
-)
+from zlmreport.document.blocks import Block, Cell, Column, Graph, Notice, Paragraph, Section, Symbol, Table
 from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.language import Words, named
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
@@ -125,7 +115,7 @@ def make_failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | N
         for each in tests
         for stretch in each.fails[:_MOST_STRETCHES]
     )
-    return Notice(say(_FAILS), items) if items else None
+    return Notice(say(Words("Where it differs from the prediction")), items) if items else None
 
 
 def _say_of_test(found: ComparedTest, stretch: Stretch, *, is_one: bool) -> Words:
@@ -142,8 +132,8 @@ def describe_stretch(stretch: Stretch, *, is_circle: bool) -> Words:
     size = float(f"{MICROMETRE.from_si(stretch.largest):.2g}")
     if not is_circle:
         way = _WAYS.get(int(stretch.sense), "")
-        return _OFF_LINE.given(places=places, way=way, size=size)
-    return _OFF_CIRCLE.given(
+        return Words("{way} {places} mm: {size} µm").given(places=places, way=way, size=size)
+    return Words("{sense} from {begin}° to {end}° ({places} mm): {size} µm").given(
         sense=_SENSES[int(stretch.sense)],
         begin=round(float(np.degrees(stretch.begin))),
         end=round(float(np.degrees(stretch.end))),
@@ -257,19 +247,10 @@ _OUTSIDE = Words(
     "{share} % of it lies beyond what was measured of the axes; the end values stand there, and nothing "
     "is extrapolated"
 )
-_FAILS = Words("Where it differs from the prediction")
-_SENSES = {
-    1: Words("counter-clockwise", context="adverb"),
-    -1: Words("clockwise", context="adverb"),
-}
-_OFF_CIRCLE = Words("{sense} from {begin}° to {end}° ({places} mm): {size} µm")
-_OFF_LINE = Words("{way} {places} mm: {size} µm")
+_SENSES = {1: Words("counter-clockwise", context="adverb"), -1: Words("clockwise", context="adverb")}
 _CIRCLE_TITLE = Words("{test}: {what}; dashed, with ∑: what the axes predict")
 _CIRCLE_SEEN = Words("Range measured {measured} µm, predicted {predicted} µm, left {left} µm.")
 _ANGLE, _RADIAL = Words("Angle"), Words("Radial deviation")
-_PLACE, _DEVIATION = (
-    Words("Place on the line"),
-    Words("Deviation"),
-)
+_PLACE, _DEVIATION = (Words("Place on the line"), Words("Deviation"))
 _BOTH = Words("measured and predicted")
 _WHAT_IS_LEFT = Words("left")

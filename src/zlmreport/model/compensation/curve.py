@@ -1,4 +1,4 @@
-"""The mean deviations that a table is to take away, and the table itself on its grid.
+"""The mean deviations that a table is to take away, and the table itself on its grid; tables across axes.
 
 One sign for all: e = actual − nominal. A controller turns it where it has to, and nowhere else.
 """
@@ -111,3 +111,30 @@ def make_table_of(
         for each, direction in zip(deviations, (1.0, -1.0), strict=True)
     )
     return CompensationTable(axis, number, read_only_floats(rows), forward, reverse, place)
+
+
+@dataclass(frozen=True, slots=True)
+class CrossTable:
+    """What an axis is off, over the position of another.
+
+    Attributes
+    ----------
+    input, output
+        The axis that moves, and the one that is off and is moved aside.
+    positions : (g,) array
+        Of the input axis, equally far apart, rising, m.
+    values : (g,) array
+        The deviation e = actual − nominal of the output axis there, m: zero at the first row.
+    slope
+        What of it is squareness: e grows so much along the input axis, rad.
+    """
+
+    input: str
+    output: str
+    positions: FloatArray
+    values: FloatArray
+    slope: float
+
+    def at(self, positions: FloatArray) -> FloatArray:
+        """Return what is taken away at some positions, m: linear between rows, the end value outside."""
+        return np.asarray(np.interp(positions, self.positions, self.values), dtype=np.float64)

@@ -1,12 +1,15 @@
-"""An effect that a formula defines: parameters, forms, what it needs of test and job, what is said of it."""
+"""An effect that a formula defines: parameters, forms, job keys, what it needs of test and job, its words."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from functools import cache
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import AfterValidator, Field, create_model
 
 from zlmreport.job.formula import Call, Number, Tree, compute, find_calls_in, find_names_in, parse_formula
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys, FormulaParameter, Search
@@ -37,7 +40,6 @@ from zlmreport.model.effects.effect import (
     needs_targets,
     needs_whole_period,
 )
-from zlmreport.model.effects.formula_settings import OTHER, list_tried_settings, make_options_of
 from zlmreport.model.effects.harmonic import make_harmonic_parameters
 from zlmreport.model.effects.readings import LOGS_OF_AIR, collect_readings_of, find_logged_rise
 from zlmreport.model.effects.searching import COUNTED, NOT_REFINED, choose_values_of, search_grid
@@ -66,17 +68,11 @@ class FormulaEffect(Effect):
 
     Raises `FormulaError` if it cannot be meant for an axis of this kind.
 
-    Parameters
-    ----------
-    keys
-        What the file says of it.
-    kind
-        Of the axis; without it the effect is for every kind whose units its parameters have, and those of a
-        linear axis stand for their like on a rotary one.
-    settings
-        The values of its job keys in this form of it.
-    number
-        For which time it stands in a model.
+    `keys`: What the file says of it.
+    `kind`: Of the axis; without it the effect is for every kind whose units its parameters have, and those of
+        a linear axis stand for their like on a rotary one.
+    `settings`: The values of its job keys in this form of it.
+    `number`: For which time it stands in a model.
     """
 
     def __init__(
@@ -380,3 +376,65 @@ def _find_shortest(along: Design, values: list[FloatArray]) -> float:
     with np.errstate(all="ignore"):
         slopes = np.abs(np.diff(np.array(values)) / np.diff(along.position)) if values else np.zeros(1)
         return float(1.0 / slopes[np.isfinite(slopes)].max(initial=0.0))
+
+
+#: Values of a key of `Instead`.
+STATED, OTHER = "stated", "other"
+_WHOLE_NUMBER = re.compile("-?[0-9]{1,9}")
+
+
+def _require_distinct(orders: tuple[int, ...]) -> tuple[int, ...]:
+    if len(set(orders)) < len(orders):
+        raise ValueError("a harmonic stands there twice; each is named once, as in [1, 2]")
+    return orders
+
+
+_ORDERS: Any = Annotated[tuple[Annotated[int, Field(ge=1, le=4)], ...], AfterValidator(_require_distinct)]
+
+
+@cache
+def _made(
+    usual: tuple[int, ...], chosen: tuple[tuple[str, str, tuple[str | int, ...]], ...]
+) -> type[Options]:
+    """Return the model of keys: of harmonics, and of choices by name, description and values."""
+    fields: dict[str, Any] = {}
+    if usual:
+        description = "Harmonics of the period, 1 to 4: 1 is once a period."
+        fields["harmonics"] = (_ORDERS, Field(usual, min_length=1, description=description))
+    for name, described, values in chosen:
+        fields[name] = (Literal[values], Field(values[0], description=described))
+    return create_model("FormOptions", __base__=Options, **fields) if fields else Options
+
+
+def make_options_of(keys: FormulaKeys) -> type[Options]:
+    """Return the job keys of an effect beside its parameters, the usual form being that which names none."""
+    chosen: list[tuple[str, str, tuple[str | int, ...]]] = [
+        (each.name, each.description, tuple(map(_read_value, each.choices))) for each in keys.keys
+    ]
+    chosen.extend(
+        (each.instead.key, each.instead.description, (STATED, OTHER))
+        for each in keys.parameters.values()
+        if each.instead
+    )
+    return _made(keys.harmonics.usual if keys.harmonics else (), tuple(chosen))
+
+
+def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[Options]:
+    """Yield the settings of the forms that a diagnosis tries: one key at a time, the others being usual."""
+    if keys.harmonics:
+        for orders in keys.harmonics.tried:
+            yield options.model_validate({"harmonics": orders})
+    else:
+        yield options()
+    for key in keys.keys:
+        for choice in list(key.choices)[1:]:  # the first is the usual form
+            yield options.model_validate({key.name: _read_value(choice)})
+    for each in keys.parameters.values():
+        if each.instead:
+            plainest = {"harmonics": (1,)} if keys.harmonics else {}
+            yield options.model_validate({**plainest, each.instead.key: OTHER})
+
+
+def _read_value(text: str) -> str | int:
+    """Return the value of a key as a job has it: a whole number where it is written like one."""
+    return int(text) if _WHOLE_NUMBER.fullmatch(text) else text

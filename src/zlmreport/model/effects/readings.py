@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from types import MappingProxyType
 from typing import cast
 
 import numpy as np
@@ -67,22 +66,20 @@ def _compute_index_change(design: Design) -> FloatArray:
     return index_change(temperature, pressure, humidity)
 
 
-_OF_DESIGN: Mapping[str, Callable[[Design], FloatArray | float]] = MappingProxyType(
-    {
-        "P": lambda design: design.position,
-        "D": lambda design: design.direction,
-        "t": lambda design: design.time,
-        "run": lambda design: design.run.astype(np.float64),
-        "since_reversal": lambda design: design.since_reversal,
-        "middle": lambda design: design.middle,
-        "half_travel": lambda design: design.length / 2,
-        "travel_first": lambda design: (design.axis.travel or design.span)[0],
-        "travel_last": lambda design: (design.axis.travel or design.span)[1],
-        "turn": lambda _: 2 * np.pi,
-        "air_index": _compute_index_change,
-        "compensation": lambda design: _read_compensation(design, 0),
-        "compensation_next": lambda design: _read_compensation(design, 1),
-        "compensation_before": lambda design: _read_compensation(design, -1),
-        "angular_error": lambda design: cast("PositionTable", design.axis.angular_errors).at(design.position),
-    }
-)
+_OF_DESIGN: Mapping[str, Callable[[Design], FloatArray | float]] = {
+    "P": lambda design: design.position,
+    "D": lambda design: design.direction,
+    "t": lambda design: design.time,
+    "run": lambda design: design.run.astype(np.float64),
+    "since_reversal": lambda design: design.since_reversal,
+    "middle": lambda design: design.middle,
+    "half_travel": lambda design: design.length / 2,
+    "travel_first": lambda design: (design.axis.travel or design.span)[0],
+    "travel_last": lambda design: (design.axis.travel or design.span)[1],
+    "turn": lambda _: 2 * np.pi,
+    "air_index": _compute_index_change,
+    "compensation": lambda design: _read_compensation(design, 0),
+    "compensation_next": lambda design: _read_compensation(design, 1),
+    "compensation_before": lambda design: _read_compensation(design, -1),
+    "angular_error": lambda design: cast("PositionTable", design.axis.angular_errors).at(design.position),
+}

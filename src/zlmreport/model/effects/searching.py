@@ -137,27 +137,25 @@ def _list_fixed_points(design: Design) -> FloatArray:
     return np.asarray(places[np.abs(places) > _AT_ZERO * design.length], dtype=np.float64)
 
 
-_WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
-    {
-        Search.FADING_LENGTH: lambda design: design.length * _FADING,
-        Search.TIME_CONSTANT: lambda design: design.duration * _WARMING,
-        Search.DRIFT_TIME: lambda design: design.duration * _DRIFTING,
-        Search.WAVE_LENGTH: _list_waves_along,
-        Search.WAVE_TIME: _list_waves_in_time,
-        Search.JOINT: _list_gaps,
-        Search.MOMENT: _list_moments,
-        Search.KINK: lambda design: design.middle + _KINKS * design.length,
-        Search.WHOLE_NUMBER: _list_teeth,
-        Search.RUN: lambda design: np.unique(design.run)[1:].astype(np.float64),
-        Search.PAUSE: list_moments_after_pauses,
-        Search.PLACE: lambda design: design.middle + _PLACES * design.length,
-        Search.WIDTH: lambda design: design.length * _WIDTHS,
-        Search.PEAK: lambda design: float(design.time.min()) + (_PLACES + 0.5) * design.duration,
-        Search.SPELL: lambda design: design.duration * _SPELLS,
-        Search.LAG: lambda design: design.duration * _LAGS,
-        Search.FIXED_POINT: _list_fixed_points,
-    }
-)
+_WAYS: Mapping[Search, Callable[[Design], FloatArray]] = {
+    Search.FADING_LENGTH: lambda design: design.length * _FADING,
+    Search.TIME_CONSTANT: lambda design: design.duration * _WARMING,
+    Search.DRIFT_TIME: lambda design: design.duration * _DRIFTING,
+    Search.WAVE_LENGTH: _list_waves_along,
+    Search.WAVE_TIME: _list_waves_in_time,
+    Search.JOINT: _list_gaps,
+    Search.MOMENT: _list_moments,
+    Search.KINK: lambda design: design.middle + _KINKS * design.length,
+    Search.WHOLE_NUMBER: _list_teeth,
+    Search.RUN: lambda design: np.unique(design.run)[1:].astype(np.float64),
+    Search.PAUSE: list_moments_after_pauses,
+    Search.PLACE: lambda design: design.middle + _PLACES * design.length,
+    Search.WIDTH: lambda design: design.length * _WIDTHS,
+    Search.PEAK: lambda design: float(design.time.min()) + (_PLACES + 0.5) * design.duration,
+    Search.SPELL: lambda design: design.duration * _SPELLS,
+    Search.LAG: lambda design: design.duration * _LAGS,
+    Search.FIXED_POINT: _list_fixed_points,
+}
 #: Between whose values a search finds nothing: only these make sense, or nothing changes between them.
 NOT_REFINED = frozenset({Search.JOINT, Search.MOMENT, Search.WHOLE_NUMBER, Search.RUN, Search.PAUSE})
 #: Whose values are whole numbers.

@@ -10,7 +10,6 @@ from zlmreport.model.effects.design import Design
 
 _QUANTITY = Words("{value}{unit}")
 _READING = Words("{position}, {arrow}, run {run}")
-_CELL = Words("{position}, {arrow}")
 _COUNTED = Words("{value} readings")
 _MINUTE = 60.0
 _LONG = 600.0
@@ -48,7 +47,7 @@ def span_of_time(design: Design, value: float) -> Words:
 
 def cell(design: Design, reading: int) -> Words:
     """Return target and direction of a reading."""
-    return _CELL.given(
+    return Words("{position}, {arrow}").given(
         position=position(design.axis, float(design.position[reading])), arrow=_write_arrow(design, reading)
     )
 

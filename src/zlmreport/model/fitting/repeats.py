@@ -239,8 +239,6 @@ def _fit_slope(away: FloatArray, sizes: FloatArray) -> tuple[float, float]:
 def _fit_growth(design: Design, deviation: FloatArray) -> FloatArray:
     """Return the variance of each reading, ln σ² being a straight line over the position: likeliest, mean 1.
 
-    Notes
-    -----
     Fisher scoring of normal scatter; what is left of the passes is taken anew with each step's weights, or
     the loud end of a pass would shake its quiet one.
     """

@@ -24,7 +24,6 @@ from zlmreport.model.fitting.observations import Observations
 _HELD_TOGETHER = Words(
     "Session {number}, {name}: runs {first} to {last}; its zero is its own, all else is common."
 )
-_OF_SESSION = Words("Session {number}: {remark}")
 _NOT_IN_ALL = Words("Not every session logged {conditions}: the model does without.")
 _MEANING = Words("zero of session {number} against the first")
 
@@ -111,7 +110,7 @@ def hold_together(own: Observations, others: Sequence[tuple[str, Observations]])
     )
     remarks = [each for each in own.remarks if all(each in one.remarks for one in observed)]
     remarks += [
-        _OF_SESSION.given(number=number, remark=each)
+        Words("Session {number}: {remark}").given(number=number, remark=each)
         for number, one in enumerate(observed, start=1)
         for each in one.remarks
         if each not in remarks

@@ -38,11 +38,9 @@ _MEASURE_BY = {
     Method.PENDULUM: Words("measure by the pendulum method"),
 }
 _RANDOM_FRACTIONS = Words("choose targets with a random fraction")
-_MORE_TARGETS = Words("take {count} targets with random fractions")
 _MORE_RUNS = Words("measure {runs} runs")
 _REST = Words("rest {seconds} s at each target, so that more time passes")
 _OVERRUN = Words("turn round {times} times as far beyond the targets")
-_SECOND_SESSION = Words("measure again, and hold both sessions together")
 _WARMER_SESSION = Words(
     "measure again with the axis {change} K warmer or colder, which takes about {minutes} min, and hold "
     "both sessions together"
@@ -107,7 +105,7 @@ def list_further_changes(
     if plan.method in RUN_BY_RUN:
         yield from (_make_pause(column, minutes) for column, minutes in _WARMING)
     if goes_on:
-        yield _change_by_session(_SECOND_SESSION, 0.0, 0.0)
+        yield _change_by_session(Words("measure again, and hold both sessions together"), 0.0, 0.0)
         yield _change_by_session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
     longer = float(round(_LONGER * plan.dwell)) or plan.dwell
     yield PlanChange("dwell", None, _REST.given(seconds=longer), lambda each: replace(each, dwell=longer))
@@ -172,5 +170,5 @@ def _list_target_changes(
         count = len(plan.targets)
         yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
     if len(plan.targets) < many:
-        advice = _MORE_TARGETS.given(count=many)
+        advice = Words("take {count} targets with random fractions").given(count=many)
         yield PlanChange("targets", None, advice, lambda each: drawn(each, many, period))

@@ -67,7 +67,6 @@ _NONE = Words(
     "{aim}: none of the {count} plans that were simulated does; the best decides with a probability of "
     "{decides} %."
 )
-_TAKEN = Words("{statement} The size of {effects} is not known: taken is {size} rms.")
 _LACKS = Words("{statement} {effect}: {reason}.")
 _INSTEAD = Words("{statement} Instead: {advice}.")
 
@@ -304,7 +303,7 @@ def _add_sizes(question: Question, statement: Words) -> Words:
     if not taken:
         return statement
     size = wording.deviation(question.axis, max(rival.size for rival in taken))
-    return _TAKEN.given(
+    return Words("{statement} The size of {effects} is not known: taken is {size} rms.").given(
         statement=statement, effects=list_in_words([each.effect.identifier for each in taken]), size=size
     )
 

@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
-from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
@@ -104,14 +103,12 @@ def _lead_quasi_pilgrim(targets: Sequence[float], runs: int, overrun: float) -> 
         yield Stop(targets[-1], len(targets) - 1, run)
 
 
-_PATHS: Mapping[Method, Callable[[Sequence[float], int, float], Path]] = MappingProxyType(
-    {
-        Method.LINEAR: _lead_linear,
-        Method.UNIDIRECTIONAL: _lead_unidirectional,
-        Method.PENDULUM: _lead_pendulum,
-        Method.QUASI_PILGRIM: _lead_quasi_pilgrim,
-    }
-)
+_PATHS: Mapping[Method, Callable[[Sequence[float], int, float], Path]] = {
+    Method.LINEAR: _lead_linear,
+    Method.UNIDIRECTIONAL: _lead_unidirectional,
+    Method.PENDULUM: _lead_pendulum,
+    Method.QUASI_PILGRIM: _lead_quasi_pilgrim,
+}
 
 
 @dataclass(frozen=True, slots=True)

@@ -89,13 +89,8 @@ def judge_effects_seen(
 ) -> tuple[SeenEffect, ...]:
     """Return what a planned test sees of every installed effect, best seen first.
 
-    Parameters
-    ----------
-    model
-        The effects that are taken for granted, all of which the test determines.
+    `model`: The effects that are taken for granted, all of which the test determines.
 
-    Notes
-    -----
     An effect that stands in the model is left out unless it has forms of more parameters; so is a second one
     of its kind (``scale-joint-2``), of which a plan sees what it sees of the first.
     """

@@ -25,6 +25,8 @@ from zlmreport.presence import PRESENCE
 _PASSED = (ZlmreportError, KeyboardInterrupt, MemoryError)
 #: Plugins of these kinds open files, ports and libraries, which may not be there.
 _OPENING = frozenset({"source", "renderer", "instrument", "extension"})
+#: Kinds whose answers are checked by one module.
+_OUTWARD = frozenset({"renderer", "part_program", "notifier", "instrument"})
 _LONGEST = 300
 _NOTHING = object()
 
@@ -46,7 +48,6 @@ class Guarded:
 
     @property  # type: ignore[misc]  # as weak references and mocks do it: who asks what it is means the object
     def __class__(self) -> type:
-        """The class of the object."""
         return type(self._offered)
 
     def __getattr__(self, name: str) -> Any:
@@ -68,20 +69,18 @@ class Guarded:
         if not callable(found) or not inspect.isroutine(found):
             return found
         # The checks of answers load what a listing of names, or a plugin of another kind, does not need.
-        accept = import_module(f"zlmreport.plugin.boundary.answers.{self._kind.name}").ACCEPTED.get(name)
+        module = "outward" if self._kind.name in _OUTWARD else self._kind.name
+        accept = import_module(f"zlmreport.plugin.boundary.answers.{module}").ACCEPTED.get(name)
         method = self.__dict__[name] = self.look_after(name, found, accept)
         return method
 
     def __eq__(self, other: object) -> bool:
-        """Return whether the other is the same object, guarded or not."""
         return bool(self._offered == (other._offered if isinstance(other, Guarded) else other))
 
     def __hash__(self) -> int:
-        """Return the hash of the object."""
         return hash(self._offered)
 
     def __repr__(self) -> str:
-        """Return what the object says of itself."""
         return repr(self._offered)
 
     def guard_as(self, kind: type[Guarded]) -> Any:
@@ -141,12 +140,10 @@ class _GuardedConnection(Guarded):
     """An open instrument."""
 
     def __enter__(self) -> Self:
-        """Return the connection."""
         self._ask("open", self._offered.__enter__, None)
         return self
 
     def __exit__(self, *raised: object) -> None:
-        """Close the port."""
         self._ask("open", self._offered.__exit__, None, *raised)
 
     def readings(self) -> Iterator[Any]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -35,11 +34,9 @@ def starts(effect: Guarded, answer: Any, _design: CircleDesign) -> tuple[tuple[f
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "terms": terms,
-        "grid": starts,
-        "findings": sentences,
-        "absence": sentences,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "terms": terms,
+    "grid": starts,
+    "findings": sentences,
+    "absence": sentences,
+}

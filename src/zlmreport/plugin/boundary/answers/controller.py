@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from zlmreport.model.compensation.cross import CrossTable
-from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.model.compensation.curve import CompensationTable, CrossTable
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import require_all_of, require_finite, require_kind
 
@@ -51,11 +49,9 @@ def read_cross(_controller: Guarded, answer: Any, *_: Any) -> tuple[CrossTable, 
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "files": tables,
-        "read": table,
-        "cross_files": cross_tables,
-        "read_cross": read_cross,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "files": tables,
+    "read": table,
+    "cross_files": cross_tables,
+    "read_cross": read_cross,
+}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from zlmreport.language import Words
@@ -70,17 +69,15 @@ def expected(effect: Guarded, answer: Any, *_: Any) -> Mapping[str, float]:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "columns": columns,
-        "grid": grid,
-        "with_settings": form,
-        "forms": forms,
-        "further_forms": forms_or_none,
-        "repeated": form,
-        "untestable": untestable,
-        "forbids": untestable,
-        "tried_in": untestable,
-        "expected": expected,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "columns": columns,
+    "grid": grid,
+    "with_settings": form,
+    "forms": forms,
+    "further_forms": forms_or_none,
+    "repeated": form,
+    "untestable": untestable,
+    "forbids": untestable,
+    "tried_in": untestable,
+    "expected": expected,
+}

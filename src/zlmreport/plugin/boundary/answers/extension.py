@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from types import MappingProxyType
 from typing import Any
 
 from zlmreport.document.certificate.conditions import Described
@@ -53,14 +52,12 @@ def completed(_extension: Guarded, answer: Any, *_: Any) -> Any:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "contributions": contributions,
-        "doubts": sentences,
-        "described": described,
-        "contradictions": contradictions,
-        "completed": completed,
-        "plan": plan,
-        "live": live,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "contributions": contributions,
+    "doubts": sentences,
+    "described": described,
+    "contradictions": contradictions,
+    "completed": completed,
+    "plan": plan,
+    "live": live,
+}

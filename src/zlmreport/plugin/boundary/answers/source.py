@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -70,9 +69,7 @@ def _require_designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "read": read,
-        "proposals": proposals,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "read": read,
+    "proposals": proposals,
+}

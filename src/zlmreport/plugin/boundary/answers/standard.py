@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,12 +75,10 @@ def figures(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Any, .
 
 
 #: What is made of an answer, by method.
-ACCEPTED: Mapping[str, Callable[..., Any]] = MappingProxyType(
-    {
-        "arithmetic": arithmetic,
-        "requirements": requirements,
-        "figures": figures,
-        "of_error": of_error,
-        "contributions": of_lines,
-    }
-)
+ACCEPTED: Mapping[str, Callable[..., Any]] = {
+    "arithmetic": arithmetic,
+    "requirements": requirements,
+    "figures": figures,
+    "of_error": of_error,
+    "contributions": of_lines,
+}
