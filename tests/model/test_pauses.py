@@ -9,7 +9,7 @@ import pytest
 
 from model.axis_tests import linear_test
 from model.worlds import with_night
-from zlmreport.model.fitting.noise import compute_working_time, find_pauses
+from zlmreport.model.fitting.pauses import compute_working_time, find_pauses
 
 _DESIGN = linear_test(9, 3)
 

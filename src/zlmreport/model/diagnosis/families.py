@@ -18,7 +18,7 @@ from zlmreport.model.diagnosis.random_curves import PRICE as NAMELESS_PRICE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.contrasts import Contrasts
-from zlmreport.model.fitting.noise import find_pauses
+from zlmreport.model.fitting.pauses import find_pauses
 from zlmreport.model.fitting.repeats import number_cells
 
 #: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.

@@ -16,7 +16,8 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import compute_working_time, split_by_session
+from zlmreport.model.fitting.noise import split_by_session
+from zlmreport.model.fitting.pauses import compute_working_time
 
 #: 2·ln of the odds against a nameless part, its amplitude chosen among some: rarer than a known cause.
 PRICE = 9.0
