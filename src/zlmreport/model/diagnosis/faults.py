@@ -26,8 +26,8 @@ from zlmreport.measurement.arrays import (
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.pauses import find_pauses
 from zlmreport.model.fitting.observations import Observations, select_of_the_job, select_readings
+from zlmreport.model.fitting.pauses import find_pauses
 from zlmreport.model.fitting.repeats import estimate_noise_floor, find_repeats
 
 if TYPE_CHECKING:
