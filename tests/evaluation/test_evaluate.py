@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import find_doubts
+from zlmreport.evaluation.evaluation import judge_together
 from zlmreport.plugin import Approach, Axis, Evaluation, Language, Options
 from zlmreport.plugin.standard import evaluate, position_statistics
 from zlmreport.testing import simulated_test
@@ -49,6 +51,18 @@ def test_a_limit_on_a_parameter_that_the_test_does_not_define_is_said() -> None:
     assert [(each.requirement.in_language(Language.ENGLISH), each.met) for each in said] == [
         ("A test that defines A, for which a limit is stated", False)
     ]
+
+
+def test_where_nothing_is_decided_on_one_limit_nobody_says_that_all_are_met() -> None:
+    rule = make_decision_rule("simple")
+    wide, with_undefined, narrow = (
+        with_decisions(of_one_direction(limits), rule)
+        for limits in ({"A_fwd": 1.0}, {"A_fwd": 1.0, "A": 20e-6}, {"A_fwd": 1e-12, "A": 20e-6})
+    )
+
+    assert [judge_together([each]) for each in (wide, with_undefined, narrow)] == [True, None, False]
+    assert judge_together([wide, with_undefined]) is None
+    assert judge_together([of_one_direction({})]) is None
 
 
 def test_a_column_by_position_is_found_by_its_symbol() -> None:

@@ -32,6 +32,7 @@ from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import limit
 from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
 from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems, count_in_words
+from zlmreport.evaluation.evaluation import judge_together
 from zlmreport.evaluation.report import report_parameter
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
@@ -113,15 +114,7 @@ class JobResult:
     @property
     def conforms(self) -> bool | None:
         """Whether every stated limit is met; None without limits, or where one is not decided."""
-        verdicts = [
-            parameter.conforms
-            for evaluation in self.evaluations
-            for parameter in evaluation.parameters
-            if parameter.limit is not None
-        ]
-        if False in verdicts:
-            return False
-        return True if verdicts and None not in verdicts else None
+        return judge_together(self.evaluations)
 
     def choose_exit_code(self, *, fail_on_nonconformity: bool) -> int:
         """Return the exit code of this job alone."""

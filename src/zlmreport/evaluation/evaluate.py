@@ -76,7 +76,7 @@ def evaluate(
         limit = tolerances.get(quantity.symbol)
         if np.isnan(value):
             if limit is not None:
-                undefined.append(_report_undefined(quantity))
+                undefined.append(quantity)
             continue
         parameters.append(EvaluatedParameter(quantity, value, limit))
     columns = tuple(
@@ -94,11 +94,12 @@ def evaluate(
         columns=columns,
         findings=(
             *standard.requirements(measurements, options),
-            *undefined,
+            *map(_report_undefined, undefined),
             *find_doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
         ),
         notes=_select_notes(standard, measurements, frozenset(each.quantity.symbol for each in parameters)),
         is_method=getattr(standard, "is_method", False),
+        undefined=tuple(each.symbol for each in undefined),
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -337,6 +337,8 @@ class Evaluation:
         Whether it is a published method and nobody's standard: a heading says so.
     specification
         The document from which the limits were taken; empty where the job does not say.
+    undefined
+        Symbols of the parameters for which a limit is stated and which this test does not define.
     """
 
     standard: str
@@ -353,6 +355,7 @@ class Evaluation:
     uncertainty_is_complete: bool = True
     is_method: bool = False
     specification: str = ""
+    undefined: tuple[str, ...] = ()
 
     def parameter(self, symbol: str) -> EvaluatedParameter | None:
         """Return a parameter of the axis; None where the test does not define it."""
@@ -373,6 +376,15 @@ class Evaluation:
                 return column.values
         known = ", ".join(column.quantity.symbol for column in self.columns)
         raise KeyError(f"{self.standard} has no column {symbol!r} by position (it has: {known})")
+
+
+def judge_together(evaluations: Iterable[Evaluation]) -> bool | None:
+    """Return whether every stated limit is met; None without limits, or where one is not decided."""
+    verdicts: set[bool | None] = set()
+    for each in evaluations:
+        verdicts.update(parameter.conforms for parameter in each.parameters if parameter.limit is not None)
+        verdicts.update(None for _ in each.undefined)
+    return False if False in verdicts else True if verdicts == {True} else None
 
 
 def compare_parameters(before: Evaluation, after: Evaluation) -> tuple[Change, ...]:

@@ -235,7 +235,5 @@ class Desk:
 def _record_happened(
     what: What, planned: PlannedJob, made: MadeCertificate, written: Sequence[FinishedFile]
 ) -> Happened:
-    verdicts = [each.conforms for each in made.parameters if each.limit is not None]
-    conforms = False if False in verdicts else True if verdicts and None not in verdicts else None
     files = tuple(file.path for file in written)
-    return Happened(what, planned.job, made.subject.number, planned.why, files, conforms=conforms)
+    return Happened(what, planned.job, made.subject.number, planned.why, files, conforms=made.conforms)

@@ -17,6 +17,7 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
+from zlmreport.evaluation.evaluation import judge_together
 from zlmreport.files import confine as confined
 from zlmreport.fleet.basis import (
     CertificateBasis,
@@ -111,6 +112,7 @@ class MadeCertificate:
     seconds: float = 0.0  #: How long it took.
     #: What its readings teach other tests, for the ledger; None without a model that describes them.
     lesson: Mapping[str, Any] | None = None
+    conforms: bool | None = None  #: Whether every stated limit is met; None where nothing is decided on one.
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,6 +198,7 @@ def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
         parameters=parameters,
         is_draft=is_draft,
         lesson=None if is_draft else _find_lesson(certificate, job, registry.effects),
+        conforms=judge_together(certificate.evaluations),
     )
 
 
