@@ -179,7 +179,8 @@ def _confirm(options: Namespace, registry: Registry) -> int:
         raise InputError.at(after.place_of("machine.serial"), said)
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
-    found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)
+    play, place = made.forecast.play, after.source.place
+    found = confirm(made.basis, curve, after.axis, made.decoded, place, made.active, play)
     shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve)
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:
@@ -188,13 +189,15 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     unit = before.axis.deviation_unit
     factor = unit.from_si(1.0)
     if options.json:
-        expected = made.forecast.second_test
+        expected = made.forecast.choose_second_test(has_backlash=found.has_backlash)
         print_json(
             {
                 "schema": CONFIRMATION_SCHEMA,
                 "verdict": found.verdict.value,
                 "ratio": found.ratio,
                 "applied": found.applied,
+                "applied_uncertainty": found.expanded_uncertainty if found.is_seen else None,
+                "backlash": found.has_backlash,
                 "shift": before.axis.position_unit.from_si(found.shift),
                 "unit": unit.ascii,
                 "before": made.forecast.before.in_unit(factor),

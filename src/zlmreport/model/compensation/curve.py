@@ -111,3 +111,8 @@ def make_table_of(
         for each, direction in zip(deviations, (1.0, -1.0), strict=True)
     )
     return CompensationTable(axis, number, read_only_floats(rows), forward, reverse, place)
+
+
+def halve_play(play: float) -> FloatArray:
+    """Return what a mean lost motion (forward − reverse) does to each direction, shape (2, 1), m or rad."""
+    return np.array([[play / 2], [-play / 2]])
