@@ -200,7 +200,7 @@ class AxisPlan:
 
 
 def find_beyond_travel(axis: Axis, plan: AxisPlan) -> tuple[float, float] | None:
-    """Return the lowest and highest position of a plan, m or rad, where an axis with ends cannot go to one."""
+    """Return the lowest and highest position of a plan, m or rad, where the axis has an end before one."""
     return None if makes_whole_turns(axis) else find_beyond_stated_travel(axis, plan)
 
 
