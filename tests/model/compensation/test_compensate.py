@@ -61,6 +61,12 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert "which leaves +0.000 ↑, +0.00" in text
         assert "Rows 11 (0 mm … 300 mm)" in text
         assert "If the deviation doubles, the sign is wrong" in text
+        assert "The format was tried on LinuxCNC 2.9" in text
+
+
+def test_a_table_for_no_control_was_tried_on_none(folder: Path) -> None:
+    assert main(["compensate", job(folder, "job.yaml", "without"), "--controller", "csv", "-o", "out"]) == 0
+    assert "tried" not in PdfReader(folder / "out" / "LOOP-1-compensation.pdf").pages[0].extract_text()
 
 
 @pytest.mark.parametrize(("sign", "drawn", "missing"), [("-", "C↓", "C↑"), ("+", "C↑", "C↓")])

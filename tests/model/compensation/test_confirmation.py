@@ -157,3 +157,24 @@ def test_rows_that_end_before_the_targets_say_so(capsys: Capture) -> None:
         assert main([*arguments, "--step", step]) == 0
         said = " ".join(capsys.readouterr().out.split())
         assert ("The rows end at 495 mm, the targets at 500 mm" in said) is is_said
+
+
+def test_what_no_target_reached_is_not_forecast(capsys: Capture) -> None:
+    measure("before", axis)
+    job = Path("before.yaml").read_text("utf-8")
+    for travel, is_said in (("[-10, 510]", True), ("[0, 500]", False)):
+        stated = job.replace("name: X,", f"name: X, travel: {travel},")
+        Path("before.yaml").write_text(stated, encoding="utf-8")
+        assert main(["compensate", "before.yaml", "--controller", "linuxcnc"]) == 0
+        said = " ".join(capsys.readouterr().out.split())
+        assert (
+            "The axis goes from −10 mm to 510 mm: beyond the targets nothing was measured" in said
+        ) is is_said
+
+
+def test_lines_that_miss_nothing_are_not_said_to_miss_zero(capsys: Capture) -> None:
+    measure("before", axis)
+    assert main(["compensate", "before.yaml", "--controller", "linuxcnc"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "11 rows at the targets. U of a mean" in said
+    assert "Anywhere between the 11 rows less than 0.01 µm is left" in said

@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 _TITLE = Words("Compensation table")
 _SUBTITLE = Words("Axis {axis}, for {control}")
 _CONFIDENCE = {
-    "verified": Words("tried on the control"),
+    "verified": Words("sign and format verified"),
     "documented": Words("documented by the maker, not tried on the control"),
     "unconfirmed": Words("not confirmed: sign or format may be another"),
 }
@@ -270,12 +270,7 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         yield _ALLOWED.given(allowed=amount(made.grid.allowed))
     if not made.basis.is_known_between:
         yield _UNKNOWN_BETWEEN
-    last_row, last_target = (
-        _write_length(float(each[-1]), writer)
-        for each in (made.decoded.positions, made.basis.curve.positions)
-    )
-    if made.decoded.positions[-1] < made.basis.curve.positions[-1] and last_row != last_target:
-        yield _ENDS_BEFORE.given(row=last_row, target=last_target)
+    yield from _list_ends(made, writer)
     if _find_constant(made):
         yield Words("The control's table begins at zero: a constant of {constant} was taken out.").given(
             constant=amount(-found.constant)
@@ -285,11 +280,9 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
             "The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
             "control's backlash parameter. With that E is {error}."
         ).given(play=amount(found.play), error=amount(found.after_with_backlash.systematic))
-    yield Words(
-        "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
-    ).given(
+    yield (_LEFT if unit.from_si(found.between) >= _LEAST_WRITTEN / 2 else _LITTLE_LEFT).given(
         rows=len(made.decoded.positions),
-        between=amount(found.between),
+        between=amount(max(found.between, unit.to_si(_LEAST_WRITTEN))),
         at=_write_length(found.between_at, writer),
         rounding=amount(found.rounding),
     )
@@ -302,6 +295,31 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         yield _BOTH_SET_UPS if found.has_set_up else _SCATTER_ALONE
 
 
+def _list_ends(made: Made, writer: Writer) -> Iterator[Words]:
+    """Yield that rows end before the targets, and these before the axis."""
+    axis, targets = made.meant.axis, made.basis.curve.positions
+    first, last = (_write_length(float(targets[end]), writer) for end in (0, -1))
+    row = _write_length(float(made.decoded.positions[-1]), writer)
+    if made.decoded.positions[-1] < targets[-1] and row != last:
+        yield _ENDS_BEFORE.given(row=row, target=last)
+    if axis.travel is None:
+        return
+    low, high = (_write_length(each, writer) for each in axis.travel)
+    if (axis.travel[0] < targets[0] and low != first) or (axis.travel[1] > targets[-1] and high != last):
+        yield _BEYOND_TARGETS.given(low=low, high=high)
+
+
+#: The last digit that deviations are written with, µm or ″.
+_LEAST_WRITTEN = 0.01
+_LEFT = Words(
+    "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
+)
+_LITTLE_LEFT = Words(
+    "Anywhere between the {rows} rows less than {between} is left; rounding takes {rounding}."
+)
+_BEYOND_TARGETS = Words(
+    "The axis goes from {low} to {high}: beyond the targets nothing was measured, and nothing is forecast."
+)
 _ALLOWED = Words("U of a mean by the scatter of the readings is {allowed} (k = 2).")
 _ENDS_BEFORE = Words(
     "The rows end at {row}, the targets at {target}: beyond the last row its value is taken to hold."
@@ -323,10 +341,18 @@ _GRIDS = {
 }
 
 
+#: Where the lines between the rows are what the table is to take away.
+_GRIDS_OF_LINES = _GRIDS | {
+    GridReason.STATED: Words("{rows} rows, {step} apart, as stated."),
+    GridReason.TARGETS: Words("{rows} rows at the targets."),
+    GridReason.UNCERTAINTY: Words("{rows} rows, {step} apart."),
+}
+
+
 def _describe_grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
     """Return where the table has its rows, and why."""
     grid = made.grid
-    return _GRIDS[grid.reason].given(
+    return (_GRIDS if grid.added else _GRIDS_OF_LINES)[grid.reason].given(
         rows=len(grid.rows),
         step=_write_length(float(grid.rows[1] - grid.rows[0]), writer),
         added=amount(grid.added),
