@@ -19,6 +19,7 @@ from zlmreport.document.subjects.compensation import (
     lay_out_confirmation,
     lay_out_forecast,
     make_compensation_sheet,
+    say_adjustment,
 )
 from zlmreport.document.writer import Writer
 from zlmreport.errors import NOT_MET, InputError, Place, quoted
@@ -50,6 +51,10 @@ SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
 _COMMAND = Place("zlmreport compensate")
 _SHEET = "-compensation.pdf"
+_STATED_AS_NONE = (
+    "the job of the second test says that no table was active, and so would its certificate: name the file "
+    "of the table as axis.compensation_table (--controller csv writes it)"
+)
 
 
 def run(options: Namespace) -> int:
@@ -214,6 +219,8 @@ def _confirm(options: Namespace, registry: Registry) -> int:
             "",
             sep="\n",
         )
+        if after.keys.axis.compensation_table == "none":
+            print(*wrap(_STATED_AS_NONE, ""), sep="\n")
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
         # A command stands on a line by itself: it is copied whole.
         how = f"\n  zlmreport {show_path(both)}" if both else " --output DIR writes the job"
@@ -232,9 +239,8 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
         exclude_unset=True, by_alias=True, exclude={"source", "tests"}
     )
     measurement = {**stated, "source": {"plugin": before.source.identifier, **source}}
-    control = say(made.controller.title)
     found: dict[str, Any] = {
-        "adjustment": f"Compensation table of {len(made.decoded.positions)} rows in the control ({control}).",
+        "adjustment": say(say_adjustment(made), after.keys.certificate.language),
         "measurement": measurement,
     }
     if before.keys.environment is not None:

@@ -90,7 +90,7 @@ _BY_BACKLASH = Words(
     "The lost motion that the table leaves is gone: the control's backlash parameter takes it."
 )
 _SHIFTED = Words("It is shifted by {length}.")
-_WITHIN, _OUTSIDE = Words("within"), Words("outside")
+_WITHIN, _BELOW, _ABOVE = Words("within"), Words("below"), Words("above")
 _SYMBOL, _PARAMETER = Words("Symbol"), Words("Parameter")
 _BEFORE, _SECOND_TEST = Words("Before"), Words("Second test")
 _FORECAST = Words("Forecast from the files as the control reads them")
@@ -98,6 +98,8 @@ _FORECAST = Words("Forecast from the files as the control reads them")
 Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
 #: Of what is left, m or rad: the rounding of doubles is no curve.
 _DIGITS_DRAWN = 12
+#: What was done to the axis between two tests.
+_ADJUSTMENT = Words("Compensation table of {rows} rows in the control: {control}.")
 _FIGURES = {
     "E": Words("Systematic deviation"),
     "M": Words("Mean bidirectional deviation"),
@@ -205,7 +207,8 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
         expected = foretold.get(symbol)
         if expected is None:
             return ""
-        return say(_WITHIN if expected.low <= after[symbol] / factor <= expected.high else _OUTSIDE)
+        shown = after[symbol] / factor
+        return say(_BELOW if shown < expected.low else _ABOVE if shown > expected.high else _WITHIN)
 
     sentences = [
         _RATIO.given(share=number_words(100 * found.ratio, 1)),
@@ -243,6 +246,11 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
             Table(say(_SECOND_TEST), columns, (RowGroup(rows),)),
         ),
     )
+
+
+def say_adjustment(made: Made) -> Words:
+    """Return what was done to the axis between a test and one with its table."""
+    return _ADJUSTMENT.given(rows=len(made.decoded.positions), control=made.controller.title)
 
 
 def _write_expected(expected: ExpectedFigure | None, writer: Writer) -> str:
