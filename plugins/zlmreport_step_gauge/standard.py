@@ -142,9 +142,10 @@ NOTES: tuple[Words, ...] = (
         "there by example only: the definitions above are those of this program."
     ),
     Words(
-        "XF, SF at a back face and XB, SB at a front face are interpolated: the mean of the two neighbours "
-        "(Eq. 8 to 11). In the table by position they stand where x̄ and s of that direction are missing; in "
-        "the graph marks stand at measured values only. At the ends of the section nothing is extrapolated."
+        "Where a target position is a face, and not a block, XF, SF at a back face and XB, SB at a front "
+        "face are interpolated: the mean of the two neighbours (Eq. 8 to 11). In the table by position they "
+        "stand where x̄ and s of that direction are missing; in the graph marks stand at measured values "
+        "only. At the ends of the section nothing is extrapolated."
     ),
     Words(
         "S is a single standard deviation (n − 1); what is stated is twice that. XR = XB − XF has the sign "

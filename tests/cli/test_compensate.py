@@ -49,6 +49,21 @@ def test_readings_that_were_set_aside_stay_aside_in_the_job_of_both_tests(
     assert all(each in job for each in ('end: "2026-03-03"', "feed: 1000"))
 
 
+def test_the_job_of_both_tests_states_the_adjustment_in_its_language(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, file, language in (("before", "captured_without", "en"), ("after", "captured_type0", "de")):
+        text = _JOB.format(stated="date: 2026-03-02", file=_READINGS / f"{file}.csv")
+        text = text.replace("kind: report", f"kind: report, language: {language}")
+        Path(f"{name}.yaml").write_text(text, encoding="utf-8")
+    assert main(["compensate", "--confirm", "before.yaml", "after.yaml", "-o", "both"]) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "the job of the second test says that no table was active" in said
+    job = Path("both/LOOP-1-as-left.yaml").read_text(encoding="utf-8")
+    assert "Kompensationstabelle mit 11 Zeilen in der Steuerung: LinuxCNC (COMP_FILE)." in job
+
+
 @pytest.mark.parametrize(("model", "times"), [("", 1), ("model: {effects: [offset, backlash]}\n", 0)])
 def test_between_targets_lines_are_said_to_be_taken_where_no_model_says_what_is_there(
     model: str,

@@ -96,6 +96,10 @@ class LinuxCnc(_Matrix):
             "BACKLASH is ignored then: the table has both directions."
         ),
         Words("Between two rows LinuxCNC interpolates; outside the table the end value holds."),
+        Words(
+            "The format was tried on LinuxCNC 2.9. Its numbers are mm (°): so must be the units of the "
+            "machine (LINEAR_UNITS)."
+        ),
     )
 
     def files(self, table: CompensationTable, options: LinuxCncOptions) -> Mapping[str, str]:

@@ -20,6 +20,7 @@ from zlmreport.plugin import FloatArray, InputError, Options, Words, hookimpl, r
 from zlmreport.plugin.controller import CompensationTable, Controller, CrossTable
 
 _NUMBER = r"([-+]?\d+(?:\.\d+)?)"
+_AXIS = r"^[A-Z][A-Z0-9]{0,7}$"
 _NO_TRIAL = Words(
     "This format was never tried on the control. Load it with the axis clear, and check one point first."
 )
@@ -59,6 +60,17 @@ def _make_columns(table: CompensationTable) -> tuple[list[float], FloatArray, Fl
     return positions, unit.from_si(table.forward), unit.from_si(table.reverse)
 
 
+def _name_axis(table: CompensationTable, options: Any, end: str = "") -> str:
+    """Return how the file calls the axis; refuse what no control takes."""
+    name: str = options.axis or f"{table.axis.name.strip().upper()}{end}"
+    if not re.match(_AXIS, name):
+        raise InputError.at(
+            table.place,
+            f"{name[:32]!r} is no name of an axis on this control; state its key axis, such as X{end}",
+        )
+    return name
+
+
 def _write_grid(positions: Sequence[float]) -> tuple[str, str, str]:
     """Return distance, first and last of rows equally far apart, as they are written.
 
@@ -69,6 +81,10 @@ def _write_grid(positions: Sequence[float]) -> tuple[str, str, str]:
     step = Decimal(f"{(positions[-1] - positions[0]) / count:.6f}")
     first = Decimal(f"{positions[0]:.6f}")
     return f"{step}", f"{first}", f"{first + count * step}"
+
+
+def _write_short(value: float) -> str:
+    return f"{value + 0.0:.6f}".rstrip("0").rstrip(".")
 
 
 def _decode(
@@ -179,13 +195,19 @@ def _read_cross_cec(text: str, number: int, table: CrossTable, moves: int) -> Cr
     )
 
 
+class NamedAxisOptions(Options):
+    """The key of controls whose files name the axis."""
+
+    axis: str | None = Field(
+        None, pattern=_AXIS, description="Name of the axis on the control; without it the axis's name."
+    )
+
+
 class SiemensOptions(Options):
     """The keys of ``siemens-840d``."""
 
     axis: str | None = Field(
-        None,
-        pattern=r"^[A-Z][A-Z0-9]{0,7}$",
-        description="Machine axis; without it the axis's name with a 1.",
+        None, pattern=_AXIS, description="Machine axis; without it the axis's name with a 1."
     )
 
 
@@ -209,7 +231,7 @@ class Siemens840d(_OnPaper):
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file."""
         positions, forward, reverse = _make_columns(table)
-        name = options.axis or f"{table.axis.name}1"
+        name = _name_axis(table, options, "1")
         mean = ((forward + reverse) / 2).tolist()
         step, first, last = _write_grid(positions)
         lines = ["%_N_AX_EEC_INI", "CHANDATA(1)"]
@@ -252,7 +274,7 @@ class Siemens840dCec(_Cross, _OnPaper):
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file: table 0 acts in the positive direction, table 1 in the negative."""
         positions, *values = _make_columns(table)
-        name = options.axis or f"{table.axis.name}1"
+        name = _name_axis(table, options, "1")
         lines: list[str] = []
         for number, (column, direction) in enumerate(zip(values, (1, -1), strict=True)):
             lines += _write_cec(number, (name, name), positions, column.tolist(), direction)
@@ -272,14 +294,15 @@ class Isg(_OnPaper):
     title = Words("ISG, TwinCAT CNC (kw.ssfk)")
     confidence = "documented"
     is_directional = True
+    options: type[Options] = NamedAxisOptions
     notes: tuple[Words, ...] = (_NO_TRIAL,)
 
-    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file; set positions are in whole 0.1 µm (0.0001°), too."""
         positions, forward, reverse = _make_columns(table)
         lines = [
             "kopf.achs_nr 1",
-            f"kopf.log_achs_name {table.axis.name}",
+            f"kopf.log_achs_name {_name_axis(table, options)}",
             "kw.ssfk.interval 0",
             f"kw.ssfk.kw_startpos {round(positions[0] * 1e4)}",
             f"kw.ssfk.kw_nr_max {len(positions)}",
@@ -303,15 +326,24 @@ class Isg(_OnPaper):
         return _decode(table, *found)
 
 
+#: Number of a row.
+_LAST_OF_FANUC = 1023
+
+
 class FanucOptions(Options):
     """The keys of ``fanuc``."""
 
-    reference: int = Field(40, ge=0, le=1023, description="Number of the first row (parameter 3621).")
+    reference: int = Field(
+        40,
+        ge=0,
+        le=_LAST_OF_FANUC,
+        description="Number of the first row; its increments have the numbers after it.",
+    )
     magnification: int = Field(1, ge=1, le=100, description="Parameter 3623.")
     reverse: int | None = Field(
         None,
         ge=0,
-        le=1023,
+        le=_LAST_OF_FANUC,
         description="Number of the first row moving back (parameter 3626), for a control that compensates "
         "both directions (3605#0); without it one table has their mean.",
     )
@@ -330,37 +362,47 @@ class Fanuc(_OnPaper):
         _ZERO_AT_THE_START,
         _FROM_THE_REFERENCE,
         Words(
-            "One table has the mean of both directions, and the play is left to parameter 1851. With the "
-            "key reverse there are two, and 1851 must be 0: their parameters stand in the second file, and "
-            "the sign of 3627 is not confirmed. Power off and a reference return make them effective."
+            "The second file has the parameters that the table needs. One table has the mean of both "
+            "directions, and the play is left to parameter 1851. With the key reverse there are two, and "
+            "1851 must be 0; the sign of 3627 is not confirmed. Power off and a reference return make them "
+            "effective."
         ),
     )
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
-        """Return the file, and with both directions the parameters.
+        """Return the file, and the parameters.
 
         The value at a number belongs to the interval before it.
         """
         _refuse_more_than(self.most_rows, table)
         quantum, rows = options.magnification * 1e-3, len(table.positions)
+        last = max(options.reference, options.reverse or 0) + rows - 1
+        if last > _LAST_OF_FANUC:
+            raise InputError.at(
+                table.place,
+                f"the last row has the number {last}, and the control takes up to {_LAST_OF_FANUC}; state a "
+                "smaller reference or reverse, or a longer step",
+            )
         remedy = "raise magnification (3623), or state a shorter step"
+        positions, forward, reverse = _make_columns(table)
+        unit = table.axis.position_unit.ascii
+        interval = _write_short((positions[-1] - positions[0]) / (rows - 1))
+        parameters = [f"3623 {options.magnification}", f"3624 {interval} {unit}"]
         if options.reverse is None:
-            return {
-                ".txt": self._write_file({options.reference: _make_increments(table, quantum, 7, remedy)})
-            }
-        if abs(options.reverse - options.reference) < rows:
+            steps = {options.reference: _make_increments(table, quantum, 7, remedy)}
+        elif abs(options.reverse - options.reference) < rows:
             raise InputError.at(
                 table.place,
                 f"the rows of both directions overlap: {rows} from {options.reference} and from "
                 f"{options.reverse}; state another reverse",
             )
-        _, forward, reverse = _make_columns(table)
-        steps = {
-            first: _make_increments(replace(table, forward=column, reverse=column), quantum, 7, remedy)
-            for first, column in ((options.reference, table.forward), (options.reverse, table.reverse))
-        }
-        apart = round(-float(reverse[0] - forward[0]) / quantum)
-        parameters = ("3605#0 1", f"3626 {options.reverse}", f"3627 {apart}")
+        else:
+            steps = {
+                first: _make_increments(replace(table, forward=column, reverse=column), quantum, 7, remedy)
+                for first, column in ((options.reference, table.forward), (options.reverse, table.reverse))
+            }
+            apart = round(-float(reverse[0] - forward[0]) / quantum)
+            parameters += ["3605#0 1", f"3626 {options.reverse}", f"3627 {apart}"]
         return {".txt": self._write_file(steps), "-parameters.txt": _join_lines(parameters)}
 
     def _write_file(self, steps: Mapping[int, Sequence[int]]) -> str:
@@ -415,6 +457,7 @@ class Heidenhain(_OnPaper):
     title = Words("HEIDENHAIN (.COM)")
     most_rows = 256
     is_directional = True
+    options: type[Options] = NamedAxisOptions
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
         Words(
@@ -423,10 +466,10 @@ class Heidenhain(_OnPaper):
         ),
     )
 
-    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the table, and the line that gives it to the axis."""
         _refuse_more_than(self.most_rows, table)
-        name = table.axis.name
+        name = _name_axis(table, options)
         assigned = ("BEGIN CONFIG .CMA", f"NR ACTIVE {name}", f"0  *      {table.number}.COM", "[END]")
         lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
         for row, (at, up, down) in enumerate(zip(*_make_columns(table), strict=True)):
@@ -445,16 +488,19 @@ class Etalon(_OnPaper):
 
     identifier = "etalon"
     title = Words("Etalon exchange format")
+    options: type[Options] = NamedAxisOptions
 
-    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file; its section is named by the axis: EXX for X."""
         positions, forward, reverse = _make_columns(table)
+        section = f"E{_name_axis(table, options) * 2}"
         rows = [
-            f"{at:.6g} {each + 0.0:.6f}"
+            f"{_write_short(at)} {each + 0.0:.6f}"
             for at, each in zip(positions, ((forward + reverse) / 2).tolist(), strict=True)
         ]
-        name = f"E{table.axis.name * 2}"
-        return {"-etalon.txt": _join_lines((f"[{name}]", "Gridpoints = {", *rows, f"}} // end of {name}"))}
+        return {
+            "-etalon.txt": _join_lines((f"[{section}]", "Gridpoints = {", *rows, f"}} // end of {section}"))
+        }
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the grid points."""

@@ -19,6 +19,7 @@ from zlmreport.document.subjects.compensation import (
     lay_out_confirmation,
     lay_out_forecast,
     make_compensation_sheet,
+    say_adjustment,
 )
 from zlmreport.document.writer import Writer
 from zlmreport.errors import NOT_MET, InputError, Place, quoted
@@ -50,6 +51,10 @@ SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
 _COMMAND = Place("zlmreport compensate")
 _SHEET = "-compensation.pdf"
+_STATED_AS_NONE = (
+    "the job of the second test says that no table was active, and so would its certificate: name the file "
+    "of the table as axis.compensation_table (--controller csv writes it)"
+)
 
 
 def run(options: Namespace) -> int:
@@ -179,7 +184,8 @@ def _confirm(options: Namespace, registry: Registry) -> int:
         raise InputError.at(after.place_of("machine.serial"), said)
     made, measurements = _make_tables(before, registry, options)
     curve = make_error_curve(pipeline.read(after, registry), after.source.place)
-    found = confirm(made.basis, curve, after.axis, made.decoded, after.source.place)
+    play, place = made.forecast.play, after.source.place
+    found = confirm(made.basis, curve, after.axis, made.decoded, place, made.active, play)
     shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve)
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:
@@ -188,13 +194,15 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     unit = before.axis.deviation_unit
     factor = unit.from_si(1.0)
     if options.json:
-        expected = made.forecast.second_test
+        expected = made.forecast.choose_second_test(has_backlash=found.has_backlash)
         print_json(
             {
                 "schema": CONFIRMATION_SCHEMA,
                 "verdict": found.verdict.value,
                 "ratio": found.ratio,
                 "applied": found.applied,
+                "applied_uncertainty": found.expanded_uncertainty if found.is_seen else None,
+                "backlash": found.has_backlash,
                 "shift": before.axis.position_unit.from_si(found.shift),
                 "unit": unit.ascii,
                 "before": made.forecast.before.in_unit(factor),
@@ -211,6 +219,8 @@ def _confirm(options: Namespace, registry: Registry) -> int:
             "",
             sep="\n",
         )
+        if after.keys.axis.compensation_table == "none":
+            print(*wrap(_STATED_AS_NONE, ""), sep="\n")
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
         # A command stands on a line by itself: it is copied whole.
         how = f"\n  zlmreport {show_path(both)}" if both else " --output DIR writes the job"
@@ -229,9 +239,8 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
         exclude_unset=True, by_alias=True, exclude={"source", "tests"}
     )
     measurement = {**stated, "source": {"plugin": before.source.identifier, **source}}
-    control = say(made.controller.title)
     found: dict[str, Any] = {
-        "adjustment": f"Compensation table of {len(made.decoded.positions)} rows in the control ({control}).",
+        "adjustment": say(say_adjustment(made), after.keys.certificate.language),
         "measurement": measurement,
     }
     if before.keys.environment is not None:

@@ -55,6 +55,25 @@ def test_an_amount_has_the_digits_that_it_has_in_the_table_of_results(evaluation
     assert rows(evaluation, "guard-band")[0].split(" | ")[1] == write_with_uncertainty(found, writer)[0]
 
 
+@pytest.mark.parametrize(
+    ("rule", "limit", "printed"),
+    [
+        ("guard-band", 128.69, ("125.71", "125.69", "does not conform")),  # U = 3.0 µm: both are 125.7 µm
+        ("simple", 125.7124, ("125.713", "125.7124", "does not conform")),
+        ("simple", 125.7, ("125.71", "125.7", "does not conform")),
+        ("simple", 125.72, ("125.7", "125.72", "conforms")),
+    ],
+)
+def test_an_amount_that_is_not_accepted_is_not_printed_as_what_is(evaluation, rule, limit, printed):
+    parameters = [
+        replace(each, limit=limit * 1e-6) if each.quantity.symbol == "A" else each
+        for each in evaluation.parameters
+    ]
+    cells = rows(replace(evaluation, parameters=tuple(parameters)), rule)[0].split(" | ")
+    assert (cells[1], cells[3]) == printed[:2]
+    assert cells[4].endswith(printed[2])
+
+
 def test_an_acceptance_limit_is_explained_where_one_is_drawn(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     captions = {}

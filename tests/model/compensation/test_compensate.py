@@ -61,6 +61,12 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert "which leaves +0.000 ↑, +0.00" in text
         assert "Rows 11 (0 mm … 300 mm)" in text
         assert "If the deviation doubles, the sign is wrong" in text
+        assert "The format was tried on LinuxCNC 2.9" in text
+
+
+def test_a_table_for_no_control_was_tried_on_none(folder: Path) -> None:
+    assert main(["compensate", job(folder, "job.yaml", "without"), "--controller", "csv", "-o", "out"]) == 0
+    assert "tried" not in PdfReader(folder / "out" / "LOOP-1-compensation.pdf").pages[0].extract_text()
 
 
 @pytest.mark.parametrize(("sign", "drawn", "missing"), [("-", "C↓", "C↑"), ("+", "C↑", "C↓")])
@@ -160,7 +166,7 @@ def test_the_forecast_is_named_beside_what_the_second_test_shows(folder: Path, c
     assert values["forecast"]["E"]["low"] < values["forecast"]["E"]["high"]
     assert main(["compensate", "--confirm", before, after]) == 0
     lines = capsys.readouterr().out.splitlines()
-    row = r"  E +Systematic deviation +65\.40 +0\.\d\d … 0\.\d\d +0\.08  (within|outside)"
+    row = r"  E +Systematic deviation +65\.40 +0\.\d\d … 0\.\d\d +0\.08  (within|below|above)"
     assert any(re.fullmatch(row, line) for line in lines)
     assert lines[-1] == "the certificate of both tests, as found and as left: --output DIR writes the job"
 
@@ -306,7 +312,7 @@ def test_a_second_test_is_held_against_the_first_in_the_directions_of_both(
     assert main(["compensate", "--unconfirmed", "--confirm", before, after]) == 0
     row = next(line for line in capsys.readouterr().out.splitlines() if "Systematic" in line)
     is_alike = len(first) == len(second)
-    assert row.endswith(("within", "outside")) == is_alike
+    assert row.endswith(("within", "below", "above")) == is_alike
     assert ("…" in row) == is_alike
 
 

@@ -156,6 +156,14 @@ def test_turning_round_beyond_the_travel_is_seen() -> None:
     assert beyond == pytest.approx((-0.005, 0.605))
 
 
+def test_an_axis_of_a_whole_turn_that_may_have_ends_is_asked_about() -> None:
+    linear, rotary = (
+        "{name: X, travel: [0, 600], screw_pitch: 10}",
+        "{name: B, kind: rotary, travel: [-180, 180]}",
+    )
+    assert plan_of_test((linear, rotary)).beyond_travel == pytest.approx(np.radians([-185, 185]))
+
+
 def test_expected_temperatures_rise_by_what_the_job_says() -> None:
     time = np.linspace(0, 1200, 50)
     for name, course in expect_conditions(2.0, time).items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from decimal import Decimal
 
 import numpy as np
@@ -134,13 +135,39 @@ def test_fanuc_rounds_the_running_sum() -> None:
 def test_fanuc_in_both_directions_is_two_tables_and_what_is_between_them() -> None:
     keys = {"reference": 0, "reverse": 60, "magnification": 3}
     files = written("fanuc", curve(), **keys)
-    assert files["-parameters.txt"] == "3605#0 1\n3626 60\n3627 -4\n"
+    assert files["-parameters.txt"] == "3623 3\n3624 30 mm\n3605#0 1\n3626 60\n3627 -4\n"
     found = decoded("fanuc", files, curve(), **keys)
     gap = (found.reverse - found.forward) * 1e6
     assert gap == pytest.approx(np.full(11, 12.0), abs=3.0)
     assert found.forward * 1e6 == pytest.approx(np.array(FORWARD) - FORWARD[0], abs=1.5)
     with pytest.raises(InputError, match="overlap"):
         written("fanuc", curve(), reference=0, reverse=5, magnification=3)
+
+
+def test_fanuc_has_no_number_beyond_its_last() -> None:
+    """Numbers of the control are 0 to 1023; eleven rows from 1013 have the increments 1014 to 1023."""
+    text = written("fanuc", curve(), reference=1013, magnification=4)[".txt"]
+    assert text.splitlines()[-2].startswith("N11023P")
+    for keys in ({"reference": 1014}, {"reference": 0, "reverse": 1014}):
+        with pytest.raises(InputError, match="the last row has the number 1024"):
+            written("fanuc", curve(), magnification=4, **keys)
+
+
+def test_fanuc_states_magnification_and_interval() -> None:
+    assert written("fanuc", curve(), magnification=4)["-parameters.txt"] == "3623 4\n3624 30 mm\n"
+
+
+@pytest.mark.parametrize("name", ["siemens-840d", "siemens-840d-cec", "isg", "heidenhain", "etalon"])
+def test_a_file_names_the_axis_as_a_control_does(name: str) -> None:
+    of = replace(curve(), axis=Axis("X-axis (left)"))
+    with pytest.raises(InputError, match="is no name of an axis on this control; state its key axis"):
+        written(name, of)
+    assert decoded(name, written(name, of, axis="X1"), of, axis="X1").positions == pytest.approx(of.positions)
+
+
+def test_etalon_has_all_digits_of_a_long_axis() -> None:
+    of = table([10014.368, 10014.412], [1.0, 2.0])
+    assert "10014.368 0.001000\n10014.412 0.002000\n" in written("etalon", of)["-etalon.txt"]
 
 
 def test_mitsubishi_doubles_what_an_interval_is_too_short() -> None:

@@ -77,6 +77,10 @@ _WITHOUT_UNCERTAINTY = Words(
 )
 _OF_STANDARD = Words("{specification} ({standard})")
 _NONE = Words("none")
+#: With which an amount and what is accepted of it are told apart.
+_MOST_MORE_DECIMALS = 6
+#: Of µm or ″: fewer than a double rounds at.
+_DIGITS = 9
 _CAPTION = Words(
     "Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
     "normally distributed value with this uncertainty (JCGM 106:2012)."
@@ -186,14 +190,38 @@ def _lay_out_row(parameter: EvaluatedParameter, writer: Writer, *, with_units: b
     accepted = None if decision is None else decision.acceptance_limit
     is_nothing_accepted = accepted is not None and accepted < 0  # the guard band is wider than the limit
     risk = None if decision is None else decision.risk
+    amount, most = _write_apart(abs(parameter.value), accepted, parameter, writer)
     return (
         Symbol(parameter.quantity.notation),
-        shown(_write_rounded(abs(parameter.value), parameter, writer)),
+        shown(amount),
         shown(writer.number(writer.deviation_unit.from_si(parameter.limit or 0.0))),
-        writer.say(_NONE) if is_nothing_accepted else shown(_write_accepted(accepted, parameter, writer)),
+        writer.say(_NONE) if is_nothing_accepted else shown(most),
         make_verdict_cell(parameter, writer),
         NOTHING if risk is None else write_percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
     )
+
+
+def _write_apart(
+    amount: float, accepted: float | None, parameter: EvaluatedParameter, writer: Writer
+) -> tuple[str, str]:
+    """Write an amount and up to where it is accepted, with more decimals where rounding exchanges them.
+
+    "15.9, accepted up to 15.9: not decided" would contradict itself.
+    """
+    written = _write_rounded(amount, parameter, writer), _write_accepted(accepted, parameter, writer)
+    if accepted is None:
+        return written
+    sign, is_limit = writer.language.decimal_sign, accepted == parameter.limit
+    value, most = (round(writer.deviation_unit.from_si(each), _DIGITS) for each in (amount, accepted))
+    decimals = len(written[0].partition(sign)[2])
+    for more in range(decimals, decimals + _MOST_MORE_DECIMALS):
+        shown = round(value, more), most if is_limit else round(most, more)
+        if (shown[0] <= shown[1]) == (value <= most):
+            if more == decimals:
+                return written
+            finer = (write_fixed_number(each, more, sign) for each in shown)
+            return next(finer), written[1] if is_limit else next(finer)
+    return written
 
 
 def _write_accepted(accepted: float | None, parameter: EvaluatedParameter, writer: Writer) -> str:

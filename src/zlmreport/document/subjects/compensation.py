@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 _TITLE = Words("Compensation table")
 _SUBTITLE = Words("Axis {axis}, for {control}")
 _CONFIDENCE = {
-    "verified": Words("tried on the control"),
+    "verified": Words("sign and format verified"),
     "documented": Words("documented by the maker, not tried on the control"),
     "unconfirmed": Words("not confirmed: sign or format may be another"),
 }
@@ -85,8 +85,12 @@ CONFIRMED = {
 }
 _RATIO = Words("E after is {share} % of E before.")
 _APPLIED = Words("{share} % of the table shows in the second test.")
+_NOT_SEEN = Words("What part of the table acts does not show: it takes no more away than both tests scatter.")
+_BY_BACKLASH = Words(
+    "The lost motion that the table leaves is gone: the control's backlash parameter takes it."
+)
 _SHIFTED = Words("It is shifted by {length}.")
-_WITHIN, _OUTSIDE = Words("within"), Words("outside")
+_WITHIN, _BELOW, _ABOVE = Words("within"), Words("below"), Words("above")
 _SYMBOL, _PARAMETER = Words("Symbol"), Words("Parameter")
 _BEFORE, _SECOND_TEST = Words("Before"), Words("Second test")
 _FORECAST = Words("Forecast from the files as the control reads them")
@@ -94,6 +98,8 @@ _FORECAST = Words("Forecast from the files as the control reads them")
 Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
 #: Of what is left, m or rad: the rounding of doubles is no curve.
 _DIGITS_DRAWN = 12
+#: What was done to the axis between two tests.
+_ADJUSTMENT = Words("Compensation table of {rows} rows in the control: {control}.")
 _FIGURES = {
     "E": Words("Systematic deviation"),
     "M": Words("Mean bidirectional deviation"),
@@ -188,18 +194,21 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
     is_held = found.verdict is ConfirmationVerdict.HELD
     # What is forecast is a test in the same directions: another one shows other figures.
     is_of_plan = (made.forecast.before.reversal is None) == (shown.reversal is None)
-    foretold = made.forecast.second_test if is_of_plan else {}
+    foretold = made.forecast.choose_second_test(has_backlash=found.has_backlash) if is_of_plan else {}
 
     def where(symbol: str) -> str:
         expected = foretold.get(symbol)
         if expected is None:
             return ""
-        return say(_WITHIN if expected.low <= after[symbol] / factor <= expected.high else _OUTSIDE)
+        shown = after[symbol] / factor
+        return say(_BELOW if shown < expected.low else _ABOVE if shown > expected.high else _WITHIN)
 
     sentences = [
         _RATIO.given(share=number_words(100 * found.ratio, 1)),
-        _APPLIED.given(share=number_words(100 * found.applied, 0)),
+        _APPLIED.given(share=number_words(100 * found.applied, 0)) if found.is_seen else _NOT_SEEN,
     ]
+    if found.has_backlash:
+        sentences.append(_BY_BACKLASH)
     if found.shift:
         sentences.append(_SHIFTED.given(length=_write_length(found.shift, writer)))
     rows = tuple(
@@ -232,6 +241,11 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
     )
 
 
+def say_adjustment(made: Made) -> Words:
+    """Return what was done to the axis between a test and one with its table."""
+    return _ADJUSTMENT.given(rows=len(made.decoded.positions), control=made.controller.title)
+
+
 def _write_expected(expected: ExpectedFigure | None, writer: Writer) -> str:
     """Return from where to where a parameter of a second test is expected."""
     if expected is None:
@@ -253,13 +267,23 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         return with_unit(_write_number(unit.from_si(value), writer), unit.symbol)
 
     yield _describe_grid(made, writer, amount)
+    if made.grid.allowed:
+        yield _ALLOWED.given(allowed=amount(made.grid.allowed))
     if not made.basis.is_known_between:
         yield _UNKNOWN_BETWEEN
-    yield Words(
-        "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
-    ).given(
+    yield from _list_ends(made, writer)
+    if _find_constant(made):
+        yield Words("The control's table begins at zero: a constant of {constant} was taken out.").given(
+            constant=amount(-found.constant)
+        )
+    if found.play:
+        yield Words(
+            "The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
+            "control's backlash parameter. With that E is {error}."
+        ).given(play=amount(found.play), error=amount(found.after_with_backlash.systematic))
+    yield (_LEFT if unit.from_si(found.between) >= _LEAST_WRITTEN / 2 else _LITTLE_LEFT).given(
         rows=len(made.decoded.positions),
-        between=amount(found.between),
+        between=amount(max(found.between, unit.to_si(_LEAST_WRITTEN))),
         at=_write_length(found.between_at, writer),
         rounding=amount(found.rounding),
     )
@@ -270,65 +294,103 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         )
     if found.second_test:
         yield _BOTH_SET_UPS if found.has_set_up else _SCATTER_ALONE
-    if abs(found.constant) > found.rounding:
-        yield Words("The control's table begins at zero: a constant of {constant} was taken out.").given(
-            constant=amount(-found.constant)
-        )
-    if found.play:
-        yield Words(
-            "The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
-            "control's backlash parameter."
-        ).given(play=amount(found.play))
 
 
+def _list_ends(made: Made, writer: Writer) -> Iterator[Words]:
+    """Yield that rows end before the targets, and these before the axis."""
+    axis, targets = made.meant.axis, made.basis.curve.positions
+    first, last = (_write_length(float(targets[end]), writer) for end in (0, -1))
+    row = _write_length(float(made.decoded.positions[-1]), writer)
+    if made.decoded.positions[-1] < targets[-1] and row != last:
+        yield _ENDS_BEFORE.given(row=row, target=last)
+    if axis.travel is None:
+        return
+    low, high = (_write_length(each, writer) for each in axis.travel)
+    if (axis.travel[0] < targets[0] and low != first) or (axis.travel[1] > targets[-1] and high != last):
+        yield _BEYOND_TARGETS.given(low=low, high=high)
+
+
+#: The last digit that deviations are written with, µm or ″.
+_LEAST_WRITTEN = 0.01
+_LEFT = Words(
+    "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
+)
+_LITTLE_LEFT = Words(
+    "Anywhere between the {rows} rows less than {between} is left; rounding takes {rounding}."
+)
+_BEYOND_TARGETS = Words(
+    "The axis goes from {low} to {high}: beyond the targets nothing was measured, and nothing is forecast."
+)
+_ALLOWED = Words("U of a mean by the scatter of the readings is {allowed} (k = 2).")
+_ENDS_BEFORE = Words(
+    "The rows end at {row}, the targets at {target}: beyond the last row its value is taken to hold."
+)
 _GRIDS = {
     GridReason.STATED: Words(
         "{rows} rows, {step} apart, as stated: the lines between them miss up to {added}."
     ),
-    GridReason.TARGETS: Words(
-        "{rows} rows at the targets: the lines between them miss up to {added}, and U of a mean is "
-        "{allowed} (scatter, k = 2)."
-    ),
-    GridReason.UNCERTAINTY: Words(
-        "{rows} rows, {step} apart, are the fewest whose lines miss no more than U of a mean, {allowed} "
-        "(scatter, k = 2): up to {added}."
-    ),
+    GridReason.TARGETS: Words("{rows} rows at the targets: the lines between them miss up to {added}."),
+    GridReason.UNCERTAINTY: Words("{rows} rows, {step} apart: the lines between them miss up to {added}."),
     GridReason.CONTROL: Words(
-        "{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
-        "{allowed} (scatter, k = 2), for the control takes no more rows."
+        "{rows} rows, {step} apart: the lines between them miss up to {added}; the control takes no more "
+        "rows."
     ),
     GridReason.SUPPORT: Words(
-        "{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
-        "{allowed} (scatter, k = 2); the targets support no finer rows."
+        "{rows} rows, {step} apart: the lines between them miss up to {added}; the targets support no finer "
+        "rows."
     ),
+}
+
+
+#: Where the lines between the rows are what the table is to take away.
+_GRIDS_OF_LINES = _GRIDS | {
+    GridReason.STATED: Words("{rows} rows, {step} apart, as stated."),
+    GridReason.TARGETS: Words("{rows} rows at the targets."),
+    GridReason.UNCERTAINTY: Words("{rows} rows, {step} apart."),
 }
 
 
 def _describe_grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
     """Return where the table has its rows, and why."""
     grid = made.grid
-    return _GRIDS[grid.reason].given(
+    return (_GRIDS if grid.added else _GRIDS_OF_LINES)[grid.reason].given(
         rows=len(grid.rows),
         step=_write_length(float(grid.rows[1] - grid.rows[0]), writer),
         added=amount(grid.added),
-        allowed=amount(grid.allowed) if grid.allowed else NOTHING,
     )
+
+
+_WORKED = Words(
+    "Worked row: at {at} the axis without a table is off by {stood} (actual − target, ↑ moving forward, "
+    "↓ moving back); this table takes away {taken}, which leaves {left}."
+)
+_WORKED_BESIDE = Words(
+    "Worked row: at {at} the axis without a table is off by {stood} beside the constant that was taken out "
+    "(actual − target, ↑ moving forward, ↓ moving back); this table takes away {taken}, which leaves {left}."
+)
+
+
+def _find_constant(made: Made) -> float:
+    """Return what a control adds to the table that it was meant to hold, as some begin at zero, m or rad."""
+    found = made.forecast
+    return found.constant if abs(found.constant) > found.rounding else 0.0
 
 
 def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     say, unit = writer.say, writer.deviation_unit
-    worst = int(np.argmax(np.abs(made.meant.forward + made.meant.reverse)))  # what a check can see best
+    constant = _find_constant(made)
+    # what a check can see best
+    worst = int(np.argmax(np.abs(made.decoded.at(made.meant.positions).sum(axis=0))))
     at = made.meant.positions[worst : worst + 1]
 
     def both(values: FloatArray) -> str:
         up, down = (_write_signed(unit.from_si(float(each[0])), writer) for each in values)
         return f"{up} ↑, {down} ↓ {unit.symbol}"
 
-    stood, taken = made.meant.at(at), made.decoded.at(at)
-    worked = Words(
-        "Worked row: at {at} the axis without a table is off by {stood} (actual − target, ↑ moving forward, "
-        "↓ moving back); this table takes away {taken}, which leaves {left}."
-    ).given(at=writer.length(float(at[0])), stood=both(stood), taken=both(taken), left=both(stood - taken))
+    stood, taken = made.meant.at(at) + constant, made.decoded.at(at)
+    worked = (_WORKED_BESIDE if constant else _WORKED).given(
+        at=writer.length(float(at[0])), stood=both(stood), taken=both(taken), left=both(stood - taken)
+    )
     return (
         Paragraph(say(worked)),
         Notice(say(Words("For who loads it")), (*map(say, made.controller.notes), say(_CHECK))),
@@ -336,11 +398,12 @@ def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
 
 
 def _draw_figure(made: Made, writer: Writer) -> Figure:
-    """Return the picture: means and table above, what is left below."""
+    """Return the picture: means and table above, what is left below; beside a constant that was taken out."""
     curve, printed = made.basis.curve, writer.deviation_unit.from_si
     targets = read_only_floats(writer.position_unit.from_si(curve.positions))
     rows = read_only_floats(writer.position_unit.from_si(made.decoded.positions))
-    means = np.stack([curve.forward, curve.reverse])
+    constant = _find_constant(made)
+    means, rest = np.stack([curve.forward, curve.reverse]) + constant, made.forecast.left + constant
     table = np.stack([made.decoded.forward, made.decoded.reverse])
     if made.active is not None:
         table = table - made.active.at(made.decoded.positions)
@@ -359,7 +422,7 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
         *curves(rows, table, ("C↑", "C↓"), (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE)),
     )
     known = printed(made.grid.allowed)
-    left = curves(targets, np.round(made.forecast.left, _DIGITS_DRAWN), ("x̄↑", "x̄↓"), measured)
+    left = curves(targets, np.round(rest, _DIGITS_DRAWN), ("x̄↑", "x̄↓"), measured)
     beside = np.full(len(targets), known)
     band = Band("±U", Role.NOISE, targets, read_only_floats(-beside), read_only_floats(beside))
     unit = writer.deviation_unit.symbol
@@ -368,8 +431,8 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
         for name, value in (
             ("low", means.min()),
             ("high", means.max()),
-            ("least", made.forecast.left.min()),
-            ("most", made.forecast.left.max()),
+            ("least", rest.min()),
+            ("most", rest.max()),
         )
     }
     return Figure(
@@ -381,8 +444,17 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
         x_unit=writer.position_unit.symbol,
         y_unit=unit,
         panels=(
-            Panel(Words("Before, and the table"), curves=before),
-            Panel(Words("With the table, and U of a mean"), bands=(band,) if known else (), curves=left),
+            Panel(
+                Words("Before, and the new table less the old one")
+                if made.active
+                else Words("Before, and the table"),
+                curves=before,
+            ),
+            Panel(
+                Words("With the table, and U of a mean") if known else Words("With the table"),
+                bands=(band,) if known else (),
+                curves=left,
+            ),
         ),
         spans_are_alike=False,
     )

@@ -12,10 +12,12 @@ from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
-from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
+from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve, halve_play
 
 #: A part of the table that was applied is taken for 1, ½ or −1 within this.
 _NEAR = 0.2
+#: A part that is known no better says nothing.
+_UNKNOWN = 0.5
 #: Of the deviations before, what may be left beside the scatter of the means.
 _MAY_BE_LEFT = 0.05
 #: By how much a shift must make the rest smaller to be the reason.
@@ -40,16 +42,33 @@ class Confirmation:
     verdict: ConfirmationVerdict  #: What became of the table.
     ratio: float  #: E after over E before.
     applied: float  #: What part of the table the second test shows to have been applied.
+    #: Of that part by the scatter of both tests, k = 2; infinite where the table takes nothing away.
+    expanded_uncertainty: float
+    #: Whether the control's backlash parameter takes the play that a table without directions leaves.
+    has_backlash: bool = False
     shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
 
+    @property
+    def is_seen(self) -> bool:
+        """Whether the second test tells what part of the table was applied."""
+        return self.expanded_uncertainty < _UNKNOWN
 
-def confirm(
-    basis: TableBasis, after: ErrorCurve, axis: Axis, table: CompensationTable, place: Place
+
+def confirm(  # noqa: PLR0913, PLR0917 - two tests, and the tables of both
+    basis: TableBasis,
+    after: ErrorCurve,
+    axis: Axis,
+    table: CompensationTable,
+    place: Place,
+    active: CompensationTable | None = None,
+    play: float = 0.0,
 ) -> Confirmation:
     """Hold a second test against the table that the first one gave.
 
     `basis`: What is known of the axis from the first test; between its targets, too.
     `axis`: That of the second test.
+    `active`: The table that was active during the first test, and that this one replaces.
+    `play`: What this one leaves to the control's backlash parameter, m or rad.
 
     Raises `InputError` if the two tests are of different axes, or have no common length or direction.
     """
@@ -73,21 +92,42 @@ def confirm(
         raise InputError.at(place, "has no two targets within the length of the test before")
     was = basis.known(positions)[common]
     is_now = np.stack([after.forward, after.reverse])[common][:, inside]
-    taken = table.at(positions)[common]
-    removed = was - is_now  # but for a constant: each test has its own zero
     ratio = float(np.ptp(is_now) / np.ptp(was)) if np.ptp(was) else 1.0
+    taken = table.at(positions)[common]
+    # Of the axis without a table, but for a constant: each test has its own zero.
+    removed = was + (active.at(positions)[common] if active else 0.0) - is_now
+    by_backlash = _find_taken_play(removed, play)
+    removed = removed - by_backlash
     applied = _fit_part(removed, taken)
     left = _compute_rms(_centre(removed - taken))
-    allowed = _compute_allowed(before, after) + _MAY_BE_LEFT * _compute_rms(was - was.mean())
-    if abs(applied - 1) < _NEAR and left <= allowed:
-        return Confirmation(ConfirmationVerdict.HELD, ratio, applied)
+    scatter = _compute_scatter(before, after)
+    allowed = scatter + _MAY_BE_LEFT * _compute_rms(was - was.mean())
+    of_table = _compute_rms(_centre(taken)) * np.sqrt(taken.size)
+    expanded = float(scatter / of_table) if of_table else np.inf
+
+    def told(verdict: ConfirmationVerdict, shift: float = 0.0) -> Confirmation:
+        return Confirmation(verdict, ratio, applied, expanded, bool(by_backlash.any()), shift)
+
+    if abs(applied - 1) < max(_NEAR, expanded) and left <= allowed:
+        return told(ConfirmationVerdict.HELD)
     for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
         if abs(applied - part) < _NEAR and _compute_rms(_centre(removed - part * taken)) <= 2 * allowed:
-            return Confirmation(verdict, ratio, applied)
+            return told(verdict)
     shift, rest = _fit_shift(removed, positions, table, common)
     if rest * _FAR_SMALLER < left:
-        return Confirmation(ConfirmationVerdict.SHIFTED, ratio, applied, shift)
-    return Confirmation(ConfirmationVerdict.OTHER, ratio, applied)
+        return told(ConfirmationVerdict.SHIFTED, shift)
+    return told(ConfirmationVerdict.OTHER)
+
+
+def _find_taken_play(removed: FloatArray, play: float) -> FloatArray:
+    """Return what a backlash parameter took of each direction, shape (d, 1): half of a play each, or nothing.
+
+    `removed`, (d, m): By table and parameter, in the directions of both tests, m or rad.
+    """
+    if len(removed) < 2:
+        return np.zeros((1, 1))
+    gone = float(np.mean(removed[0] - removed[1]))
+    return halve_play(play if abs(gone - play) < abs(gone) else 0.0)
 
 
 def _fit_part(removed: FloatArray, table: FloatArray) -> float:
@@ -109,7 +149,7 @@ def _fit_shift(
     return shift, rest
 
 
-def _compute_allowed(before: ErrorCurve, after: ErrorCurve) -> float:
+def _compute_scatter(before: ErrorCurve, after: ErrorCurve) -> float:
     """Return twice the standard deviation of a difference of two means, by the scatter of both tests."""
     parts = [
         float(np.nanmean(each.spread**2)) / max(1, each.runs)

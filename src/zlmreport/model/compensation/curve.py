@@ -138,3 +138,8 @@ class CrossTable:
     def at(self, positions: FloatArray) -> FloatArray:
         """Return what is taken away at some positions, m: linear between rows, the end value outside."""
         return np.asarray(np.interp(positions, self.positions, self.values), dtype=np.float64)
+
+
+def halve_play(play: float) -> FloatArray:
+    """Return what a mean lost motion (forward − reverse) does to each direction, shape (2, 1), m or rad."""
+    return np.array([[play / 2], [-play / 2]])

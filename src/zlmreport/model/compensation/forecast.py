@@ -12,7 +12,7 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect
 from zlmreport.evaluation.uncertainty.sampling import sample_singly
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.compensation.basis import TableBasis, join_directions
-from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
+from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve, halve_play
 
 #: Places between two rows at which the table is looked at.
 _BETWEEN = 16
@@ -60,8 +60,8 @@ class TableForecast:
     #: the scatter of both. Empty where the first cannot tell its scatter.
     second_test: dict[str, ExpectedFigure]
     left: FloatArray  #: (2, m): The mean deviations after, by direction and target, m or rad.
-    #: between and between_at: Largest deviation that is left anywhere between the rows, and where it is, m or
-    #: rad.
+    #: between and between_at: Largest deviation that is left anywhere between the rows, beside the constant,
+    #: and where it is, m or rad.
     between: float
     between_at: float
     left_out: float  #: Largest deviation of the waves that no row carries, m or rad.
@@ -69,8 +69,15 @@ class TableForecast:
     #: By how much the control's table is meant to be off all over: some begin at zero, m or rad.
     constant: float
     has_set_up: bool  #: Whether the second test has errors of a set-up: where the job gives a budget.
-    #: The mean lost motion that a table without directions leaves to another parameter, m or rad.
+    #: The mean lost motion that a table without directions leaves to the backlash parameter, m or rad.
     play: float
+    #: `after` and `second_test` where that parameter takes it.
+    after_with_backlash: Figures
+    second_test_with_backlash: dict[str, ExpectedFigure]
+
+    def choose_second_test(self, *, has_backlash: bool) -> dict[str, ExpectedFigure]:
+        """Return what a second test will show with the control's backlash parameter, or without it."""
+        return self.second_test_with_backlash if has_backlash else self.second_test
 
 
 def forecast(
@@ -87,19 +94,22 @@ def forecast(
     curve = basis.curve
     means = np.stack([curve.forward, curve.reverse])
     change = decoded.at(curve.positions) - (active.at(curve.positions) if active else 0.0)
-    fine = _lay_fine_places(meant.positions, curve.positions)
-    known, gone = basis.known(fine), active.at(fine) if active else 0.0
-    worst_at = np.abs(known + gone - decoded.at(fine)).max(axis=0)
-    worst = int(np.argmax(worst_at))
     is_directional = bool(np.any(decoded.forward != decoded.reverse))
     rows = meant.at(meant.positions)
     target = rows if is_directional else rows.mean(axis=0)
     off = decoded.at(meant.positions) - target
     constant = float(off.mean())
+    play = 0.0 if is_directional else float(np.mean(rows[0] - rows[1]))
+    fine = _lay_fine_places(meant.positions, curve.positions)
+    known, gone = basis.known(fine), active.at(fine) if active else 0.0
+    worst_at = np.abs(known + gone - decoded.at(fine) + constant).max(axis=0)
+    worst = int(np.argmax(worst_at))
+    after, second_test = _foretell(basis, change, budget)
+    with_backlash = _foretell(basis, change + halve_play(play), budget) if play else (after, second_test)
     return TableForecast(
         compute_figures(means, curve),
-        compute_figures(means - change, curve),
-        _simulate_second_tests(basis, basis.estimate - change, budget) if basis.scatter else {},
+        after,
+        second_test,
         read_only_floats(means - change),
         float(worst_at[worst]),
         float(fine[worst]),
@@ -109,8 +119,21 @@ def forecast(
         float(np.abs(off - constant).max()),
         constant,
         budget is not None,
-        0.0 if is_directional else float(np.mean(rows[0] - rows[1])),
+        play,
+        *with_backlash,
     )
+
+
+def _foretell(
+    basis: TableBasis, change: FloatArray, budget: Budget | None
+) -> tuple[Figures, dict[str, ExpectedFigure]]:
+    """Return what is left of the means, and what a second test will show, where so much more is taken away.
+
+    `change`, (2, m): m or rad.
+    """
+    curve = basis.curve
+    shown = _simulate_second_tests(basis, basis.estimate - change, budget) if basis.scatter else {}
+    return compute_figures(np.stack([curve.forward, curve.reverse]) - change, curve), shown
 
 
 def _lay_fine_places(rows: FloatArray, targets: FloatArray) -> FloatArray:

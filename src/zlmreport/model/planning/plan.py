@@ -200,8 +200,16 @@ class AxisPlan:
 
 
 def find_beyond_travel(axis: Axis, plan: AxisPlan) -> tuple[float, float] | None:
-    """Return the lowest and highest position of a plan, m or rad, where one lies beyond the travel."""
-    if axis.travel is None or makes_whole_turns(axis):
+    """Return the lowest and highest position of a plan, m or rad, where the axis has an end before one."""
+    return None if makes_whole_turns(axis) else find_beyond_stated_travel(axis, plan)
+
+
+def find_beyond_stated_travel(axis: Axis, plan: AxisPlan) -> tuple[float, float] | None:
+    """Return the lowest and highest position of a plan, m or rad, where one lies beyond the travel as stated.
+
+    Nobody has said whether an axis that states a whole turn has ends there.
+    """
+    if axis.travel is None:
         return None
     first, last = axis.travel
     slack = _ROUNDING * (last - first)

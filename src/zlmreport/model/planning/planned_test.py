@@ -16,7 +16,7 @@ from zlmreport.model.planning.methods import Visit
 from zlmreport.model.planning.plan import (
     PlannedStandard,
     Proposal,
-    find_beyond_travel,
+    find_beyond_stated_travel,
     make_as_measured,
     propose,
 )
@@ -91,7 +91,7 @@ def describe_planned_test(
         travelled=plan.travelled,
         duration=plan.duration,
         half_seen=tuple(find_periods_at_phases(job.axis, plan.targets, 2)),
-        beyond_travel=find_beyond_travel(job.axis, plan),
+        beyond_travel=find_beyond_stated_travel(job.axis, plan),
         model=base,
         seen_effects=seen_effects,
         remedies=find_remedies(seen_effects, model, job.axis, proposal),
