@@ -33,7 +33,7 @@ from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import select_readings
-from zlmreport.plugin import FloatArray, Language
+from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
 
 DESIGN = linear_test()
@@ -169,6 +169,18 @@ def test_a_cooler_that_switches_often_while_an_axis_is_measured_has_its_name(run
     found = diagnose(model, observations(design, np.sum(parts, axis=0) + noise(design)), INSTALLED)
     assert {each.identifier for each in found.together} == set(causes)
     assert found.remainder is None
+
+
+@pytest.mark.parametrize("seed", [2, pytest.param(6, marks=pytest.mark.long)])
+def test_what_explains_nothing_is_not_named_for_making_others_cheaper(seed: int) -> None:
+    # A bow of the lost motion and a worn zone are much like what varies once a turn; some geometry stays.
+    places = np.round(np.sort(np.random.default_rng(5).uniform(0, 2 * np.pi, 31)), 3)
+    design = linear_test(31, 5, axis=Axis("C", kind=AxisKind.ROTARY, travel=(0.0, 2 * np.pi)), places=places)
+    lost_motion = 8 + 4 * np.sin(design.position + 2.2 * seed)
+    geometry = 0.5 * np.random.default_rng(seed).standard_normal(31)[design.target]
+    deviation = SIGMA * (lost_motion * design.direction + geometry) + noise(design, seed)
+    found = diagnose(model_of("offset"), observations(design, deviation), INSTALLED)
+    assert {each.identifier for each in found.together} == {"backlash", "lost-motion-turn"}
 
 
 def test_waves_in_time_are_sought_as_far_as_each_has_eight_readings() -> None:

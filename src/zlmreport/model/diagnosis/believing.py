@@ -90,7 +90,9 @@ def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
     """
     while found.members:
         without = [_leave_out(search, found, number) for number in range(len(found.members))]
-        order = sorted(range(len(without)), key=lambda each: without[each].score)
+        order = sorted(
+            range(len(without)), key=lambda each: _compute_lost(search, found, each, without[each])
+        )
         needless = next((each for each in order if not _is_needed(search, found, each, without[each])), None)
         if needless is None:
             break
@@ -117,7 +119,7 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
 
     `rest`: The set without it.
     """
-    lost, is_named = rest.score - found.score, found.members[number].family.is_named
+    lost, is_named = _compute_lost(search, found, number, rest), found.members[number].family.is_named
     needed = NAMED
     if is_named and len(found.named) > 1:
         if not search.has_nameless(rest):
@@ -132,6 +134,19 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
             np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
         )
     return lost >= needed
+
+
+def _compute_lost(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> float:
+    """Return the evidence that a set loses without one of its members.
+
+    One that is much like others leaves less of them to be paid for. It is no cause for that: beyond its own
+    price it must explain what it is worth.
+
+    `rest`: The set without it.
+    """
+    member = found.members[number]
+    own = search.compute_fit(rest) - search.compute_fit(found) - member.family.price - member.spread
+    return min(rest.score - found.score, own)
 
 
 def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:

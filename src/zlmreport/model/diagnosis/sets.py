@@ -391,7 +391,7 @@ class SetSearch:
         `within`: What evidence it may lack; None where all lack more.
         `fit_within`: The same of the fit alone, whatever the name costs.
         """
-        fit, names, forms = self._compute_fit(found), list_names(found.named), list_unnamed(found)
+        fit, names, forms = self.compute_fit(found), list_names(found.named), list_unnamed(found)
         alike = [
             each
             for (own, unnamed), each in self._sets.best.items()
@@ -402,11 +402,11 @@ class SetSearch:
             and sum(member.rank for member in each.members) <= sum(member.rank for member in found.members)
             and not set(self._list_loud(each)) - set(self._list_loud(found))
             and each.score < found.score + within
-            and self._compute_fit(each) < fit + fit_within
+            and self.compute_fit(each) < fit + fit_within
         ]
         return min(alike, key=find_score, default=None)
 
-    def _compute_fit(self, found: EffectSet) -> float:
+    def compute_fit(self, found: EffectSet) -> float:
         """Return the score of a set but for what its effects cost."""
         return self.contest.compute_criterion(found.amplitudes, found.columns)
 
