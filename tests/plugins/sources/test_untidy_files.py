@@ -116,7 +116,7 @@ def test_a_table_of_several_axes_is_refused_with_their_names(tmp_path: Path) -> 
     path.write_text(
         "Axis,target,direction,run,deviation\nX,0,+,1,1\nX,9,+,1,2\nY,0,+,1,1\n", encoding="utf-8"
     )
-    with pytest.raises(InputError, match=r"readings of 2 axes, as its column 'Axis' says \(X and Y\)"):
+    with pytest.raises(InputError, match=r"readings of several axes, as its column 'Axis' says \(X and Y\)"):
         look_at(path, REGISTRY)
 
 

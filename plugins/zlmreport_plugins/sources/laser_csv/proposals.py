@@ -88,7 +88,7 @@ def _refuse_several_axes(table: FoundTable, file: Path) -> None:
         if folded(name) in _OF_AXES and len(axes) > 1:
             raise InputError.at(
                 Place(str(file), table.header.line),
-                f"holds readings of {len(axes)} axes, as its column {name!r} says ({listed(axes)}); write a "
+                f"holds readings of several axes, as its column {name!r} says ({listed(axes)}); write a "
                 "file of each axis, for a test is of one",
             )
 
