@@ -5,6 +5,7 @@ A password, or an address that holds one, comes from the environment and is in n
 
 from __future__ import annotations
 
+import datetime as dt
 import os
 import smtplib
 import ssl
@@ -62,6 +63,7 @@ class Mail:
         """Hand the mail to the server."""
         mail = EmailMessage()
         mail["Subject"], mail["From"], mail["To"] = message.title, options.sender, self.receiver(options)
+        mail["Date"] = dt.datetime.now(dt.UTC)
         mail.set_content(message.text)
         try:
             with _open_line(options) as server:
@@ -72,7 +74,8 @@ class Mail:
                 server.send_message(mail)
         except (OSError, smtplib.SMTPException) as error:
             where = Place(f"mail by {options.server}")
-            raise AccessError.at(where, str(error) or type(error).__name__) from error
+            said = error.strerror if isinstance(error, OSError) else None
+            raise AccessError.at(where, said or str(error) or type(error).__name__) from error
 
 
 def _open_line(options: MailOptions) -> smtplib.SMTP:

@@ -31,7 +31,10 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         entry(day, parameter(21.0, conforms=False), axis="Z", job="z"),
         entry(day, parameter(19.9, conforms=None), parameter(3.0, symbol="R", limit=None), axis="B", job="b"),
         entry(
-            day, job="f", state=State.FAILED, message="x.csv:3:4: a long message " + "without an end " * 20
+            day,
+            job="hall-2/hmc-500/x-axis.yaml",
+            state=State.FAILED,
+            message="x.csv:3:4: a long message " + "without an end " * 20,
         ),
         entry(day, job="d", state=State.DRAFT, message="the readings have changed"),
     ]
@@ -40,6 +43,13 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     names = Names(find_plugins().standards)
     file.write_text(make_overview(state, Language.GERMAN, names, "."), encoding="utf-8")
     return file
+
+
+def test_the_path_of_a_job_is_parted_nowhere(window: Callable[..., Page], page_file: Path) -> None:
+    page = window(page_file.as_uri(), viewport={"width": 1280, "height": 900})
+    path = page.locator("th .content", has_text="hall-2/hmc-500/x-axis.yaml")
+    high, line = path.evaluate("it => [it.clientHeight, parseFloat(getComputedStyle(it).lineHeight)]")
+    assert high < 1.5 * line
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

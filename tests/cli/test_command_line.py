@@ -56,6 +56,10 @@ def test_without_a_word_it_says_what_one_can_do_and_every_line_of_it_is_a_comman
     ("arguments", "message"),
     [
         (["--quiet"], "zlmreport: the following arguments are required: JOB.yaml (see zlmreport --help)"),
+        (
+            ["fleet", "reprot", "fleet.yaml"],
+            "zlmreport fleet: 'reprot' is neither a file nor a command; did you mean 'report'?",
+        ),
         (["chek", "job.yaml"], "zlmreport: 'chek' is neither a file nor a command; did you mean 'check'?"),
         (["--quiet", "check"], "zlmreport: the command comes first: zlmreport check …"),
         (["job.yaml", "--formt", "pdf"], "zlmreport: unknown option '--formt'; did you mean '--format'?"),

@@ -248,7 +248,7 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     machine = "Example Works MT 500, serial 1"
     for line in (
         "Zum ganzen Lauf\n- Uhr: die Uhr steht auf …",
-        f"- {machine}, Z: A = 21,5 µm, Grenzwert 20 µm",
+        f"- {machine}, Z: A = 21,5 ± 1,0 µm, Grenzwert 20 µm",
         f"- {machine}, X: A + 10,4 µm seit 2026-07-15",
         f"- {machine}, Y: A + 4,1 µm im Jahr, Grenzwert erreicht 2028-",
         f"- {machine}, Z: gemessen am 2026-08-01, war bis 2027-08-01 erneut zu messen",
@@ -265,7 +265,7 @@ def _tell(*entries: LedgerEntry) -> Message:
 def test_a_value_that_exceeds_its_limit_is_told_to_the_digits_that_show_it() -> None:
     stated = parameter(20.04, symbol="A_fwd", expanded_uncertainty=0.02, conforms=False)
     told = _tell(entry(dt.date(2026, 8, 1), stated))
-    assert "X: A↑ = 20.040 µm, limit 20 µm" in told.text
+    assert "X: A↑ = 20.040 ± 0.020 µm, limit 20 µm" in told.text
 
 
 def test_a_change_has_the_sign_that_the_standard_prints_and_is_never_zero() -> None:

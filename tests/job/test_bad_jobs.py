@@ -35,6 +35,7 @@ WRONG_VALUES = {
         "unknown key 'machin'; did you mean 'machine'?",
     ),
     "number that cannot name a file": (3, "  number: CAL/1", "3:11", "'CAL/1' cannot name files"),
+    "number too long": (3, f"  number: {'C' * 101}", "3:11", "has up to 100 letters"),
     "number that leaves the folder": (3, "  number: ../CAL", "3:11", "'../CAL' cannot name files"),
     "number that is hidden": (3, "  number: .CAL", "3:11", "'.CAL' cannot name files"),
     "number that is a list": (3, "  number: [1]", "3:3", "certificate.number: a list of 1 value is not text"),

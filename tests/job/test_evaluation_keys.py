@@ -33,8 +33,18 @@ def test_a_rotary_axis_has_no_lengths_that_expand_or_are_misaligned(tmp_path: Pa
     message = told(tmp_path, axis=ROTARY, evaluate=["nmtba"], uncertainty={key: 1.0})
 
     assert message == (
-        f"uncertainty.{key}: belongs to a linear axis; take it out, or state contributions of this axis"
+        f"uncertainty.{key}: belongs to a linear axis; take it out (with null, where another file states "
+        "it), or state contributions of this axis"
     )
+
+
+def test_null_takes_out_what_another_file_states(tmp_path: Path) -> None:
+    (tmp_path / "shared.yaml").write_text("uncertainty: {misalignment: 0.5}\n", encoding="utf-8")
+    keys = {"extends": "shared.yaml", "axis": ROTARY, "evaluate": ["nmtba"]}
+    assert "belongs to a linear axis" in told(tmp_path, **keys, uncertainty={})
+    stated = job(tmp_path, {**COMPLETE, **keys, "uncertainty": {"misalignment": None}}).keys.uncertainty
+    assert stated is not None
+    assert stated.misalignment is None
 
 
 def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:

@@ -152,12 +152,28 @@ def test_a_certificate_is_read_back_with_its_uncertainty(folder, capsys):
 @pytest.mark.long
 def test_the_notebook_says_the_same(folder):
     machine = z.machine(folder / "machine.yaml")
-    assert machine.diagnose().missing == ("servo-mismatch",)
+    assert repr(machine) == "<Machine XYFZ: 6 of 21 errors known, tests: 1, 4.7 µm left of its circles>"
+    diagnosis = machine.diagnose()
+    assert diagnosis.missing == ("servo-mismatch",)
+    assert repr(diagnosis) == "<Diagnosis: Missing: Servo mismatch.>"
+    assert "<li>No backlash of X" in diagnosis._repr_html_()
     assert machine.add("servo-mismatch").rms < 0.1 * machine.rms
     built = machine.build()
     assert built.machine.effects == ("centre-offset", "radius", "servo-mismatch")
+    assert repr(built).startswith("<Build: + servo-mismatch 0.3")
     with pytest.raises(z.InputError, match="did you mean"):
         machine.add("servo-missmatch")
+
+
+def test_in_a_notebook_axes_alone_predict_the_work_space(folder):
+    path = folder / "machine.yaml"
+    path.write_text(path.read_text("utf-8").replace("tests: [circle-xy.yaml]", ""), "utf-8")
+    machine = z.machine(path)
+    assert repr(machine) == "<Machine XYFZ: 6 of 21 errors known, tests: 0>"
+    assert machine.predict()["volume"]["largest"] == pytest.approx(5.07, abs=0.01)
+    assert "the largest error, relative to the middle" in machine._repr_html_()
+    with pytest.raises(z.InputError, match="no circle is among the tests"):
+        machine.diagnose()
 
 
 @pytest.mark.long

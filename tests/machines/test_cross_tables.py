@@ -280,6 +280,8 @@ def test_tables_are_made_saved_and_confirmed_in_python(folder, tmp_path):
     with pytest.raises(InputError, match='state moves="plus" or moves="minus"'):
         machine.compensate("siemens-840d-cec")
     tables = machine.compensate("siemens-840d-cec", moves="minus")
+    assert repr(tables) == "<Tables: machine-across_CEC.INI>"
+    assert "A forecast is no measurement" in tables._repr_html_()
     before, after = tables.forecast["largest"]
     assert after < before
     assert tables.save(tmp_path / "out") == tmp_path / "out"

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from zlmreport.cli import main
+from zlmreport.machines.kinematics import COMPONENTS, SQUARENESS
 
 MACHINE = """\
 schema: zlmreport/machine/1
@@ -55,6 +56,15 @@ def test_a_page_in_german_has_german_numbers_and_words(run, tmp_path):
 @pytest.mark.parametrize(("stated", "said"), [("-0.0000001", "0"), ("2543.188", "2543.188")])
 def test_a_place_has_its_micrometres_and_no_minus_before_a_zero(run, stated, said):
     assert f"Y {said} " in run(MACHINE.replace("-0.0000001", stated), "check")[1]
+
+
+def test_where_all_errors_are_known_nothing_is_said_of_errors_that_nobody_measured(run):
+    lines = [f"  - {{{each}: {{0: 0, 500: 0}}, expanded_uncertainty: 0.6}}\n" for each in COMPONENTS]
+    squares = [f"  - {{{each}: 1, expanded_uncertainty: 0.6}}\n" for each in SQUARENESS]
+    said = run("schema: zlmreport/machine/1\nchain: XYFZ\nerrors:\n" + "".join(lines + squares), "predict")[1]
+    assert "21 of 21 errors are known" in said
+    assert "relative to the middle, is (" in said
+    assert "nobody measured" not in said
 
 
 def test_ranges_that_do_not_overlap_are_no_lack_of_measurements(run):

@@ -299,6 +299,30 @@ def test_target_and_actual_position_are_not_exchanged() -> None:
     ]
 
 
+def test_a_display_is_not_taken_for_the_commanded_position() -> None:
+    readings = [
+        reading(2 + 3 * run + index, 100 * index + 0.0001 * (run + index) % 0.0004, run=run)
+        for run in range(1, 7)
+        for index in range(3)
+    ]
+    assert complaints(readings) == [
+        (
+            "x.csv:5:1: 12 target positions are 3 places, each written otherwise from run to run; "
+            "is the target the commanded position, and not what a display showed?"
+        )
+    ]
+
+
+def test_targets_of_a_run_of_their_own_are_no_display() -> None:
+    lists = [
+        (line, 100 * index + 7 * (run % 2), run)
+        for run in range(4)
+        for line, index in enumerate(range(3), 4 * run)
+    ]
+    measurements = collected([reading(2 + line, target, run=run + 1) for line, target, run in lists])
+    assert len(measurements.target_positions) == 6
+
+
 def test_all_problems_come_at_once_in_the_order_of_the_file_with_those_of_the_reader() -> None:
     readings = [*cycle(1), reading(9, 0, run=0), reading(10, 0), reading(12, 300, deviation=1e9)]
     found = [Problem(Place("x.csv", 11, 4), "'abc' stands where a number belongs")]

@@ -77,7 +77,7 @@ def test_interval_is_the_median() -> None:
 
 
 _HEADER = "the first row names the columns, as in position (mm),deviation (µm); found "
-_UNITS = "known: in, m, mm, nm, µin, µm"
+_UNITS = "known: in, m, mm, nm, thou, µin, µm"
 _RISING = "position '5' does not lie above the one before it, 5; positions rise from row to row"
 
 

@@ -45,5 +45,5 @@ def test_the_decimal_sign_is_that_of_the_reader() -> None:
 def test_rounding_takes_no_more_than_a_twentieth_of_the_uncertainty(value: float, uncertainty: float) -> None:
     written, half = (float(text.replace("−", "-")) for text in rounded_pair(value, uncertainty))
     # Half a unit of the second digit is at most a twentieth of a number that begins with it.
-    assert abs(written - value) <= uncertainty / 20 * (1 + 1e-9)
+    assert abs(written - value) <= uncertainty / 20 * (1 + 1e-9) + math.ulp(value)
     assert abs(half - uncertainty) <= uncertainty / 20 * (1 + 1e-9)

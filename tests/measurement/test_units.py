@@ -22,6 +22,8 @@ from zlmreport.plugin import ANGLE_UNITS, LENGTH_UNITS, TIME_UNITS, AxisKind, po
         ("inch", 0.0254),
         ("\u00b5in", 2.54e-8),
         ("uin", 2.54e-8),
+        ("thou", 2.54e-5),
+        ("mil", 2.54e-5),
     ],
 )
 def test_a_length_is_known_by_its_spellings_with_either_micro_sign(spelling: str, metres: float) -> None:
@@ -36,6 +38,8 @@ def test_a_length_is_known_by_its_spellings_with_either_micro_sign(spelling: str
         ("arcsec", math.pi / 648_000),
         ("″", math.pi / 648_000),
         ("mrad", 1e-3),
+        ("gon", math.pi / 200),
+        ("mgon", math.pi / 200_000),
     ],
 )
 def test_an_angle_is_known_by_its_spellings(spelling: str, radians: float) -> None:
@@ -68,7 +72,8 @@ def test_a_humidity_is_a_ratio_and_a_time_is_in_seconds() -> None:
 
 def test_a_rotary_axis_has_no_lengths() -> None:
     with pytest.raises(
-        ValueError, match=r"^'mm' is no unit of this quantity; .*known: mrad, rad, °, µm/m, µrad, ″"
+        ValueError,
+        match=r"^'mm' is no unit of this quantity; .*known: gon, mgon, mrad, rad, °, µm/m, µrad, ″",
     ):
         unit_named("mm", position_units(AxisKind.ROTARY))
 

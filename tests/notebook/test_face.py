@@ -557,3 +557,14 @@ def test_small_matrices_have_one_thread_unless_somebody_else_decides(first: str,
 def test_the_plan_of_a_circle_is_refused_with_the_command_that_plans_it() -> None:
     with pytest.raises(z.InputError, match="a path and no targets; zlmreport plan prints it"):
         z.plan(ROOT / "configs" / "circle" / "certificate.yaml")
+
+
+def test_several_lines_are_no_readings_of_one_and_it_is_told_who_evaluates_them() -> None:
+    square = ROOT / "configs" / "machine" / "xy-squareness.yaml"
+    said = r"several lines \(x, y\), and readings are of one; z\.certificate\(job\)\.results has"
+    with pytest.raises(z.InputError, match=said):
+        z.read(square)
+    certificate = z.certificate(square)
+    assert repr(certificate.data) == "<Readings of several lines: x, y>"
+    with pytest.raises(z.InputError, match=said):
+        z.evaluate(certificate.data, "iso230-1:2012")

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import socket
 import ssl
 import threading
 from collections.abc import Iterator
+from email.message import EmailMessage
 from pathlib import Path
+from typing import Self
 
 import pytest
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
@@ -57,4 +60,34 @@ def test_a_server_with_a_certificate_of_its_own_gets_nothing(
         {"to": "a@b.c", "server": "127.0.0.1", "port": port_of_a_stranger, "security": "tls", "user": "fleet"}
     )
     with pytest.raises(AccessError, match="certificate verify failed"):
+        mail.tell(Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), options)
+
+
+def test_a_mail_has_the_moment_in_which_it_was_sent(monkeypatch: pytest.MonkeyPatch) -> None:
+    sent: list[EmailMessage] = []
+
+    class Server:
+        def __enter__(self) -> Self:
+            return self
+
+        def __exit__(self, *_: object) -> None: ...
+
+        def send_message(self, mail: EmailMessage) -> None:
+            sent.append(mail)
+
+    monkeypatch.setattr("zlmreport_plugins.notifiers._open_line", lambda _: Server())
+    before = dt.datetime.now(dt.UTC).replace(microsecond=0)
+    mail = registry().find(NOTIFIER, "mail")
+    mail.tell(
+        Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), mail.options.model_validate({"to": "a@b.c"})
+    )
+    assert before <= sent[0]["Date"].datetime <= dt.datetime.now(dt.UTC)
+
+
+def test_a_server_that_is_not_there_is_told_in_words() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        port = listener.getsockname()[1]
+    mail = registry().find(NOTIFIER, "mail")
+    options = mail.options.model_validate({"to": "a@b.c", "server": "127.0.0.1", "port": port})
+    with pytest.raises(AccessError, match=r"^mail by 127\.0\.0\.1: Connection refused$"):
         mail.tell(Message(Occasion.DIGEST, "Hall North: 1 failed", "x\n"), options)

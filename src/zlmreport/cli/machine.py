@@ -9,7 +9,7 @@ from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.terminal import lay_out_changes, lay_out_heading, print_json, show_path
-from zlmreport.document.blocks import Block, Section
+from zlmreport.document.blocks import Section
 from zlmreport.errors import NOT_MET, InputError, Place, Problem
 from zlmreport.files import Document, write, write_new
 from zlmreport.language import Language
@@ -98,12 +98,7 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (found.study, found.complete)
     )
-    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.noise_of_readings)]
-    failures = tests.make_failure_notice(before, _SAY)
-    if failures:
-        blocks.append(failures)
-    verdict, *others = findings.lay_out_said_of(found, _SAY)
-    sections = [verdict, Section("tests", "Tests", tuple(blocks)), *others]
+    sections = findings.lay_out_diagnosis(found, before, _SAY)
     path = show_path(machine.path)
     further = ["", f"next: zlmreport machine add {path} {found.found[0]}"] if found.found else []
     if found.is_tied:

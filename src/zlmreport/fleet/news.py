@@ -174,7 +174,8 @@ class _TrendSayer:
         latest, sign = trend.series.latest, self.language.decimal_sign
         number = write_stated_number(latest.limit or 0.0, sign)
         limit = with_unit(number, find_printed_symbol(latest.unit))
-        told = _NOT_MET.given(symbol=self.name_symbol(trend), value=write_value(latest, sign), limit=limit)
+        value = write_value(latest, sign)
+        told = _NOT_MET.given(symbol=self.name_symbol(trend), value=value, limit=limit)
         return told.in_language(self.language)
 
     def say_drift(self, trend: Trend) -> str:

@@ -60,10 +60,8 @@ class CellWriter:
 
     def write_value(self, trend: Trend) -> OverviewCellContext:
         """Return the latest value with its expanded uncertainty."""
-        latest = trend.series.latest
-        if latest.expanded_uncertainty is None:
-            return OverviewCellContext(write_value(latest, self.language.decimal_sign), style="number")
-        return self.write_mean(latest.value, latest.expanded_uncertainty, latest.unit)
+        text = write_value(trend.series.latest, self.language.decimal_sign)
+        return OverviewCellContext(text, style="number")
 
     def write_limit(self, trend: Trend) -> OverviewCellContext:
         """Return the limit."""

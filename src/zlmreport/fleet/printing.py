@@ -56,12 +56,12 @@ class Names:
 
 
 def write_value(parameter: RecordedParameter, sign: DecimalSign) -> str:
-    """Return a value to the digits of its U, with its unit; the U itself stands elsewhere."""
+    """Return a value with its U and unit, ``6.7 ± 1.8 µm``; alone where none is stated."""
     if parameter.expanded_uncertainty is None:
-        number = write_fixed_number(parameter.value, _DECIMALS, sign)
+        text = write_fixed_number(parameter.value, _DECIMALS, sign)
     else:
-        number, _ = round_pair(parameter.value, parameter.expanded_uncertainty, sign)
-    return with_unit(number, find_printed_symbol(parameter.unit))
+        text = " ± ".join(round_pair(parameter.value, parameter.expanded_uncertainty, sign))
+    return with_unit(text, find_printed_symbol(parameter.unit))
 
 
 def write_change(change: float, unit: str, sign: DecimalSign) -> str:

@@ -156,13 +156,17 @@ _A_SCALE = (
     f"{_IN_PER_CENT} is stated in % of the reading: name it under uncertainty.contributions, as "
     f"{{name: Scale of the instrument, acts: {_IN_PER_CENT}, expanded_uncertainty: …}}"
 )
+_OF_LINEAR_AXES = (
+    "belongs to a linear axis; take it out (with null, where another file states it), or state contributions "
+    "of this axis"
+)
 _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 
 
 def _find_keys_not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...], str]]:
     """Yield keys that speak of something else than was measured, and what to do with them."""
     if kind is AxisKind.ROTARY:
-        yield UNCERTAIN_LENGTHS, "belongs to a linear axis; take it out, or state contributions of this axis"
+        yield UNCERTAIN_LENGTHS, _OF_LINEAR_AXES
     if is_circle:
         yield ("misalignment",), "belongs to a line along an axis, and this job is on a circle; take it out"
     else:

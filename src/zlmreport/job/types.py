@@ -32,7 +32,8 @@ _LONGEST_LINE = 500
 _LONGEST_TEXT = 5000
 _EARLIEST_YEAR = 1900
 
-_FILE_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+_LONGEST_STEM = 100
+_FILE_STEM = re.compile(rf"[A-Za-z0-9][A-Za-z0-9._-]{{0,{_LONGEST_STEM - 1}}}")
 #: Devices, whatever follows behind a point.
 _OF_WINDOWS = re.compile(r"con|prn|aux|nul|(com|lpt)[0-9]", re.IGNORECASE)
 _ISO_DATE = re.compile(r"\d{4}-\d{2}-\d{2}", re.ASCII)
@@ -180,8 +181,8 @@ def take_file_stem(text: str) -> str:
     """Refuse a text that cannot be the stem of a file's name on every system."""
     if not _FILE_STEM.fullmatch(text):
         raise ValueError(
-            f"{quoted(text)} cannot name files: a number has letters A to Z, digits, '.', '_' and '-', and "
-            "begins with a letter or digit, such as CAL-2026-0117"
+            f"{quoted(text)} cannot name files: a number has up to {_LONGEST_STEM} letters A to Z, digits, "
+            "'.', '_' and '-', and begins with a letter or digit, such as CAL-2026-0117"
         )
     if _OF_WINDOWS.fullmatch(text.partition(".")[0]) or text.endswith("."):
         better = f"CAL-{text.rstrip('.')}"

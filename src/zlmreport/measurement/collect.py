@@ -32,6 +32,8 @@ _WIDEST_ANGLE = 0.1
 #: A full test of so many readings is refused if hardly any of them are there.
 _LARGE_TEST = 1_000_000
 _HARDLY_ANY = 0.01
+#: Part of the smallest interval of a run by which what different runs call a target is one place.
+_ONE_PLACE = 0.01
 #: Problems of one file that are named one by one.
 MOST_NAMED = 20
 
@@ -242,6 +244,20 @@ def _check_columns_are_what_they_say(
             f"no target position was read twice in {runs} runs; is the target the commanded position, "
             "or are target and actual position exchanged?",
         )
+    elif (places_alike := _count_places(measurements)) and 2 * places_alike <= targets:
+        yield Problem(
+            places[0],
+            f"{targets} target positions are {places_alike} places, each written otherwise from run to run; "
+            "is the target the commanded position, and not what a display showed?",
+        )
+
+
+def _count_places(measurements: MeasurementSet) -> int:
+    """Return how many places targets are, if those that hardly differ are one; 0 of a single one."""
+    targets = measurements.target_positions
+    read = np.unique(_number_passes(measurements) * len(targets) + measurements.target)
+    intervals = np.diff(targets[read % len(targets)])[np.diff(read // len(targets)) == 0]
+    return int(np.count_nonzero(np.diff(targets) > _ONE_PLACE * intervals.min()) + 1) if intervals.size else 0
 
 
 def _check_targets_lie_on_the_travel(

@@ -120,7 +120,10 @@ MICROMETRE = Unit("µm", "um", 1e6)
 NANOMETRE = Unit("nm", "nm", 1e9)
 INCH = Unit("in", "in", 1 / 0.0254)
 MICROINCH = Unit("µin", "uin", 1e6 / 0.0254)
+THOUSANDTH_OF_AN_INCH = Unit("thou", "thou", 1e3 / 0.0254)
 DEGREE = Unit("°", "deg", 180 / math.pi)
+GON = Unit("gon", "gon", 200 / math.pi)
+MILLIGON = Unit("mgon", "mgon", 200e3 / math.pi)
 ARCSECOND = Unit("″", "arcsec", 3600 * 180 / math.pi)
 MILLIRADIAN = Unit("mrad", "mrad", 1e3)
 MICRORADIAN = Unit("µrad", "urad", 1e6)
@@ -132,8 +135,8 @@ HOUR = Unit("h", "h", 1 / 3600)
 MINUTE = Unit("min", "min", 1 / 60)
 SECONDS = Unit("s", "s", 1.0)
 
-LENGTHS = (METRE, MILLIMETRE, MICROMETRE, NANOMETRE, INCH, MICROINCH)
-ANGLES = (DEGREE, ARCSECOND, MILLIRADIAN, MICRORADIAN, RADIAN, MICROMETRE_PER_METRE)
+LENGTHS = (METRE, MILLIMETRE, MICROMETRE, NANOMETRE, INCH, MICROINCH, THOUSANDTH_OF_AN_INCH)
+ANGLES = (DEGREE, GON, MILLIGON, ARCSECOND, MILLIRADIAN, MICRORADIAN, RADIAN, MICROMETRE_PER_METRE)
 #: An expansion coefficient of 1 µm/(m·K), 1/K.
 MICROMETRE_PER_METRE_KELVIN = 1e-6
 
@@ -164,12 +167,15 @@ LENGTH_UNITS = _list_spellings(
         "nm": NANOMETRE,
         "in inch inches": INCH,
         "µin uin microinch microinches": MICROINCH,
+        "thou mil mils": THOUSANDTH_OF_AN_INCH,
     }
 )
 #: Units of angles by their spellings.
 ANGLE_UNITS = _list_spellings(
     {
         "° deg degree degrees": DEGREE,
+        "gon": GON,
+        "mgon": MILLIGON,
         "″ arcsec arcseconds": ARCSECOND,
         "mrad": MILLIRADIAN,
         "µrad urad": MICRORADIAN,

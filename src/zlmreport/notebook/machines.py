@@ -3,33 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from zlmreport.document.blocks import Section
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import write_new
+from zlmreport.language import Language
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.cross_confirmation import collect_confirmation, collect_cross, confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
+from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.report import collect_prediction
 from zlmreport.machines.study import CircleStudy
+from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
+from zlmreport.machines.subjects.cross_tables import lay_out_cross
+from zlmreport.machines.subjects.findings import lay_out_diagnosis
+from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+from zlmreport.notebook.layout import sections_html
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.carrier import find_results_in
 
-_PLACE = Place("z.machine")
+_PLACE, _SAY = Place("z.machine"), Sayer(Language.ENGLISH)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class DiagnosisOfMachine:
     """What a diagnosis of a machine found; deviations in µm."""
 
-    values: Mapping[str, Any] = field(repr=False)  #: As ``zlmreport machine diagnose --json`` has it.
+    values: Mapping[str, Any]  #: As ``zlmreport machine diagnose --json`` has it.
+    sections: tuple[Section, ...]  #: The same for people.
 
     @property
     def verdict(self) -> str:
@@ -50,8 +60,15 @@ class DiagnosisOfMachine:
         """Return the verdict in a sentence."""
         return str(self.values["statement"])
 
+    def __repr__(self) -> str:
+        """Return the verdict in a sentence."""
+        return f"<Diagnosis: {self}>"
 
-@dataclass(frozen=True)
+    def _repr_html_(self) -> str:
+        return sections_html(self.sections)
+
+
+@dataclass(frozen=True, repr=False)
 class BuiltMachine:
     """The steps by which a model of a machine came about."""
 
@@ -59,13 +76,18 @@ class BuiltMachine:
     steps: tuple[Mapping[str, Any], ...]  #: Each effect with the RMS before and after it, µm.
     verdict: str
 
+    def __repr__(self) -> str:
+        """Return the steps in a line."""
+        steps = " → ".join(f"+ {each['effect']} {each['rms_after']:.2g}" for each in self.steps)
+        return f"<Build: {steps or 'nothing to add'} µm, {self.verdict}>"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class MachineTables:
     """Tables across the axes of a machine in the words of a control; lengths in µm."""
 
-    machine: Machine = field(repr=False)
-    made: CrossMade = field(repr=False)
+    machine: Machine
+    made: CrossMade
 
     @property
     def values(self) -> dict[str, Any]:
@@ -84,6 +106,13 @@ class MachineTables:
         A forecast is no measurement.
         """
         return dict(self.values["forecast"])
+
+    def __repr__(self) -> str:
+        """Return the files."""
+        return f"<Tables: {', '.join(self.files)}>"
+
+    def _repr_html_(self) -> str:
+        return sections_html(lay_out_cross(self.made, _SAY))
 
     def save(self, folder: str | Path) -> Path:
         """Write the files; none that is there already is touched.
@@ -116,13 +145,18 @@ class MachineTables:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Machine:
     """A machine as its file describes it, and what its circles say; `add` and `remove` write no file."""
 
-    file: MachineFile = field(repr=False)
-    registry: Registry = field(repr=False)
-    study: CircleStudy = field(repr=False)
+    file: MachineFile
+    registry: Registry
+    changed: CircleStudy | None = None  #: The study of its circles with other effects than the file states.
+
+    @cached_property
+    def study(self) -> CircleStudy:
+        """What its circles say. Raises `InputError` if its file names none."""
+        return self.changed or self.file.make_study()
 
     @property
     def effects(self) -> tuple[str, ...]:
@@ -133,6 +167,19 @@ class Machine:
     def rms(self) -> float:
         """Root mean square of what axes and effects leave of the circles, µm."""
         return MICROMETRE.from_si(self.study.rms)
+
+    def __repr__(self) -> str:
+        """Return what is known of it."""
+        machine = self.file.machine
+        known, tests = len(ERRORS) - len(machine.unmeasured), len(self.file.test_names)
+        left = f", {self.rms:.2g} µm left of its circles" if self.file.circles else ""
+        return (
+            f"<Machine {machine.chain.letters}: {known} of {len(ERRORS)} errors known, tests: {tests}{left}>"
+        )
+
+    def _repr_html_(self) -> str:
+        machine = self.file.machine
+        return sections_html([lay_out_errors(machine, _SAY, is_full=False), lay_out_space(machine, _SAY)])
 
     def predict(self) -> dict[str, Any]:
         """Return what the axes predict of tests, work space and diagonals, as ``--json`` has it."""
@@ -150,7 +197,8 @@ class Machine:
             compare_circles(self.file.machine, self.file.measured, self.registry, study)
             for study in (found.study, found.complete)
         )
-        return DiagnosisOfMachine(collect_diagnosis(found, before, after))
+        sections = tuple(lay_out_diagnosis(found, before, _SAY))
+        return DiagnosisOfMachine(collect_diagnosis(found, before, after), sections)
 
     def add(self, effect: str) -> Machine:
         """Return the machine with one effect more."""
@@ -204,8 +252,7 @@ class Machine:
 def machine(path: str | Path) -> Machine:
     """Read a machine file with all that it names.
 
-    Raises `InputError` with every mistake; if it names no circle.
+    Raises `InputError` with every mistake.
     """
     registry = find_plugins()
-    file = read_machine(Path(path), registry, find_results_in)
-    return Machine(file, registry, file.make_study())
+    return Machine(read_machine(Path(path), registry, find_results_in), registry)

@@ -164,7 +164,9 @@ class Readings:
         return _make_anew, (self.measurements, self.library)
 
     def __repr__(self) -> str:
-        """Return the axis and how many readings there are."""
+        """Return the axis and how many readings there are; of several measured lines their names."""
+        if self.measurements.tests:
+            return f"<Readings of several lines: {', '.join(self.measurements.tests)}>"
         targets, runs = (
             count_in_words(len(self.targets), "target"),
             count_in_words(len(self.measurements.runs), "run"),
@@ -186,14 +188,25 @@ def _make_anew(measurements: MeasurementSet, library: Library | None) -> Reading
 
 
 def readings_of(data: object, name: str) -> Readings:
-    """Return what is given as readings; raise `InputError` if it is anything else."""
+    """Return what is given as readings of one line; raise `InputError` if it is anything else."""
     if isinstance(data, Readings):
-        return data
+        return _refuse_lines(data, Place(name))
     raise InputError.at(
         Place(name),
         f"a {type(data).__name__} holds no readings of an axis; z.test(targets, up, down) makes them of "
         "arrays, z.read(…) of a file, a job or a frame",
     )
+
+
+def _refuse_lines(data: Readings, place: Place) -> Readings:
+    """Return readings; raise `InputError` if they are those of several lines that are evaluated together."""
+    if data.measurements.tests:
+        raise InputError.at(
+            place,
+            f"the test has several lines ({', '.join(data.measurements.tests)}), and readings are of one; "
+            "z.certificate(job).results has what follows from them together",
+        )
+    return data
 
 
 def read(
@@ -243,6 +256,7 @@ def read(
             raise InputError.at(Place("read"), message)
         job = load(path, registry())
         found = pipeline.read(job, registry())
+        _refuse_lines(Readings(found), Place(str(path)))
         return Readings(found if axis is None else _replace_axis(found, job, axis))
     name = "read"
     reader = registry().source(plugin, Place(name)) if plugin else _find_reader_of(path)

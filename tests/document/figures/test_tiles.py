@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 from zlmreport.document.figures.figure import Tiles
+from zlmreport.document.figures.scale import AxisScale
+from zlmreport.document.figures.shapes import Box, Frame
+from zlmreport.document.figures.tiles import place_tile_values
 from zlmreport.plugin import Figure, Language, same_in_all_languages
 from zlmreport.plugin.page import figure_to_svg
 from zlmreport.plugin.standard import Panel
@@ -69,3 +72,17 @@ def test_every_other_value_is_written_in_the_language_of_the_document(rising):
     letters = re.findall(r'<text class="tile".*?</text>', drawn(rising, Language.GERMAN))
     assert len(letters) == 9
     assert "8,0" in letters[-1]
+
+
+def test_white_letters_stay_on_narrow_tiles():
+    """Beside the tiles a white digit is not seen: 18.7 would be read as 8.7."""
+    narrow = np.linspace(0.0, 40.0, 11)
+    values = np.full((11, 5), 18.7)
+    tiles = Tiles(narrow, PLACES, values, 18.7)
+    frame = Frame(Box(0.0, 0.0, 60.0, 100.0), AxisScale(-2.0, 42.0, (), ()), AxisScale(-10.0, 110.0, (), ()))
+    first, *_, last = (frame.place_x(each) for each in tiles.edges[0].tolist())
+    placed = [each.placed for each in place_tile_values(tiles, frame, Language.ENGLISH)]
+    assert all(first < each.x < last - each.label.width for each in placed)
+    in_a_row = sorted((each.x, each.x + each.label.width) for each in placed[::3])
+    assert all(end < begin for (_, end), (begin, _) in pairwise(in_a_row))
+    assert len(in_a_row) > 2

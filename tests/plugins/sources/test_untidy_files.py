@@ -13,6 +13,7 @@ from plugins.sources import untidy_files
 from plugins.sources.untidy_files import FILES, Untidy, german, rows, text
 from zlmreport.cli import main
 from zlmreport.looking import look_at
+from zlmreport.plugin import InputError
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins({})
@@ -90,6 +91,48 @@ def test_a_whole_turn_of_an_unnamed_axis_is_asked(tmp_path: Path) -> None:
     path = tmp_path / "turn.csv"
     path.write_text("target,1+,1-\n0,1,2\n180,3,4\n360,5,6\n", encoding="utf-8")
     assert [question for question in look_at(path, REGISTRY).proposal.asks if "kind: rotary" in question]
+
+
+def test_rows_below_the_table_that_are_not_read_are_asked_about(tmp_path: Path) -> None:
+    path = tmp_path / "two.csv"
+    table = "target;1+;1-\n0;1;2\n9;1;2\n"
+    path.write_text(f"X axis\n{table}\nY axis\n{table}", encoding="utf-8")
+    assert [question for question in look_at(path, REGISTRY).proposal.asks if "below" in question] == [
+        "Do the 2 rows of numbers below the table, from line 8 on, belong to the test? They are not read."
+    ]
+
+
+def test_tables_of_runs_are_asked_whether_they_are_of_one_test(tmp_path: Path) -> None:
+    path = tmp_path / "runs.csv"
+    table = "target;direction;deviation (um)\n0;+;1\n9;+;2\n"
+    path.write_text(f"{table}{table}", encoding="utf-8")
+    asked = look_at(path, REGISTRY).proposal.asks
+    assert [question for question in asked if "one below the other" in question]
+    assert not [question for question in asked if "They are not read" in question]
+
+
+def test_a_table_of_several_axes_is_refused_with_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "axes.csv"
+    path.write_text(
+        "Axis,target,direction,run,deviation\nX,0,+,1,1\nX,9,+,1,2\nY,0,+,1,1\n", encoding="utf-8"
+    )
+    with pytest.raises(InputError, match=r"readings of several axes, as its column 'Axis' says \(X and Y\)"):
+        look_at(path, REGISTRY)
+
+
+def test_of_a_wide_encoding_it_is_told_what_the_table_lacks(tmp_path: Path) -> None:
+    path = tmp_path / "wide.txt"
+    path.write_bytes("Pos\tF1\tR1\n0\t1\t2\n".encode("utf-16"))
+    with pytest.raises(InputError, match="no column 'target'"):
+        look_at(path, REGISTRY)
+
+
+def test_a_table_between_bars_is_no_table_of_signs(tmp_path: Path) -> None:
+    path = tmp_path / "bars.md"
+    rows_ = "".join(f"| {target} | - | 3 | {target / 100} |\n" for target in (0.0, 100.0, 200.0))
+    path.write_text(f"| Target mm | Dir | Run | Error µm |\n|---|---|---|---|\n{rows_}", encoding="utf-8")
+    with pytest.raises(InputError, match="has a single column"):
+        look_at(path, REGISTRY)
 
 
 #: What tables of the same readings differ in.

@@ -451,6 +451,126 @@ def _without_umlauts() -> Untidy:
     )
 
 
+def _a_table_of_each_run() -> Untidy:
+    """Runs one below the other, each under its title and its own header; no column numbers them."""
+    lines = ["Laser report"]
+    for run in (1, 2):
+        lines += [f"Run {run}", "Target,Dir,Dev (um)"]
+        lines += [
+            f"{target},{'fwd' if sense > 0 else 'bwd'},{value}"
+            for target, sense, each, value in rows()
+            if each == run
+        ]
+        lines += [""]
+    return Untidy(
+        "runs.csv",
+        text(*lines, "End of report"),
+        {
+            "runs": "counted",
+            "parts": [{"lines": [3, 11]}, {"lines": [14, 22]}],
+            "columns": {"direction": "Dir", "deviation": "Dev"},
+        },
+    )
+
+
+def _header_over_and_over() -> Untidy:
+    """The header stands above each of the runs again, and nothing parts them."""
+    header = "Soll;Richtung;Lauf;Abw. (µm)"
+    table = [f"{target};{sense:+d};{run};{value}" for target, sense, run, value in rows()]
+    return Untidy(
+        "appended.csv",
+        text(header, *table[:8], header, *table[8:]),
+        {
+            "parts": [{"lines": [1, 9]}, {"lines": [10, 18]}],
+            "columns": {"target": "Soll", "direction": "Richtung", "run": "Lauf", "deviation": "Abw."},
+        },
+    )
+
+
+def _runs_only_counted() -> Untidy:
+    """A table of each direction, the columns of its runs called by nothing but their numbers."""
+    lines: list[str] = []
+    for name, grid in (("Forward", UP), ("Backward", DOWN)):
+        lines += [name, "Position;1;2"]
+        lines += [f"{target:.0f};{grid[0][index]};{grid[1][index]}" for index, target in enumerate(TARGETS)]
+        lines += [""]
+    return Untidy(
+        "counted.csv",
+        text(*lines),
+        {
+            "layout": "wide",
+            "columns": {"target": "Position"},
+            "parts": [{"lines": [2, 6], "direction": "+"}, {"lines": [9, 13], "direction": "-"}],
+        },
+    )
+
+
+def _unit_in_the_lower_row() -> Untidy:
+    """Names of two rows, the lower one with the unit of the targets."""
+    return Untidy(
+        "two-rows.csv",
+        text(
+            "Position;Run 1;;Run 2;",
+            "mm;up;down;up;down",
+            *(
+                f"{target};{UP[0][index]};{DOWN[0][index]};{UP[1][index]};{DOWN[1][index]}"
+                for index, target in enumerate(TARGETS)
+            ),
+        ),
+        {"header_rows": 2, "layout": "wide", "columns": {"target": "Position"}},
+    )
+
+
+def _arrows_and_statistics() -> Untidy:
+    """Columns called by number and arrow, between them means and spans of their own direction."""
+    return Untidy(
+        "statistics.csv",
+        text(
+            "Target;1↑;2↑;Mean↑;1↓;2↓;Mean↓;B",
+            *(
+                f"{target};{UP[0][index]};{UP[1][index]};0.5;{DOWN[0][index]};{DOWN[1][index]};0.2;1.3"
+                for index, target in enumerate(TARGETS)
+            ),
+        ),
+        {"layout": "wide", "ignore": ["Mean↑", "Mean↓", "B"]},
+    )
+
+
+def _named_difference() -> Untidy:
+    """Deviations whose name says which difference they are; the column of runs numbers the test."""
+    return Untidy(
+        "difference.csv",
+        text(
+            "Nominal (mm),Direction,Run,Nominal - Actual (um)",
+            *(f"{target},{sense:+d},7,{-value}" for target, sense, _, value in rows()),
+        ),
+        {
+            "runs": "counted",
+            "sign": "nominal-actual",
+            "columns": {"target": "Nominal", "deviation": "Nominal - Actual"},
+            "ignore": ["Run"],
+        },
+    )
+
+
+def _gon() -> Untidy:
+    """A theodolite's units."""
+    of_target = dict(zip(TARGETS, ANGLES, strict=True))
+    return Untidy(
+        "C axis in gon.csv",
+        text(
+            "target [gon],direction,run,deviation [mgon]",
+            *(
+                f"{of_target[target] / 0.9:.4f},{sense:+d},{run},{value / 3.24:.9f}"
+                for target, sense, run, value in rows()
+            ),
+        ),
+        {},
+        axis="C",
+        kind="rotary",
+    )
+
+
 FILES: tuple[Callable[[], Untidy], ...] = (
     _german_export,
     _american_export,
@@ -468,4 +588,11 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _passes_as_runs,
     _abbreviated_direction,
     _without_umlauts,
+    _a_table_of_each_run,
+    _header_over_and_over,
+    _runs_only_counted,
+    _unit_in_the_lower_row,
+    _arrows_and_statistics,
+    _named_difference,
+    _gon,
 )

@@ -21,6 +21,15 @@ from zlmreport_plugins.sources.laser_csv.options import (
     run_and_direction,
 )
 
+#: How columns are called by the difference that they hold, folded, by the key ``sign``.
+DIFFERENCES = MappingProxyType(
+    {
+        f"{first}{between}{second}": sign
+        for actual, nominal in (("actual", "nominal"), ("actual", "target"), ("ist", "soll"))
+        for sign, first, second in (("actual-nominal", actual, nominal), ("nominal-actual", nominal, actual))
+        for between in ("_", "−", "_−_", "–", "_–_", "_minus_")
+    }
+)
 #: What a name may mean beside the columns: a target or an actual position; a deviation or a position;
 #: a reading of a run; nothing that is measured.
 PLACE, VALUE, READING, NUMBER = "a position", "a value", "a reading", "a number of rows"
@@ -32,6 +41,7 @@ _CALLED = MappingProxyType(
         for column, names in {
             "target": "soll sollposition soll_position soll_pos sollwert sollmaß nominal nominal_position "
             "nominal_value target_position target_pos zielposition pos_soll p_soll soll_pos. pos._soll "
+            "cnc_position machine_position commanded_position programmed_position nc_position nominal_pos "
             "command commanded programmed setpoint set_position soll_x soll_y soll_z messpunkt zielpunkt "
             "soll_winkel sollwinkel target_angle x_soll y_soll z_soll cible position_cible consigne "
             "position_de_consigne position_visée position_nominale valeur_nominale quota_nominale "
@@ -93,6 +103,8 @@ def find_meaning(name: str) -> str | None:
     called = folded(read_heading(name).name)
     if called in _CALLED:
         return _CALLED[called]
+    if called in DIFFERENCES:
+        return "deviation"
     if called in COLUMN_NAMES:
         return called
     return READING if find_reading_of(name) else None

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
+from dataclasses import dataclass
 from statistics import median
 from typing import Any
 
@@ -29,6 +30,10 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
             for target, cell in zip(targets, table.list_cells(directions), strict=False)
             if cell
         ]
+        if runs is not None and len(set(taken)) < len(taken) and len({*table.list_cells(runs)}) == 1:
+            draft.ignored.append(draft.name_column(runs))  # it numbers the test
+            draft.columns.pop("run", None)
+            runs = None
         if runs is None and len(set(taken)) < len(taken):
             draft.keys["runs"] = "counted"
             draft.asks.append(questions.RUNS_ASKED)
@@ -102,55 +107,83 @@ def _are_passes(runs: Sequence[str], taken_in: Sequence[int]) -> bool:
 
 
 def draft_of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iterator[Draft]:
-    """Yield how a file is read that has a table of each direction: a sheet each, or below one another.
+    """Yield how a file is read that has a table of each direction or run: a sheet each, or below another.
 
     `drafts`: How the first table found is read alone.
     """
-    if not drafts or "direction" in found[0].meanings:
+    if not drafts:
         return
-    best = found[0]
+    best, alone = found[0], drafts[0]
     same = [each for each in found if each.header.cells == best.header.cells and each.layout.header_rows]
     sheets = {each.found.keys["sheet"]: each for each in same if "sheet" in each.found.keys}
-    parts = []
-    if len(sheets) > 1:
-        for sheet, table in sheets.items():
-            part = {"sheet": sheet} | ({"skip_rows": table.layout.skipped} if table.layout.skipped else {})
-            parts.append((part, _find_direction_in(sheet)))
-    else:
-        parts = list(_list_stacked(best))
-    if len(parts) < 2 or {approach for _, approach in parts} != {*Approach}:
+    tables = list(_list_sheets(sheets) if len(sheets) > 1 else _list_stacked(best))
+    if len(tables) < 2:
         return
-    draft = deepcopy(drafts[0])
-    if any(run_and_direction(each) for each in draft.columns):
-        return  # the names of the columns tell directions already
-    for key in ("sheet", "skip_rows", "ends_before", "lines", "direction"):
+    tells_direction = "direction" in best.meanings or any(map(run_and_direction, alone.columns))
+    if {each.approach for each in tables} == {*Approach} and not tells_direction:
+        parts = [{**each.part, "direction": each.approach.sign} for each in tables if each.approach]
+        yield _join_parts(alone, parts, questions.DIRECTION_ASKED, questions.ORDER_ASKED, without="direction")
+    elif not best.is_wide and len(sheets) < 2 and len({each.targets for each in tables}) == 1:
+        draft = _join_parts(alone, [each.part for each in tables], questions.RUNS_ASKED)
+        if draft.find_column("run") is None:
+            draft.keys["runs"] = "counted"
+        draft.asks.append(questions.PARTS_ASKED.format(count=len(tables)))
+        yield draft
+
+
+def _join_parts(alone: Draft, parts: list[dict[str, Any]], *answered: str, without: str = "") -> Draft:
+    """Return how several tables are read, each as the first alone, without the answered questions."""
+    draft = deepcopy(alone)
+    for key in ("sheet", "skip_rows", "ends_before", "lines", without):
         draft.keys.pop(key, None)
-    draft.keys["parts"] = [{**part, "direction": approach.sign} for part, approach in parts if approach]
-    draft.asks = [
-        each for each in draft.asks if each not in {questions.DIRECTION_ASKED, questions.ORDER_ASKED}
-    ]
-    yield draft
+    draft.keys["parts"] = parts
+    draft.asks = [each for each in draft.asks if each not in answered]
+    return draft
 
 
-def _list_stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach | None]]:
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """One of several tables of a file with the same header."""
+
+    part: dict[str, Any]  #: The keys of its place.
+    approach: Approach | None  #: The direction that its sheet or a line above it names.
+    targets: frozenset[float] = frozenset()  #: Its targets, as the file has them.
+
+
+def _list_sheets(sheets: Mapping[str, FoundTable]) -> Iterator[_Part]:
+    """Yield the table of each sheet, with the direction that the sheet is called by."""
+    for sheet, table in sheets.items():
+        skipped = {"skip_rows": table.layout.skipped} if table.layout.skipped else {}
+        yield _Part({"sheet": sheet, **skipped}, _find_direction_in(sheet))
+
+
+def _list_stacked(table: FoundTable) -> Iterator[_Part]:
     """Yield the tables with the same header that stand below each other, each with the direction above it."""
     if table.layout.is_transposed or table.layout.header_rows != 1:
         return
     numbered = dict(table.found.lines)
     at = list(table.meanings).index("target")
-    header, last, before = table.header, table.rows[-1].line, table.layout.skipped
-    rows = iter(table.below)
-    while True:
+    header, before, below = table.header, table.layout.skipped, [*table.below]
+    targets = {
+        row.line: target
+        for row, target in zip(table.rows, table.list_numbers(at), strict=True)
+        if target is not None
+    }
+    while targets:
         above = " ".join(line for number_, line in numbered.items() if before - 3 < number_ < header.line)
-        yield {"lines": [header.line, last]}, _find_direction_in(above)
-        again = next((row for row in rows if row.cells == table.header.cells), None)
-        if again is None:
+        last = max(targets)
+        yield _Part({"lines": [header.line, last]}, _find_direction_in(above), frozenset(targets.values()))
+        starts = [index for index, row in enumerate(below) if row.cells == table.header.cells]
+        if not starts:
             return
-        header, before = again, max(last, again.line - 3)
-        for row in rows:
-            if at < len(row.cells) and read_number(row.cells[at], table.notation) is not None:
-                last = row.line
-            elif last > header.line:
+        header, below = below[starts[0]], below[starts[0] + 1 :]
+        before = max(last, header.line - 3)
+        targets = {}
+        for row in below:
+            target = read_number(row.cells[at], table.notation) if at < len(row.cells) else None
+            if target is not None:
+                targets[row.line] = target
+            elif targets:
                 break
 
 

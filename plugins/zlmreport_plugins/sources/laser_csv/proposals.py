@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from zlmreport.plugin import Approach, listed
+from zlmreport.plugin import Approach, InputError, Place, listed
 from zlmreport.plugin.source import SourceProposal
 from zlmreport.plugin.table import folded, moment
 from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
@@ -21,6 +21,7 @@ from zlmreport_plugins.sources.laser_csv.drafts import (
 )
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import (
+    DIFFERENCES,
     READING,
     Notation,
     are_positions,
@@ -41,6 +42,8 @@ _AVERAGE = re.compile(
 )
 #: Lines of a table without a head that may be comments above its names.
 _COMMENTS = 3
+#: How a column is called that names the axis, folded.
+_OF_AXES = frozenset({"axis", "achse", "axe", "asse", "eje"})
 _AXIS = re.compile(
     r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
     re.IGNORECASE,
@@ -49,14 +52,21 @@ _AXIS = re.compile(
 
 def propose(file: Path) -> Iterator[SourceProposal]:
     """Yield the keys by which a file may be read, the likeliest first."""
-    found = [table for text in list_texts(file) for table in find_tables(text)]
+    texts = list(list_texts(file))
+    found = [table for text in texts for table in find_tables(text)]
     found.sort(key=lambda table: table.score, reverse=True)
     axis = _find_axis(file, found)
+    for table in found[:1]:
+        _refuse_several_axes(table, file)
     drafts = [each for table in found for each in _list_drafts(table)]
     for draft in (*draft_of_parts(found, drafts[:1]), *drafts):
         _ask_for_sheet(draft, found)
+        _ask_for_rows_below(draft)
         _ask_for_kind(draft, axis)
         yield SourceProposal(_order_keys(draft), tuple(draft.asks), axis)
+    for text in () if drafts else texts:
+        if text.keys.get("encoding", "").startswith("utf"):
+            yield SourceProposal(dict(text.keys))  # what it lacks is told then, and not its encoding
 
 
 def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
@@ -69,6 +79,18 @@ def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
         if match:
             return (match[1] or match[2]).upper()
     return ""
+
+
+def _refuse_several_axes(table: FoundTable, file: Path) -> None:
+    """Refuse a table with a column that names the axis of each reading, and names several."""
+    for index, name in enumerate(table.header.cells):
+        axes = dict.fromkeys(cell for cell in table.list_cells(index) if cell)
+        if folded(name) in _OF_AXES and len(axes) > 1:
+            raise InputError.at(
+                Place(str(file), table.header.line),
+                f"holds readings of several axes, as its column {name!r} says ({listed(axes)}); write a "
+                "file of each axis, for a test is of one",
+            )
 
 
 def _list_drafts(table: FoundTable) -> Iterator[Draft]:
@@ -188,7 +210,10 @@ def _draft_value(draft: Draft) -> None:
     elif position is not None:
         name_unit("position", draft, target, position)
     if deviation is not None:
-        if "sign" not in draft.keys and position is None:
+        sign = DIFFERENCES.get(folded(read_heading(draft.name_column(deviation)).name))
+        if sign == "nominal-actual" and position is None:
+            draft.keys["sign"] = sign
+        if sign is None and position is None:
             draft.asks.append(questions.SIGN_ASKED)
         name_unit("deviation", draft, target, deviation)
 
@@ -263,6 +288,20 @@ def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
     if sheet and others:
         hold = "holds" if len(others) == 1 else "hold"
         draft.asks.append(questions.SHEETS_ASKED.format(sheet=repr(sheet), others=listed(others), hold=hold))
+
+
+def _ask_for_rows_below(draft: Draft) -> None:
+    """Ask whether rows of numbers below the table belong to the test, where they are no part of it."""
+    table = draft.table
+    left = [
+        row.line for row in table.below if sum(_is_number(cell, table.notation) for cell in row.cells) > 1
+    ]
+    if len(left) > 1 and "parts" not in draft.keys and not table.layout.is_transposed:
+        draft.asks.append(questions.BELOW_ASKED.format(count=len(left), first=left[0]))
+
+
+def _is_number(cell: str, notation: Notation) -> bool:
+    return read_number(cell, notation) is not None
 
 
 def _order_keys(draft: Draft) -> dict[str, Any]:

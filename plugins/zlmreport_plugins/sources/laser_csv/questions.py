@@ -20,12 +20,20 @@ ORDER_ASKED = (
     "told by whether the target rises or falls from row to row."
 )
 RUNS_ASKED = "Is the n-th reading of a target in a direction of the n-th run? The table names no runs."
+PARTS_ASKED = (
+    "Are the {count} tables, one below the other, runs of one test? If they are of several axes, write a "
+    "file of each."
+)
+BELOW_ASKED = (
+    "Do the {count} rows of numbers below the table, from line {first} on, belong to the test? They are not "
+    "read."
+)
 DECIMAL_ASKED = "Is the decimal sign a {sign}? Every number may as well have its thousands parted by it."
 MISSING_ASKED = "Is a reading missing where the table has {words}?"
 TIME_ASKED = (
     "The column {name} is not read: {example} may be one day or another. Write the times as ISO 8601."
 )
-GRADE_ASKED = "Does “Grad” mean degrees? If it means gon, divide by 400 and multiply by 360 first."
+GRADE_ASKED = "Does “Grad” mean degrees? If it means gon, say it under units: {target: gon}."
 SHEETS_ASKED = "Is {sheet} the right sheet? {others} {hold} a table, too."
 TURN_ASKED = "Does the axis turn? Its targets go over a whole turn; say kind: rotary under axis then."
 TEMPERATURE_ASKED = (

@@ -47,6 +47,7 @@ _SUMMARIES = (
     *("sum", "count", "mittel", "durchschnitt", "spannweite", "streu", "summe", "anzahl"),
     *("umkehr", "reversal", "repeat", "wiederhol"),
 )
+_DECIMALS = re.compile(r"[.,][0-9]")
 _VALUES = frozenset({"deviation", "position", VALUE, READING, PLACE})
 
 
@@ -170,10 +171,15 @@ def _find_upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
                 continue
             above = [row for row in rows[index : index + count] if row]
             header = joined_header(above)
-            if _is_perhaps_header(header.cells) and not any(holds_units(row.cells) for row in above):
+            if _is_perhaps_header(header.cells) and not any(_holds_units(row.cells) for row in above):
                 skipped = found.lines[index][0] - 1 if index else 0
                 layout = FoundLayout(found, delimiter, count, skipped)
                 yield from _find_below(layout, header, [row for row in rows[index + count :] if row])
+
+
+def _holds_units(cells: Sequence[str]) -> bool:
+    """Return whether a row holds units: beside one of them, "up" and "down" are the lower row of names."""
+    return holds_units(cells) and not any(len(cell) > 1 and names_direction(cell) for cell in cells)
 
 
 def _is_summary(cells: Sequence[str]) -> bool:
@@ -194,6 +200,8 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
         names = [each.cells[0] for each in lines if find_meaning(each.cells[0])]
         if sum(map(_is_number, row.cells[1:])) < 2 or len(set(names)) < len(names):
             continue
+        if _are_counted(row.cells[1:]) and not _are_counted([each.cells[0] for each in lines[1:]]):
+            continue  # the numbers of runs above their readings: it stands upright
         width = max(len(each.cells) for each in lines)
         turned = [
             TextRow(1, "", "", tuple(each.cells[place] if place < len(each.cells) else "" for each in lines))
@@ -204,6 +212,12 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
         yield from _find_below(
             FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below
         )
+
+
+def _are_counted(cells: Sequence[str]) -> bool:
+    """Return whether cells, as far as they are numbers, count from 1, as runs do and targets hardly ever."""
+    numbers = [cell for cell in cells if _is_number(cell)]
+    return numbers == [str(count + 1) for count in range(len(numbers))]
 
 
 def _find_nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
@@ -256,9 +270,10 @@ def _list_rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow
 def _is_perhaps_header(cells: Sequence[str]) -> bool:
     """Return whether names are those of a table of readings, or its columns are readings under no name.
 
-    A row of readings has signs and numbers that could name columns of runs, but it begins with its target.
+    A row of readings has signs and numbers that could name columns of runs, but it begins with its target, or
+    has decimals.
     """
-    if _is_number(cells[0]):
+    if _is_number(cells[0]) or any(_is_number(cell) and _DECIMALS.search(cell) for cell in cells):
         return False
     found = [find_meaning(cell) for cell in cells]
     known = sum(each is not None and each != NUMBER for each in found)
@@ -281,7 +296,7 @@ def _settle_direction(meanings: list[str | None], rows: Sequence[TextRow]) -> No
 def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
     """Yield the table below a header: to the first row that has no target."""
     is_workbook = layout.found.text.of_cells
-    units = rows[0] if rows and holds_units(rows[0].cells) else None
+    units = rows[0] if rows and _holds_units(rows[0].cells) else None
     rows = rows[1:] if units else rows
     width = len(header.cells)
     notation = Notation.of((cell for row in rows[:_ENOUGH] for cell in row.cells), is_workbook=is_workbook)

@@ -91,6 +91,7 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
             return EXTENSION, make_parser_of(own[0]).parse_strictly(arguments[own[1] :])
     command, rest = " ".join(arguments[:words]), arguments[words:]
     if command in COMMANDS:
+        _refuse_mistaken_second_word(command, rest)
         parser = make_parser_for(command)
         options = parser.parse_strictly(rest)
         if command in {"model", "machine"}:
@@ -118,6 +119,17 @@ def _is_perhaps_of_an_extension(arguments: Sequence[str]) -> bool:
         return bool(rest[0]) and not rest[0].startswith("-")
     word = Path(first)
     return bool(first) and first not in COMMANDS and first.isidentifier() and not word.exists()
+
+
+def _refuse_mistaken_second_word(command: str, rest: Sequence[str]) -> None:
+    """Take a word behind a command that is no file for a second word that there is not."""
+    seconds = [each.removeprefix(f"{command} ") for each in COMMANDS if each.startswith(f"{command} ")]
+    word = rest[0] if rest else ""
+    if seconds and word.isidentifier() and not Path(word).exists():
+        raise InputError.at(
+            Place(f"zlmreport {command}"),
+            f"{word!r} is neither a file nor a command; {did_you_mean(word, seconds)}",
+        )
 
 
 def _refuse_mistaken_command(job: Path) -> None:

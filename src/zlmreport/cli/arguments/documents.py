@@ -368,6 +368,10 @@ def fleet(command: str) -> CommandParser:
         "examples:\n"
         "  zlmreport fleet fleet.yaml --dry-run\n"
         "  zlmreport fleet fleet.yaml --quiet --log-json\n\n"
+        "further commands, each with its own --help:\n"
+        "  zlmreport fleet report   the overview of a fleet: who fails, who drifts\n"
+        "  zlmreport fleet backup   a copy of its ledger\n"
+        "  zlmreport fleet rebuild  its ledger made again from its certificates\n\n"
         "exit codes: 0 done; 2 the fleet file is wrong; 3 the ledger cannot be used, or another night is at\n"
         "work on it; 4 done, but jobs failed, or something is missing that should be there",
     )

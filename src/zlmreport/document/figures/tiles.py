@@ -43,6 +43,8 @@ _DARK = 0.55
 _LETTERS, _WITHOUT_DECIMALS = 6.0, 100.0
 #: Tiles overlap by so much, points: else a viewer shows hairs between them.
 _OVERLAP = 0.3
+#: How far letters keep from the edge of the tiles and from one another at least, points.
+_INSIDE = 0.6
 
 
 def draw_tiles(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
@@ -58,13 +60,32 @@ def draw_tiles(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
 
 
 def place_tile_values(tiles: Tiles, frame: Frame, language: Language) -> Iterator[Lettering]:
-    """Yield what is written on every other tile along both axes."""
+    """Yield what is written on every other tile along both axes, or on fewer where tiles are narrow."""
     digits = 1 if tiles.darkest < _WITHOUT_DECIMALS else 0
-    for x, values in zip(tiles.x[::2].tolist(), tiles.values[::2], strict=True):
+    widest = make_plain_label(
+        write_fixed_number(tiles.darkest, digits, language.decimal_sign), _LETTERS
+    ).width
+    every, middles = _place_across(tiles, frame, widest)
+    for middle, values in zip(middles, tiles.values[::every], strict=True):
         for y, value in zip(tiles.y[::2].tolist(), values[::2].tolist(), strict=True):
             label = make_plain_label(write_fixed_number(value, digits, language.decimal_sign), _LETTERS)
-            place = PlacedLabel(label, frame.place_x(x) - label.width / 2, frame.place_y(y) - label.rise)
+            place = PlacedLabel(label, middle - label.width / 2, frame.place_y(y) - label.rise)
             yield Lettering("tile", place, WHITE if value / tiles.darkest > _DARK else INK)
+
+
+def _place_across(tiles: Tiles, frame: Frame, widest: float) -> tuple[int, list[float]]:
+    """Return on each how manieth tile along X a value is written, and where its middle is drawn.
+
+    White letters are not seen beside the tiles: values move together until the outermost stand within them.
+    """
+    first, *_, last = (frame.place_x(edge) for edge in tiles.edges[0].tolist())
+    room = widest / 2 + _INSIDE
+    for every in range(2, max(3, len(tiles.x))):
+        places = [frame.place_x(x) for x in tiles.x[::every].tolist()]
+        ends = max(places[0], first + room), min(places[-1], last - room)
+        if ends[1] - ends[0] >= (len(places) - 1) * 2 * room:
+            break
+    return every, np.interp(places, (places[0], places[-1]), ends).tolist()
 
 
 def _choose_colour(share: float) -> Colour:

@@ -80,6 +80,7 @@ def lay_out_space(machine: MachineModel, say: Sayer) -> Section:
     )
     size = say.write_pair(float(found.length[place]), float(found.expanded_uncertainty[place]), MICROMETRE)
     more = say.write_number(MICROMETRE.from_si(2.0 * float(found.bound[place])), 1)
+    largest = _LARGEST.given(more=more) if machine.unmeasured else _LARGEST_OF_ALL
     box = ", ".join(
         f"{axis} {say.write_span(float(low), float(high))}"
         for axis, low, high in zip(AXES, space.low, space.high, strict=True)
@@ -101,7 +102,7 @@ def lay_out_space(machine: MachineModel, say: Sayer) -> Section:
         "work-space",
         say(_SPACE),
         (
-            Paragraph(say(_LARGEST.given(box=box, size=size, at=at, more=more))),
+            Paragraph(say(largest.given(box=box, size=size, at=at))),
             Graph(_draw_slices(found, say)),
             Paragraph(say(_DIAGONALS_NOTE)),
             table,
@@ -179,6 +180,7 @@ _LARGEST = Words(
     "In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm; errors that "
     "nobody measured may add ± {more} µm."
 )
+_LARGEST_OF_ALL = Words("In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm.")
 _DIAGONALS = Words("Body diagonals, predicted")
 _DIAGONAL = Words("Diagonal")
 _DIAGONALS_NOTE = Words(

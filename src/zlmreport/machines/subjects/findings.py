@@ -13,11 +13,13 @@ from zlmreport.language import Words, list_alternatives, list_in_words, named
 from zlmreport.language.formatting import write_percentage
 from zlmreport.language.numbers import write_significant
 from zlmreport.machines.choosing import add_form
+from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
 from zlmreport.machines.forms import make_plain_form
 from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
+from zlmreport.machines.subjects.tests import lay_out_sizes, make_failure_notice
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -284,6 +286,21 @@ def lay_out_said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section
     for section in (lay_out_candidates(diagnosis, say), lay_out_absence(diagnosis, say)):
         if section:
             yield section
+
+
+def lay_out_diagnosis(
+    found: MachineDiagnosis, before: Sequence[ComparedTest], say: Sayer
+) -> Iterator[Section]:
+    """Yield all that is said of a diagnosis, its tests behind the verdict.
+
+    `before`: The circles with the model that was diagnosed.
+    """
+    verdict, *others = lay_out_said_of(found, say)
+    failures = make_failure_notice(before, say)
+    sizes = lay_out_sizes(before, say, found.noise_of_readings)
+    yield verdict
+    yield Section("tests", "Tests", (sizes, failures) if failures else (sizes,))
+    yield from others
 
 
 _NEXT_ADD = Words(
