@@ -206,6 +206,16 @@ def test_a_certificate_and_a_failure_are_told_as_they_happen_and_a_failure_once(
     assert issued.files == (fleet.certificate("y"),)
 
 
+def test_who_gets_a_certificate_is_told_what_its_readings_leave_doubtful(fleet: Fleet, post: Post) -> None:
+    fleet.write("fleet.yaml", FLEET + NOTIFY.replace("Ada", "Ada, tells: [certificate]"))
+    fleet.readings("y", "0.001 0.002 0.003 0.004 0.005 0.006")
+    (doubt,) = fleet.spend().of("y").doubts
+    said = doubt.in_language(Language.ENGLISH)
+    assert said.startswith("All deviations together span 0.005 µm over 200 mm; if the file has mm")
+    (issued,) = (each for each in post.messages if "CAL-Y" in each.title)
+    assert said in issued.text.splitlines()
+
+
 def test_a_way_that_is_shut_is_tried_once_a_night(fleet: Fleet, post: Post) -> None:
     fleet.write("fleet.yaml", FLEET + NOTIFY.replace("Ada", "Ada, tells: [certificate, digest]"))
     post.is_shut = True

@@ -25,6 +25,7 @@ from zlmreport.fleet.night import Order, foretell, spend_night
 from zlmreport.fleet.plan import Due, PlannedJob
 from zlmreport.fleet.records import NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
+from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.version import __version__
 
@@ -246,8 +247,8 @@ class TextLog:
         number = f"{happened.number}  " if happened.number else ""
         limits = "; a limit is not met" if happened.conforms is False else ""
         self._write_line(f"{happened.what.value:{_WORD}} {number}{happened.job}{why}{limits}")
-        for problem in happened.problems:
-            self._write_line(f"{'':{_WORD}}   {problem}")
+        for each in (*happened.problems, *(doubt.in_language(Language.ENGLISH) for doubt in happened.doubts)):
+            self._write_line(f"{'':{_WORD}}   {each}")
 
     def write_notice(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
@@ -312,6 +313,7 @@ def _collect_of_job(happened: Happened) -> dict[str, Any]:
         "why": happened.why or None,
         "files": list(happened.files),
         "conforms": happened.conforms,
+        "doubts": [each.in_language(Language.ENGLISH) for each in happened.doubts],
         "problems": [collect_problem(each) for each in happened.problems],
     }
 

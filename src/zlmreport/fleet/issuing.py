@@ -22,6 +22,7 @@ from zlmreport.fleet.making import Failed, FinishedFile, MadeCertificate
 from zlmreport.fleet.plan import Evening, PlannedJob, digest_inputs
 from zlmreport.fleet.records import LedgerEntry, State, Subject
 from zlmreport.job.fleet import FleetFile
+from zlmreport.language import Words
 
 #: Of a file that the ledger has not taken over yet.
 _SUFFIX = ".zlmreport-new"
@@ -119,6 +120,9 @@ class Happened:
     problems: tuple[Problem, ...] = ()  #: Why it failed.
     #: Whether every stated limit is met; None without limits, where one is not decided, or not looked at.
     conforms: bool | None = None
+    doubts: tuple[
+        Words, ...
+    ] = ()  #: Sentences on what it leaves doubtful.
     #: Whether it was made again for new programs alone, and states the same values: that is counted, and no
     #: news.
     is_upgrade: bool = False
@@ -236,4 +240,5 @@ def _record_happened(
     what: What, planned: PlannedJob, made: MadeCertificate, written: Sequence[FinishedFile]
 ) -> Happened:
     files = tuple(file.path for file in written)
-    return Happened(what, planned.job, made.subject.number, planned.why, files, conforms=made.conforms)
+    of = made.subject.number, planned.why, files
+    return Happened(what, planned.job, *of, conforms=made.conforms, doubts=made.doubts)

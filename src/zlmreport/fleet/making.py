@@ -113,6 +113,8 @@ class MadeCertificate:
     #: What its readings teach other tests, for the ledger; None without a model that describes them.
     lesson: Mapping[str, Any] | None = None
     conforms: bool | None = None  #: Whether every stated limit is met; None where nothing is decided on one.
+    #: Sentences on values in an unlikely unit, and on what readings and calibrations leave open.
+    doubts: tuple[Words, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,6 +201,7 @@ def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
         is_draft=is_draft,
         lesson=None if is_draft else _find_lesson(certificate, job, registry.effects),
         conforms=judge_together(certificate.evaluations),
+        doubts=(*certificate.doubts, *certificate.evidence),
     )
 
 

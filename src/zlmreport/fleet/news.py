@@ -122,7 +122,8 @@ def find_news_of_job(happened: Happened, known: Evening) -> Message | None:
         said = _ISSUED.given(number=happened.number).in_language(language)
         said += _LIMIT.in_language(language) if happened.conforms is False else ""
         files = tuple(fleet.output / file for file in happened.files)
-        text = "".join(f"{line}\n" for line in (happened.job, *files))
+        doubts = [each.in_language(language) for each in happened.doubts]
+        text = "".join(f"{line}\n" for line in (happened.job, *files, *doubts))
         return Message(Occasion.CERTIFICATE, named(fleet.name, said).in_language(language), text, files)
     standing = known.standings.get(happened.job)
     if happened.what not in {What.FAILED, What.VANISHED} or (standing and standing.state.is_failure):

@@ -324,10 +324,12 @@ def _find_conditions(
         logged = measurements.conditions.get(name)
         stated = getattr(job.keys.environment, name, None)
         if logged is not None:
-            missing = int(np.count_nonzero(np.isnan(logged)))
-            if missing:
+            missing = np.flatnonzero(np.isnan(logged))
+            if missing.size:
                 message = (
-                    f"{key}: {name} was not logged at {missing} of {count_in_words(len(logged), 'reading')}"
+                    f"{key}: {name} was not logged at {missing.size} of "
+                    f"{count_in_words(len(logged), 'reading')}, the first is number {missing[0] + 1}; "
+                    f"log it there, too, or state environment.{name} and leave the column out"
                 )
                 problems.append(Problem(job.place_of(key), message))
             found.append(logged)
