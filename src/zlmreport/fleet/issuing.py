@@ -120,9 +120,7 @@ class Happened:
     problems: tuple[Problem, ...] = ()  #: Why it failed.
     #: Whether every stated limit is met; None without limits, where one is not decided, or not looked at.
     conforms: bool | None = None
-    doubts: tuple[
-        Words, ...
-    ] = ()  #: Sentences on what it leaves doubtful.
+    doubts: tuple[Words, ...] = ()  #: Sentences on what it leaves doubtful.
     #: Whether it was made again for new programs alone, and states the same values: that is counted, and no
     #: news.
     is_upgrade: bool = False
