@@ -108,7 +108,7 @@ def test_what_a_correction_needs_and_nobody_tells_is_refused(tmp_path, correctio
 
 
 def test_a_gap_in_a_log_is_refused_and_not_filled(tmp_path):
-    with pytest.raises(InputError, match="material_temperature was not logged at 1 of 2 .* number 2"):
+    with pytest.raises(InputError, match=r"material_temperature was not logged at 1 of 2 .* number 2"):
         end(
             tmp_path,
             {"material": {"expansion_coefficient": 11.5}},
