@@ -9,7 +9,7 @@ import functools
 import hashlib
 import threading
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
@@ -17,6 +17,7 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
+from zlmreport.evaluation import traceability
 from zlmreport.evaluation.evaluation import judge_together
 from zlmreport.files import confine as confined
 from zlmreport.fleet.basis import (
@@ -113,7 +114,7 @@ class MadeCertificate:
     #: What its readings teach other tests, for the ledger; None without a model that describes them.
     lesson: Mapping[str, Any] | None = None
     conforms: bool | None = None  #: Whether every stated limit is met; None where nothing is decided on one.
-    #: Sentences on values in an unlikely unit, and on what readings and calibrations leave open.
+    #: Sentences on values in an unlikely unit, and on what its readings show to be wrong.
     doubts: tuple[Words, ...] = ()
 
 
@@ -201,8 +202,19 @@ def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
         is_draft=is_draft,
         lesson=None if is_draft else _find_lesson(certificate, job, registry.effects),
         conforms=judge_together(certificate.evaluations),
-        doubts=(*certificate.doubts, *certificate.evidence),
+        doubts=tuple(_list_doubts(certificate, job)),
     )
+
+
+def _list_doubts(certificate: Certificate, job: Job) -> Iterator[Words]:
+    """Yield what is doubtful about the values of a certificate.
+
+    What is open of calibrations is so every night; the certificate says it.
+    """
+    tests = (each.measurements for each in certificate.evaluations)
+    known = [doubt for each in tests for doubt in traceability.find_doubts(job, each)]
+    yield from certificate.doubts
+    yield from (each for each in certificate.evidence if each not in known)
 
 
 def _demand_one_of_a_suffix(job: Path, renderers: Sequence[Renderer]) -> None:
