@@ -96,7 +96,8 @@ def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
         needless = next((each for each in order if not _is_needed(search, found, each, without[each])), None)
         if needless is None:
             break
-        found = without[needless]
+        # Beside it other names may have been the best: the rest is the best that does with as little.
+        found = search.find_best_as_small(without[needless])
     return found
 
 

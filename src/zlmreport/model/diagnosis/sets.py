@@ -294,6 +294,19 @@ class SetSearch:
         ]
         return min(others, default=np.inf) - found.score
 
+    def find_best_as_small(self, found: EffectSet) -> EffectSet:
+        """Return the best of a set and all looked at with no more names, beside nothing more without one."""
+        forms, loud = list_unnamed(found), set(self._list_loud(found))
+        as_small = (
+            each
+            for (_, unnamed), each in self._sets.best.items()
+            if unnamed <= forms
+            and len(each.named) <= len(found.named)
+            and len(each.unnamed) <= len(found.unnamed)
+            and not set(self._list_loud(each)) - loud
+        )
+        return min((found, *as_small), key=find_score)
+
     def find_fewer_beside_curve(self, found: EffectSet, names: int, within: float) -> EffectSet | None:
         """Return the best of all sets looked at in which curves without a name replace several names each.
 
