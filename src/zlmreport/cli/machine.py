@@ -14,15 +14,14 @@ from zlmreport.errors import NOT_MET, InputError, Place, Problem
 from zlmreport.files import Document, write, write_new
 from zlmreport.language import Language
 from zlmreport.machines.comparison import compare_circles, compare_line
-from zlmreport.machines.cross_confirmation import (
+from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
+from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
+from zlmreport.machines.cross_report import (
     CONFIRMATION_SCHEMA,
     SCHEMA,
-    CrossVerdict,
     collect_confirmation,
     collect_cross,
-    confirm,
 )
-from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
 from zlmreport.machines.document import make_machine_document

@@ -3,8 +3,7 @@
 What changed between two circles is held against what the tables take away of them: a least-squares part of 1
 says that they act as they should, −1 that their sign is wrong, 0 that they are not in effect. The centre of
 each turn and the radius may change by themselves. The part has an uncertainty by the noise that the
-difference itself shows, along the path and over the angle. For programs, tables and what was shown are plain
-values.
+difference itself shows, along the path and over the angle.
 """
 
 from __future__ import annotations
@@ -13,14 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.cross_making import CrossMade
-from zlmreport.machines.cross_tables import CrossForecast, compensate_machine
+from zlmreport.machines.cross_tables import compensate_machine
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.machine import MachineModel, predict
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
@@ -28,7 +26,6 @@ from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.residual import centre, compute_root_mean_square
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.compensation.curve import CrossTable
 from zlmreport.plugin.registry import Registry
 
@@ -204,68 +201,3 @@ def _list_free(design: ThinnedDesign) -> Iterator[FloatArray]:
             yield np.where(design.turn == turn, wave, 0.0)
     for test in np.unique(design.test).tolist():
         yield (design.test == test).astype(np.float64)
-
-
-SCHEMA = "zlmreport/machine-compensation/1"
-CONFIRMATION_SCHEMA = "zlmreport/machine-confirmation/1"
-
-
-def collect_cross(made: CrossMade) -> dict[str, Any]:
-    """Return tables with their forecast; lengths in µm, positions in mm."""
-    return {
-        "schema": SCHEMA,
-        "controller": made.control.identifier,
-        "positive_value_moves": made.moves,
-        "taken": list(made.held),
-        "within_uncertainty": list(made.plan.within_uncertainty),
-        "tables": [
-            {
-                "input": each.input,
-                "output": each.output,
-                "positions": MILLIMETRE.from_si(each.positions).tolist(),
-                "deviation": MICROMETRE.from_si(each.values).tolist(),
-            }
-            for each in made.decoded
-        ],
-        "forecast": dict(_forecast(made.forecast)),
-        "unit": "um",
-    }
-
-
-def _forecast(found: CrossForecast) -> Iterator[tuple[str, Any]]:
-    in_um = MICROMETRE.from_si
-    yield (
-        "circles",
-        [
-            {
-                "test": each.name,
-                "rms": [in_um(each.before), in_um(each.after)],
-                "numbers": {name: [in_um(before), in_um(after)] for name, before, after in each.numbers},
-            }
-            for each in found.circles
-        ],
-    )
-    yield "diagonals", {name: [in_um(before), in_um(after)] for name, before, after in found.diagonals}
-    yield "largest", [in_um(each) for each in found.largest] if found.largest else None
-
-
-def collect_confirmation(found: CrossConfirmation) -> dict[str, Any]:
-    """Return how later circles stand to the forecast; lengths in µm."""
-    in_um = MICROMETRE.from_si
-    is_seen = found.expanded_uncertainty < float("inf")
-    return {
-        "schema": CONFIRMATION_SCHEMA,
-        "verdict": found.verdict.value,
-        "applied": found.applied if is_seen else None,
-        "expanded_uncertainty": found.expanded_uncertainty if is_seen else None,
-        "circles": [
-            {
-                "test": each.name,
-                "before": in_um(each.before),
-                "forecast": in_um(each.forecast),
-                "after": in_um(each.after),
-            }
-            for each in found.circles
-        ],
-        "unit": "um",
-    }

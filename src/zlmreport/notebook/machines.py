@@ -14,8 +14,9 @@ from zlmreport.files import write_new
 from zlmreport.language import Language
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
-from zlmreport.machines.cross_confirmation import collect_confirmation, collect_cross, confirm as confirmed
+from zlmreport.machines.cross_confirmation import confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
+from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.kinematics import ERRORS
