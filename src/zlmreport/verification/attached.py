@@ -181,7 +181,7 @@ def compare(  # noqa: PLR0913 - what is stated, found and made again, and how mu
     for name in dict.fromkeys((*stated, *carried, *(again or {}))):
         file, source = carried.get(name), stated.get(name)
         if file is None:
-            findings.append(CheckedStatement(name, VerificationVerdict.DIFFERS, "is not attached"))
+            findings.append(CheckedStatement.of(name, "is not attached"))
             continue
         faults = [*_list_digests(file, source)]
         if again is not None:
@@ -282,14 +282,10 @@ def _check_digital(name: str, content: bytes, schema: Path) -> Iterator[CheckedS
     try:
         certificate = etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
-        yield CheckedStatement(
-            name, VerificationVerdict.DIFFERS, f"is not XML: {' '.join(str(error).split())}"
-        )
+        yield CheckedStatement.of(name, f"is not XML: {' '.join(str(error).split())}")
         return
     if certificate.getroottree().docinfo.doctype:  # its entities may be files, which who checks would read
-        yield CheckedStatement(
-            name, VerificationVerdict.DIFFERS, "declares a document type, which no digital certificate does"
-        )
+        yield CheckedStatement.of(name, "declares a document type, which no digital certificate does")
         return
     yield _make_finding(
         name, "PTB's rules", _find_broken_rules(etree.tostring(certificate, encoding="unicode"))
@@ -317,4 +313,4 @@ def _make_finding(name: str, by: str, broken: list[str]) -> CheckedStatement:
     if not broken:
         return CheckedStatement(name, VerificationVerdict.HOLDS, f"valid by {by}")
     shown = "; ".join(" ".join(each.split()) for each in broken[:_MOST_DEFECTS])
-    return CheckedStatement(name, VerificationVerdict.DIFFERS, f"not valid by {by}: {shown}")
+    return CheckedStatement.of(name, f"not valid by {by}: {shown}")

@@ -28,8 +28,8 @@ _LONGEST_NAME = 200
 #: What no name of an attachment has: parts of a path, and what is not seen.
 _UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f/\\\u200e\u200f\u202a-\u202e\u2066-\u2069]|\A\.+\Z|\A\Z")
 
-#: Of a stream: how it is packed is looked at elsewhere.
-_OF_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
+#: Of a stream: how it is packed; looked at on its own.
+PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
 
 Read = TypeVar("Read")
 
@@ -106,18 +106,32 @@ def find_results_in(path: Path) -> bytes | None:
 
 def guard(read: Callable[[], Read], place: Place) -> Read:
     """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line."""
+    with silence_pypdf():
+        try:
+            return read()
+        except InputError:
+            raise
+        except Exception as error:  # a foreign file may break its reader in any way
+            reason = " ".join(str(error).split())[:200] or type(error).__name__
+            message = f"is damaged, and cannot be read as a certificate: {reason}"
+            raise InputError.at(place, message) from error
+
+
+@contextlib.contextmanager
+def silence_pypdf() -> Iterator[None]:
+    """Keep what pypdf has to say of a damaged file from the terminal."""
     logger = logging.getLogger("pypdf")
     level = logger.level
-    logger.setLevel(logging.CRITICAL + 1)  # what it has to say of a damaged file is not for the terminal
+    logger.setLevel(logging.CRITICAL + 1)
     try:
-        return read()
-    except InputError:
-        raise
-    except Exception as error:  # a foreign file may break its reader in any way
-        reason = " ".join(str(error).split())[:200] or type(error).__name__
-        raise InputError.at(place, f"is damaged, and cannot be read as a certificate: {reason}") from error
+        yield
     finally:
         logger.setLevel(level)
+
+
+def find_value(value: Any) -> Any:
+    """Return what a reference of pypdf leads to; anything else as it is."""
+    return value.get_object() if hasattr(value, "get_object") else value
 
 
 def _open_carrier(content: bytes, place: Place) -> Carrier:
@@ -219,7 +233,7 @@ def _read_carried(specification: Any, room: int, place: Place) -> Carried:
         entries=tuple(
             f"{holder} {key}"
             for holder, keys in (("", specification), ("/EF", embedded), ("stream", stream), ("", parameters))
-            for key in sorted(keys.keys() - _OF_PACKING)
+            for key in sorted(keys.keys() - PACKING)
         ),
     )
 

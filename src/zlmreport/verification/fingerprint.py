@@ -8,8 +8,8 @@ from itertools import zip_longest
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
-from zlmreport.verification.carrier import TooLargeError, unpack
-from zlmreport.verification.shape import PACKING, is_of_signature
+from zlmreport.verification.carrier import PACKING, TooLargeError, unpack
+from zlmreport.verification.shape import is_of_signature
 
 #: An object of pypdf.
 PdfObject: TypeAlias = Any

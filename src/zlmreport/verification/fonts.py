@@ -14,6 +14,8 @@ from io import BytesIO
 from itertools import count
 from typing import Any
 
+from zlmreport.verification.carrier import find_value
+
 _MAPPED = re.compile(rb"<([0-9a-fA-F]{4})>\s*<([0-9a-fA-F]+)>")
 _SECTION = re.compile(rb"\d+\s+beginbfchar\b(.*?)\bendbfchar\b", re.DOTALL)
 #: What depends on the library that packs a font, or is compared glyph by glyph.
@@ -84,8 +86,7 @@ def read_glyphs(font: Any) -> Mapping[int, tuple[str, float, Hashable]]:
 
 def _find_parts(font: Any) -> tuple[Any, Any, Any] | None:
     """Return a font, the font of its glyphs, and what describes that; None if it is made otherwise."""
-    inner: Any = font.get("/DescendantFonts", ())
-    inner = inner.get_object() if hasattr(inner, "get_object") else inner
+    inner = find_value(font.get("/DescendantFonts", ()))
     if len(inner) != 1 or "/ToUnicode" not in font:
         return None
     described = inner[0].get_object().get("/FontDescriptor")
@@ -190,8 +191,7 @@ def _list_widths(entries: Any) -> dict[int, float]:
     found: dict[int, float] = {}
     rest, least = deque(entries), 0
     while rest:
-        first, widths = int(rest.popleft()), rest.popleft()
-        widths = widths.get_object() if hasattr(widths, "get_object") else widths
+        first, widths = int(rest.popleft()), find_value(rest.popleft())
         if isinstance(widths, list):
             listed = dict(zip(count(first), map(float, widths), strict=False))
         elif least <= first and widths <= _LAST_GLYPH:

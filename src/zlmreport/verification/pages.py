@@ -11,7 +11,7 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from zlmreport.verification import raster, shape
-from zlmreport.verification.carrier import Carrier, guard, unpack
+from zlmreport.verification.carrier import PACKING, Carrier, find_value, guard, unpack
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
@@ -24,10 +24,9 @@ _LONGEST_PASSAGE = 60
 #: Programs that save a file again and draw nothing anew; whatever else stands there is read as a statement.
 _SAVED_BY = re.compile(r"(pypdf|pikepdf|qpdf)( \d{1,3}(\.\d{1,3}){0,3})?", re.ASCII)
 
-#: Metadata, the most that they may be unpacked to, and what says only how their stream is packed.
+#: Metadata, and the most that they may be unpacked to.
 _XMP = "/Metadata"
 _LARGEST_XMP = 1 << 20
-_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
 #: XML in the frame of XMP, and no other instructions for programs.
 _PACKET = re.compile(rb"\s*<\?xpacket begin=[^?]*\?>(?:[^<]|<(?!\?))*<\?xpacket end=[^?]*\?>\s*")
 
@@ -116,11 +115,9 @@ class _Comparison:
                 else:
                     yield self._describe_altered(number, number_again)
             for number in range(first + common, end):
-                yield CheckedStatement(
-                    _say_page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
-                )
+                yield CheckedStatement.of(_say_page(number), "is no page of this certificate")
             for number in range(first_again + common, end_again):
-                yield CheckedStatement(_say_page(number), VerificationVerdict.DIFFERS, "is missing")
+                yield CheckedStatement.of(_say_page(number), "is missing")
 
     def _compare_resources(self, number: int, number_again: int) -> CheckedStatement:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
@@ -157,15 +154,11 @@ class _Comparison:
         subject = _say_page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
             differing = self._prints.list_framing_differences(number, self._prints_again, number_again)
-            return CheckedStatement(
-                subject, VerificationVerdict.DIFFERS, f"not as printed again: its {', its '.join(differing)}"
-            )
+            return CheckedStatement.of(subject, f"not as printed again: its {', its '.join(differing)}")
         try:
             drawn, drawn_again = self._prints.list_marks(number), self._prints_again.list_marks(number_again)
         except (ForeignError, ValueError, RecursionError) as error:
-            return CheckedStatement(
-                subject, VerificationVerdict.DIFFERS, f"is drawn as no certificate is: {error}"
-            )
+            return CheckedStatement.of(subject, f"is drawn as no certificate is: {error}")
         is_same = len(drawn) == len(drawn_again) and all(map(DrawnMark.is_as, drawn, drawn_again))
         if is_same and all(map(DrawnMark.is_where, drawn, drawn_again)):
             return CheckedStatement(subject, VerificationVerdict.HOLDS)
@@ -181,9 +174,7 @@ class _Comparison:
                 VerificationVerdict.OPEN,
                 "the same is drawn, but not where it is printed again: look at it",
             )
-        return CheckedStatement(
-            subject, VerificationVerdict.DIFFERS, "its words are the same, but it is drawn otherwise"
-        )
+        return CheckedStatement.of(subject, "its words are the same, but it is drawn otherwise")
 
     def _compare_document(self) -> Iterator[CheckedStatement]:
         """Yield what else a document holds, part by part."""
@@ -206,7 +197,7 @@ class _Comparison:
     def _is_same_xmp(self, stated: Any, again: Any) -> bool:
         """Whether metadata say the same: programs that save a file again write their XML anew."""
         streams = [each.get_object() for each in (stated, again)]
-        kinds = [{key: value for key, value in each.items() if key not in _PACKING} for each in streams]
+        kinds = [{key: value for key, value in each.items() if key not in PACKING} for each in streams]
         said = [_read_xmp(unpack(each, _LARGEST_XMP)) for each in streams]
         return kinds[0] == kinds[1] and said[0] is not None and said[0] == said[1]
 
@@ -321,8 +312,7 @@ class Prints:
 def _read_links(page: Any) -> Any:
     from pypdf.generic import ArrayObject  # noqa: PLC0415 - slow to load
 
-    listed = page.get("/Annots", ())
-    listed = listed.get_object() if hasattr(listed, "get_object") else listed
+    listed = find_value(page.get("/Annots", ()))
     return ArrayObject(each for each in listed if not shape.is_of_signature(each.get_object()))
 
 

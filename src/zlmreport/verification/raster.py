@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
+from zlmreport.verification.findings import CheckedStatement
 
 #: Dots to the inch: a digit of 7 points is 7 pixels high.
 _RESOLUTION = 96
@@ -42,7 +42,7 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
                 difference = _find_difference(one[number], other[number], is_alike=is_same)
             if difference:
                 detail = f"PDFium shows it otherwise: {difference}"
-                found[number] = CheckedStatement(f"page {number + 1}", VerificationVerdict.DIFFERS, detail)
+                found[number] = CheckedStatement.of(f"page {number + 1}", detail)
     return found
 
 

@@ -11,7 +11,6 @@ system, and are asked where they are installed: they are called, and nothing of 
 
 from __future__ import annotations
 
-import logging
 import re
 import shutil
 import subprocess
@@ -24,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import count_in_words
-from zlmreport.verification.carrier import Carrier
+from zlmreport.verification.carrier import Carrier, silence_pypdf
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
@@ -134,17 +133,13 @@ def read_as_seen_by(reader: Reader, content: bytes) -> Seen | None:
 
     Raises `subprocess.TimeoutExpired` if it does not end.
     """
-    logger = logging.getLogger("pypdf")
-    level = logger.level
-    logger.setLevel(logging.CRITICAL + 1)
-    try:
-        seen = reader.see(content)
-    except subprocess.TimeoutExpired:
-        raise
-    except Exception:  # noqa: BLE001 - a foreign file may break its reader in any way
-        return None
-    finally:
-        logger.setLevel(level)
+    with silence_pypdf():
+        try:
+            seen = reader.see(content)
+        except subprocess.TimeoutExpired:
+            raise
+        except Exception:  # noqa: BLE001 - a foreign file may break its reader in any way
+            return None
     return seen if seen.pages else None
 
 

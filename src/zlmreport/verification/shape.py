@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
-from zlmreport.verification.carrier import Carrier
+from zlmreport.verification.carrier import PACKING, Carrier, find_value
 from zlmreport.verification.findings import CheckedStatement, name_first_of
 
 #: Where an entry stands, its key, and what kind of value it has.
@@ -26,8 +26,6 @@ _MOST_OBJECTS = 2_000_000
 _MOST_TOLD = 4
 _PIECE = 1 << 16
 _SUBJECT = "structure of the file"
-#: How a stream is packed; looked at on its own.
-PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
 _PACKED = frozenset({"/FlateDecode"})
 _PREDICTION = frozenset({"/BitsPerComponent", "/Colors", "/Columns", "/Predictor"})
 #: Entries whose keys are names that a renderer gives.
@@ -208,8 +206,7 @@ def is_of_signature(item: Any) -> bool:
             and list(map(float, item.get("/Rect", ()))) == [0.0] * 4
         )
     if item.get("/S") == "/Form" and item.keys() <= _PLACE:
-        kids: Any = item.get("/K", ())
-        kids = kids.get_object() if hasattr(kids, "get_object") else kids
+        kids = find_value(item.get("/K", ()))
         references = kids if isinstance(kids, list) else [kids]
         return all(_is_leading_to_field(each.get_object()) for each in references)
     return False

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from zlmreport.verification.carrier import find_value
 from zlmreport.verification.findings import CheckedStatement
 
 _SUBJECT = "places of the structure"
@@ -24,7 +25,7 @@ def compare(reader: Any) -> CheckedStatement:
     places = dict(_list_places(tree))
     table = dict(_list_numbers(tree.get("/ParentTree")))
     for number, page in enumerate(reader.pages, 1):
-        listed = _find_value(table.get(page.get("/StructParents")))
+        listed = find_value(table.get(page.get("/StructParents")))
         own = page.indirect_reference.idnum
         elements = listed if isinstance(listed, list) else []
         by_table = {
@@ -49,12 +50,12 @@ def _list_places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:
         walked += 1
         if walked > _MOST_NODES:
             raise ValueError("its structure has no end")
-        element = _find_value(reference)
+        element = find_value(reference)
         if not isinstance(element, dict) or "/S" not in element:
             continue
         page = element.raw_get("/Pg") if "/Pg" in element else page  # type: ignore[attr-defined]
         for kid in _list_kids(element):
-            inner = _find_value(kid)
+            inner = find_value(kid)
             if isinstance(inner, int):
                 yield (page.idnum, int(inner)), reference.idnum
             elif isinstance(inner, dict) and inner.get("/Type") == "/MCR":
@@ -66,22 +67,18 @@ def _list_places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:
 
 def _list_kids(element: Any) -> list[Any]:
     kids = element.raw_get("/K") if "/K" in element else []
-    found = _find_value(kids)
+    found = find_value(kids)
     return list(found) if isinstance(found, list) else [kids]
 
 
 def _list_numbers(node: Any) -> Iterator[tuple[int, Any]]:
     waiting, walked = [node], 0
     while waiting:
-        found = _find_value(waiting.pop())
+        found = find_value(waiting.pop())
         walked += 1
         if walked > _MOST_NODES:
             raise ValueError("its structure has no end")
         if isinstance(found, dict):
-            pairs = list(_find_value(found.get("/Nums", [])))
+            pairs = list(find_value(found.get("/Nums", [])))
             yield from zip(map(int, pairs[::2]), pairs[1::2], strict=True)
-            waiting.extend(_find_value(found.get("/Kids", [])))
-
-
-def _find_value(value: Any) -> Any:
-    return value.get_object() if hasattr(value, "get_object") else value
+            waiting.extend(find_value(found.get("/Kids", [])))

@@ -151,9 +151,7 @@ def verify(
                 "is no certificate of zlmreport: it carries no results file to verify; one that was printed "
                 "to PDF, scanned, split or joined with others has lost it: verify the file as it was issued",
             )
-        lacking = CheckedStatement(
-            "results file", VerificationVerdict.DIFFERS, "is not attached; every certificate carries one"
-        )
+        lacking = CheckedStatement.of("results file", "is not attached; every certificate carries one")
         return replace(found, files=(lacking,))
     identity, provenance = dict(stated.results.certificate), stated.results.provenance
     found = replace(found, identity=Identity(**identity, generator=provenance.generator))
@@ -170,9 +168,7 @@ def verify(
             if all(finding.verdict is not VerificationVerdict.DIFFERS for finding in compared):
                 raise type(ended)(problems) from error
             reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
-            return replace(
-                found, files=(*compared, CheckedStatement("readings", VerificationVerdict.DIFFERS, reason))
-            )
+            return replace(found, files=(*compared, CheckedStatement.of("readings", reason)))
     complete = _compare(found, carrier, stated, again)
     if dcc_schema is None:
         return complete
