@@ -8,7 +8,7 @@ nobody can tell. How often differences agree by chance the other pairs of runs t
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import combinations
 
 import numpy as np
@@ -54,19 +54,26 @@ def are_nearly_copies(one: FloatArray, other: FloatArray, step: float, by_chance
     return by_chance >= _HIDDEN or pairs * _compute_chance_of_at_least(equal, count, by_chance) < _BY_CHANCE
 
 
-def group_copies(series: FloatArray, step: float) -> Sequence[tuple[int, ...]]:
+def group_copies(series: FloatArray, step: float) -> Sequence[Sequence[int]]:
     """Return which series are copies of each other, each group by the columns of `series`, two at least."""
     count = series.shape[1]
     by_chance, pairs = estimate_agreement_by_chance(series, step), count * (count - 1) // 2
+    return group_alike(series, lambda one, other: are_nearly_copies(one, other, step, by_chance, pairs))
+
+
+def group_alike(
+    series: FloatArray, are_alike: Callable[[FloatArray, FloatArray], bool]
+) -> Sequence[Sequence[int]]:
+    """Return which series are alike to the first of their group, each group by the columns, two at least."""
     groups: list[list[int]] = []
-    for number in range(count):
+    for number in range(series.shape[1]):
         for group in groups:
-            if are_nearly_copies(series[:, group[0]], series[:, number], step, by_chance, pairs):
+            if are_alike(series[:, group[0]], series[:, number]):
                 group.append(number)
                 break
         else:
             groups.append([number])
-    return tuple(tuple(group) for group in groups if len(group) > 1)
+    return [group for group in groups if len(group) > 1]
 
 
 def _count_equal_differences(one: FloatArray, other: FloatArray, step: float) -> tuple[int, int]:

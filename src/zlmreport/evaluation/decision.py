@@ -125,8 +125,9 @@ def with_decisions(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
         else replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
         for each in evaluation.parameters
     )
-    impossible = tuple(_find_impossible(each) for each in parameters if _is_accepting_nothing(each))
-    wide = tuple(_find_wide(each) for each in parameters if complete and not rule.factor and _is_wide(each))
+    impossible = [_find_no_room(each, _NO_ROOM) for each in parameters if _is_accepting_nothing(each)]
+    is_by_value = complete and not rule.factor
+    wide = [_find_no_room(each, _WIDE) for each in parameters if is_by_value and _is_wide(each)]
     return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible, *wide))
 
 
@@ -135,22 +136,14 @@ def _is_accepting_nothing(parameter: EvaluatedParameter) -> bool:
     return accepted is not None and accepted < 0
 
 
-def _find_impossible(parameter: EvaluatedParameter) -> Finding:
-    return Finding(
-        _ROOM.given(symbol=write_plain(parameter.quantity.notation)),
-        _NO_ROOM.given(symbol=write_plain(parameter.quantity.notation)),
-        met=False,
-    )
-
-
 def _is_wide(parameter: EvaluatedParameter) -> bool:
     expanded = parameter.expanded_uncertainty
     return expanded is not None and parameter.limit is not None and expanded > parameter.limit
 
 
-def _find_wide(parameter: EvaluatedParameter) -> Finding:
+def _find_no_room(parameter: EvaluatedParameter, found: Words) -> Finding:
     symbol = write_plain(parameter.quantity.notation)
-    return Finding(_ROOM.given(symbol=symbol), _WIDE.given(symbol=symbol), met=False)
+    return Finding(_ROOM.given(symbol=symbol), found.given(symbol=symbol), met=False)
 
 
 def _compute_risk(parameter: EvaluatedParameter, limit: float, conformity: Conformity) -> float | None:

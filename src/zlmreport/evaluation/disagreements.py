@@ -117,10 +117,10 @@ def _find_days_apart(keys: JobKeys) -> Iterator[Words]:
     first, last, issued = keys.measurement.date, find_last_day(keys.measurement), keys.certificate.issued
     if issued and last and (issued - last).days > _YEAR:
         years = _YEARS.given(number=int((issued - last).days / _DAYS_OF_A_YEAR + 0.01))
-        yield _LATE.given(issued=_write_day(issued), years=years, measured=_write_day(last))
+        yield _LATE.given(issued=issued.isoformat(), years=years, measured=last.isoformat())
     if first and last and (last - first).days > _LONGEST:
         days = (last - first).days + 1
-        yield _LONG.given(first=_write_day(first), last=_write_day(last), days=days)
+        yield _LONG.given(first=first.isoformat(), last=last.isoformat(), days=days)
     if first is None and any(day for _, _, day in _list_calibrations(keys)):
         yield _UNDATED
 
@@ -134,8 +134,8 @@ def _find_other_days(keys: JobKeys, days: ReadingDays) -> Iterator[Words]:
     of_night = dt.timedelta(days=1) if keys.measurement.end is None and days.last > days.first else spare
     if not first - spare <= days.first <= last + spare or days.last > last + of_night:
         words = _OTHER_DAY if days.first == days.last else _OTHER_DAYS
-        first_read, last_read = _write_day(days.first), _write_day(days.last)
-        yield words.given(first=first_read, last=last_read, measured=_write_day(first))
+        first_read, last_read = days.first.isoformat(), days.last.isoformat()
+        yield words.given(first=first_read, last=last_read, measured=first.isoformat())
 
 
 def _find_more_than_days(keys: JobKeys, times: FloatArray) -> Iterator[Words]:
@@ -146,7 +146,7 @@ def _find_more_than_days(keys: JobKeys, times: FloatArray) -> Iterator[Words]:
     seconds = float(np.nanmax(times) - np.nanmin(times))
     if seconds >= ((last - first).days + 1) * _DAY - _OF_TIMES:
         hours = float(f"{seconds / 3600:.3g}")
-        yield _LONGER_THAN_DAYS.given(hours=hours, measured=_write_day(first))
+        yield _LONGER_THAN_DAYS.given(hours=hours, measured=first.isoformat())
 
 
 def _find_other_method(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
@@ -167,10 +167,6 @@ def _find_bare_length(keys: JobKeys, circle: CircleKeys) -> Iterator[Words]:
     of_instrument = keys.instrument.certificate if keys.instrument else None
     if not any(is_reference(each or "") for each in (circle.certificate, of_instrument)):
         yield _BARE_LENGTH
-
-
-def _write_day(day: dt.date) -> Words:
-    return same(day.isoformat())
 
 
 def _list_calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date | None]]:
@@ -197,7 +193,7 @@ def _find_certificates_of_two_dates(keys: JobKeys) -> Iterator[Words]:
     for (one, first), (other, second) in combinations(named, 2):
         if one.casefold() == other.casefold() and first != second and one.casefold() not in said:
             said.add(one.casefold())
-            yield _TWO_DATES.given(number=one, first=_write_day(first), second=_write_day(second))
+            yield _TWO_DATES.given(number=one, first=first.isoformat(), second=second.isoformat())
 
 
 def _find_exclusions_without_reason(job: Job) -> Iterator[Words]:

@@ -11,7 +11,13 @@ from itertools import combinations
 
 import numpy as np
 
-from zlmreport.evaluation.copies import are_nearly_copies, estimate_agreement_by_chance, group_copies
+from zlmreport.evaluation.checks import position_in_words
+from zlmreport.evaluation.copies import (
+    are_nearly_copies,
+    estimate_agreement_by_chance,
+    group_alike,
+    group_copies,
+)
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
 from zlmreport.evaluation.turned_runs import (
@@ -215,10 +221,7 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
     for direction, position, run in far[:_MOST_NAMED]:
         yield _OUTLIER.given(
             run=int(measurements.runs[run]),
-            target=say_stated(
-                measurements.axis.position_unit.from_si(float(measurements.target_positions[position])),
-                measurements.axis.position_unit.symbol,
-            ),
+            target=position_in_words(measurements.axis, float(measurements.target_positions[position])),
             arrow=tuple(Approach)[direction].arrow,
             distance=_write_size(measurements, abs(float(distance[direction, position, run]))),
         )
@@ -241,10 +244,9 @@ def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
     others = np.delete(off, slice(max(at - 1, 0), at + 2))
     least = max(_SPIKE_OF_USUAL * float(np.median(others)), _SPIKE_OF_OTHERS * float(others.max()))
     if off[at] > least and off[at] > _SPIKE_OF_USUAL * _find_step(measurements):
-        unit = measurements.axis.position_unit
         target = measurements.target_positions[measurements.target[there][at + 1]]
         yield _SPIKE.given(
-            target=say_stated(unit.from_si(float(target)), unit.symbol),
+            target=position_in_words(measurements.axis, float(target)),
             distance=_write_size(measurements, float(off[at])),
         )
 
@@ -259,25 +261,12 @@ def _spread_of_others(cell: FloatArray, run: int, scale: float) -> float:
 def _find_copied_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the runs that are copies of each other, where both have a reading: exact ones, or nearly so."""
     series = readings.reshape(-1, readings.shape[-1])
-    exact = _group_identical(series)
+    exact = group_alike(series, _are_identical)
     for group in exact:
         yield _IDENTICAL.given(runs=_list_run_numbers(measurements, group))
     for alike in group_copies(series, _find_step(measurements)):
         if not any(set(alike) <= set(each) for each in exact):
             yield _NEARLY_IDENTICAL.given(runs=_list_run_numbers(measurements, alike))
-
-
-def _group_identical(series: FloatArray) -> list[list[int]]:
-    """Return which columns are copies of each other, digit by digit."""
-    groups: list[list[int]] = []
-    for run in range(series.shape[1]):
-        for group in groups:
-            if _are_identical(series[:, group[0]], series[:, run]):
-                group.append(run)
-                break
-        else:
-            groups.append([run])
-    return [group for group in groups if len(group) > 1]
 
 
 def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
@@ -330,11 +319,9 @@ def _list_run_numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
 def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the target that lies apart from its neighbours in every run, far more than any other."""
     positions, step = measurements.target_positions, _find_step(measurements)
-    unit = measurements.axis.position_unit
     for stray in join_found_in_both(*(find_stray_target(positions, each, step) for each in readings)):
-        target = float(positions[stray.position])
         yield _STRAY.given(
-            target=say_stated(unit.from_si(target), unit.symbol),
+            target=position_in_words(measurements.axis, float(positions[stray.position])),
             distance=_write_size(measurements, abs(stray.distance)),
         )
 

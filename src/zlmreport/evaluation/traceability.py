@@ -6,7 +6,6 @@ said, or old, is marked on its first page, as all of it is in a measuring report
 
 from __future__ import annotations
 
-import datetime as dt
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -236,19 +235,15 @@ def _find_breaks_of_calibration(
             words = Words("{what}: date of calibration not stated").given(what=what)
             yield _Break(f"{key}.calibrated", words, is_broken=False)
     elif first and day > first:
-        words = _AFTER.given(what=what, date=_write_day(day), measured=_write_day(first))
+        words = _AFTER.given(what=what, date=day.isoformat(), measured=first.isoformat())
         yield _Break(f"{key}.calibrated", words, is_broken=True)
     elif first and (first - day).days > _OLD * _DAYS_OF_A_YEAR:
         years = int((first - day).days / _DAYS_OF_A_YEAR)
-        words = _OLD_CALIBRATION.given(what=what, date=_write_day(day), years=years)
+        words = _OLD_CALIBRATION.given(what=what, date=day.isoformat(), years=years)
         yield _Break(f"{key}.calibrated", words, is_broken=False)
     if device.due and last and device.due < last:
-        words = _OVERDUE.given(what=what, date=_write_day(device.due), measured=_write_day(last))
+        words = _OVERDUE.given(what=what, date=device.due.isoformat(), measured=last.isoformat())
         yield _Break(f"{key}.due", words, is_broken=True)
-
-
-def _write_day(day: dt.date) -> Words:
-    return same(day.isoformat())
 
 
 def _find_breaks_of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:

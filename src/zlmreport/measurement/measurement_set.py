@@ -176,6 +176,11 @@ class MeasurementSet:
         return tuple(self.tests.values()) or (self,)
 
     @property
+    def zero(self) -> float:
+        """Where the instrument was set to zero, m or rad: at its datum, or else at the first target."""
+        return float(self.target_positions[0]) if self.datum is None else self.datum
+
+    @property
     def approaches(self) -> tuple[Approach, ...]:
         """The directions that were measured, the positive one first."""
         return tuple(approach for approach in Approach if np.any(self.approach == approach))

@@ -241,7 +241,7 @@ def find_corrections_of(job: Job, measurements: MeasurementSet) -> Corrections |
         raise InputError(problems)
     to_si = job.axis.position_unit.to_si
     return Corrections(
-        datum=_find_datum(measurements) if keys.datum is None else to_si(keys.datum),
+        datum=measurements.zero if keys.datum is None else to_si(keys.datum),
         air=air,
         dead_path=_sign_dead_path(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
         expansion=expansion,
@@ -260,13 +260,6 @@ def _find_corrected_already(job: Job, measurements: MeasurementSet) -> Iterator[
             where = f"instrument.compensates.{name}" if stated else "the file"
             message = f"corrections.{name}: {where} says that the instrument has done this; take it out"
             yield Problem(job.place_of(f"corrections.{name}"), message)
-
-
-def _find_datum(measurements: MeasurementSet) -> float:
-    """Return where the instrument was set to zero, as the readings tell; or else the first target."""
-    if measurements.datum is None:
-        return float(measurements.target_positions[0])
-    return measurements.datum
 
 
 def find_condition_at_readings(name: str, job: Job, measurements: MeasurementSet) -> FloatArray | None:

@@ -77,8 +77,8 @@ def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownErro
     temperature, pressure, humidity = (each for each in state if each is not None)
     index = refractive_index(temperature, pressure, humidity)
     assumed = compute_standard_index(HELIUM_NEON)
-    targets, datum = measurements.target_positions, measurements.datum
-    displayed = targets[measurements.target] - (targets[0] if datum is None else datum)
+    targets = measurements.target_positions
+    displayed = targets[measurements.target] - measurements.zero
     correction = read_only_floats(correct_displacement_in_air(displayed, index, assumed) - displayed)
     length = float(targets[-1] - targets[0])
     at_end = float(correct_displacement_in_air(np.array(length), np.array(np.mean(index)), assumed)) - length

@@ -223,8 +223,7 @@ def _measure_expanding_lengths(measurements: MeasurementSet, set_up: SetUp) -> F
     """Return the length that expands under each reading, (N,), m: from the datum; of a circle its radius."""
     if set_up.is_circle:
         return np.full(len(measurements.target), set_up.length)
-    targets, datum = measurements.target_positions, measurements.datum
-    return np.asarray(targets[measurements.target] - (targets[0] if datum is None else datum))
+    return np.asarray(measurements.target_positions[measurements.target] - measurements.zero)
 
 
 def _list_expansion_in_readings(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
