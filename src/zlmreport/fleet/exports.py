@@ -106,14 +106,11 @@ def _list_parameter_metrics(state: FleetState) -> Iterator[str]:
     for units, quantity in _QUANTITIES:
         of_kind = [each for each in state.trends if _UNITS.get(each.series.unit) in units]
         for name, about, value in _AMOUNTS:
-            amounts = ((each.series, _convert_to_si(each.series.unit, value(each))) for each in of_kind)
+            known = ((each.series, value(each)) for each in of_kind)
+            amounts = ((of, size if size is None else _UNITS[of.unit].to_si(size)) for of, size in known)
             yield family(f"{name}_{quantity}", about, amounts)
     for name, about, value in _STATEMENTS:
         yield family(name, about, ((each.series, value(each)) for each in state.trends))
-
-
-def _convert_to_si(unit: str, value: float | None) -> float | None:
-    return None if value is None else _UNITS[unit].to_si(value)
 
 
 def _make_timestamp(day: date) -> float:

@@ -18,16 +18,15 @@ from zlmreport.fleet.drifts import Trend, group_by_axis
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.overview_words import ABOUTS
 from zlmreport.fleet.plan import Evening
-from zlmreport.fleet.printing import Names, write_change, write_value
+from zlmreport.fleet.printing import Names, write_change, write_limit, write_value
 from zlmreport.fleet.records import About, News, NewsKind, NightNotice, name_axis
 from zlmreport.fleet.state import FleetState
+from zlmreport.fleet.trend import Series
 from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, find_at
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, join_parts, named
-from zlmreport.language.formatting import write_plain, write_stated_number
-from zlmreport.measurement.units import find_printed_symbol, with_unit
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -75,7 +74,6 @@ def find_news_of_night(notices: Iterable[NightNotice], language: Language) -> It
 def find_news_of(state: FleetState, language: Language, names: Names) -> Iterator[News]:
     """Yield all that is so on a morning, whether or not it was told before."""
     state = replace(state, trends=tuple(map(names.as_printed, state.trends)))
-    say = _TrendSayer(language, names)
     yield from find_news_of_night(state.notices, language)
     for failure in state.failures:
         entry = failure.entry
@@ -83,13 +81,13 @@ def find_news_of(state: FleetState, language: Language, names: Names) -> Iterato
         told = message if message.startswith(entry.job) else f"{entry.job}: {message}"
         yield News(NewsKind.FAILED, f"{entry.job}|{message}", told)
     for (machine, axis), trends in group_by_axis(state.not_met).items():
-        stated = ", ".join(map(say.say_not_met, trends))
+        stated = ", ".join(_say_not_met(each, language, names) for each in trends)
         told = named(name_axis(machine, axis), stated).in_language(language)
         yield News(NewsKind.NOT_MET, f"{machine}|{axis}", told)
-    for (machine, axis), trends in group_by_axis(state.changed).items():
-        yield _report_change(machine, axis, trends, state, say)
+    for trends in group_by_axis(state.changed).values():
+        yield _report_change(trends, state.effects, language, names)
     for (machine, axis), trends in group_by_axis(state.drifting).items():
-        stated = join_parts(map(say.say_drift, trends), language)
+        stated = join_parts((_say_drift(each, language, names) for each in trends), language)
         told = named(name_axis(machine, axis), stated).in_language(language)
         yield News(NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", told)
     for term in state.overdue:
@@ -134,57 +132,45 @@ def find_news_of_job(happened: Happened, known: Evening) -> Message | None:
 
 
 def _report_change(
-    machine: str, axis: str, trends: Sequence[Trend], state: FleetState, say: _TrendSayer
+    trends: Sequence[Trend], effects: Sequence[Series], language: Language, names: Names
 ) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
-    name, language = name_axis(machine, axis), say.language
+    machine, axis = trends[0].series.axis_key
+    name, sign = name_axis(machine, axis), language.decimal_sign
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
         return News(NewsKind.CHANGED, subject, named(name, _WILDER).in_language(language))
-    cause = find_cause_of(stepped[0], state.effects)
+    cause = find_cause_of(stepped[0], effects)
     since = cause.since.isoformat() if cause else ""
     changes = ", ".join(
-        f"{say.name_symbol(each)} {say.write_change(each.step.change, each.series.unit)}"
+        f"{names.write_symbol(each.series)} {write_change(each.step.change, each.series.unit, sign)}"
         for each in stepped
         if each.step
     )
     text = named(name, _SINCE.given(changes=changes, since=since)).in_language(language)
     if cause and cause.effect:
-        effect = f"{cause.effect} {say.write_change(cause.change, cause.unit)}"
+        effect = f"{cause.effect} {write_change(cause.change, cause.unit, sign)}"
         text = join_parts((text, effect), language)
     if cause and cause.after:
         text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
     return News(NewsKind.CHANGED, f"{machine}|{axis}|{since}", text)
 
 
-@dataclass(frozen=True, slots=True)
-class _TrendSayer:
-    """Says what the tests of a parameter show, with symbols and signs as the page has them."""
+def _say_not_met(trend: Trend, language: Language, names: Names) -> str:
+    latest, sign = trend.series.latest, language.decimal_sign
+    value, limit = write_value(latest, sign), write_limit(latest, sign)
+    told = _NOT_MET.given(symbol=names.write_symbol(trend.series), value=value, limit=limit)
+    return told.in_language(language)
 
-    language: Language
-    names: Names
 
-    def name_symbol(self, trend: Trend) -> str:
-        return write_plain(self.names.name_symbol(trend.series.standard, trend.series.symbol))
-
-    def write_change(self, change: float, unit: str) -> str:
-        return write_change(change, unit, self.language.decimal_sign)
-
-    def say_not_met(self, trend: Trend) -> str:
-        latest, sign = trend.series.latest, self.language.decimal_sign
-        number = write_stated_number(latest.limit or 0.0, sign)
-        limit = with_unit(number, find_printed_symbol(latest.unit))
-        value = write_value(latest, sign)
-        told = _NOT_MET.given(symbol=self.name_symbol(trend), value=value, limit=limit)
-        return told.in_language(self.language)
-
-    def say_drift(self, trend: Trend) -> str:
-        change = self.write_change(trend.line.slope if trend.line else 0.0, trend.series.unit)
-        told = _DRIFT.given(symbol=self.name_symbol(trend), change=change).in_language(self.language)
-        if trend.forecast:
-            told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(self.language)
-        return told
+def _say_drift(trend: Trend, language: Language, names: Names) -> str:
+    slope = trend.line.slope if trend.line else 0.0
+    change = write_change(slope, trend.series.unit, language.decimal_sign)
+    told = _DRIFT.given(symbol=names.write_symbol(trend.series), change=change).in_language(language)
+    if trend.forecast:
+        told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
+    return told
 
 
 #: For which the night waits until a message is taken, s: nothing that tells of a night may stop it.

@@ -398,10 +398,6 @@ def _list_marks(state: FleetState) -> Sequence[tuple[str, Words, frozenset[tuple
     )
 
 
-def _find_latest(trends: Sequence[Trend]) -> Calibration:
-    return max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
-
-
 def _list_facts_of(
     trends: Sequence[Trend], marks: Sequence[str], due: date | None
 ) -> tuple[tuple[str, str], ...]:
@@ -412,7 +408,7 @@ def _list_facts_of(
         ("axis", "\n".join(trends[0].series.axis_key)),
         ("marks", " ".join(marks)),
         ("used", f"{max(used):.3f}" if used else ""),
-        ("measured", _find_latest(trends).measured.isoformat()),
+        ("measured", max(each.series.calibrations[-1].measured for each in trends).isoformat()),
         ("due", due.isoformat() if due else ""),
     )
 

@@ -13,7 +13,7 @@ from zlmreport.document.typesetting.templates import set_symbol
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import find_cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
-from zlmreport.fleet.printing import Names, write_change, write_value
+from zlmreport.fleet.printing import Names, write_change, write_limit, write_value
 from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Series
 from zlmreport.fleet.trend_graph import Period, draw_trend
@@ -22,8 +22,6 @@ from zlmreport.language.formatting import (
     round_pair,
     write_fixed_number,
     write_p_value,
-    write_plain,
-    write_stated_number,
 )
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import find_printed_symbol, with_unit
@@ -53,10 +51,8 @@ class CellWriter:
     def write_parameter(self, trend: Trend) -> OverviewCellContext:
         """Return the symbol, with the standard below."""
         series = trend.series
-        notation = self.names.name_symbol(series.standard, series.symbol)
-        return OverviewCellContext(
-            set_symbol(notation), style="parameter", note=self.names.name_standard(series.standard)
-        )
+        symbol, standard = self.names.name_symbol(series), self.names.name_standard(series.standard)
+        return OverviewCellContext(set_symbol(symbol), style="parameter", note=standard)
 
     def write_value(self, trend: Trend) -> OverviewCellContext:
         """Return the latest value with its expanded uncertainty."""
@@ -68,10 +64,7 @@ class CellWriter:
         latest = trend.series.latest
         if latest.limit is None:
             return OverviewCellContext("–", style="number")
-        text = with_unit(
-            write_stated_number(latest.limit, self.language.decimal_sign), find_printed_symbol(latest.unit)
-        )
-        return OverviewCellContext(text, style="number")
+        return OverviewCellContext(write_limit(latest, self.language.decimal_sign), style="number")
 
     def write_state(self, trend: Trend) -> OverviewCellContext:
         """Return whether the limit is met: a shape and a word."""
@@ -134,10 +127,6 @@ class CellWriter:
         return OverviewCellContext(
             self._write_signed(step.change, trend.series.unit), style=style, note=self.say(note)
         )
-
-    def write_change_or_drift(self, trend: Trend) -> OverviewCellContext:
-        """Return the change of a parameter that changed, and else its drift."""
-        return self.write_change(trend) if trend.step or trend.is_wilder else self.write_drift(trend)
 
     def write_what_came_with(self, trend: Trend) -> OverviewCellContext:
         """Return what else changed: a parameter of the error model, the instrument."""
@@ -208,8 +197,9 @@ class CellWriter:
         return replace(cell, style="parameter brief")
 
     def write_change_in_brief(self, trend: Trend) -> OverviewCellContext:
-        """Return the change or the drift without what stands below it."""
-        return replace(self.write_change_or_drift(trend), note="")
+        """Return the change of a parameter that changed, and else its drift, without what stands below it."""
+        cell = self.write_change(trend) if trend.step or trend.is_wilder else self.write_drift(trend)
+        return replace(cell, note="")
 
     def write_day_measured(self, trend: Trend, due: date | None) -> OverviewCellContext:
         """Return when it was measured last, with the certificate behind it, and when it is due."""
@@ -239,8 +229,7 @@ class CellWriter:
 
     def join_symbols(self, trends: Iterable[Trend]) -> str:
         """Return the symbols of trends as a plain line."""
-        notations = [self.names.name_symbol(each.series.standard, each.series.symbol) for each in trends]
-        return ", ".join(dict.fromkeys(map(write_plain, notations)))
+        return ", ".join(dict.fromkeys(self.names.write_symbol(each.series) for each in trends))
 
     def describe_graph(self, trend: Trend) -> str:
         """Return what a graph of a trend shows, in a sentence or two."""
@@ -248,7 +237,7 @@ class CellWriter:
         text = self.say(
             words.ALTERNATIVE.given(
                 number=len(series.calibrations),
-                symbol=write_plain(self.names.name_symbol(series.standard, series.symbol)),
+                symbol=self.names.write_symbol(series),
                 first=series.calibrations[0].measured.isoformat(),
                 last=series.calibrations[-1].measured.isoformat(),
                 value=self._write_number(series.latest.value, _DECIMALS, series.unit),

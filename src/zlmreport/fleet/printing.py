@@ -9,7 +9,14 @@ from dataclasses import dataclass, replace
 from zlmreport.evaluation.evaluation import Quantity
 from zlmreport.fleet.drifts import Trend
 from zlmreport.fleet.records import RecordedParameter
-from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number
+from zlmreport.fleet.trend import Series
+from zlmreport.language.formatting import (
+    DecimalSign,
+    round_pair,
+    write_fixed_number,
+    write_plain,
+    write_stated_number,
+)
 from zlmreport.measurement.units import find_printed_symbol, with_unit
 from zlmreport.plugin.protocols import Standard
 
@@ -28,14 +35,18 @@ class Names:
         found = self._find_standard(standard)
         return found.designation if found else standard
 
-    def name_symbol(self, standard: str, symbol: str) -> str:
-        """Return a symbol as printed, in notation."""
-        quantity = self._find_quantity(standard, symbol)
-        return quantity.notation if quantity else symbol
+    def name_symbol(self, series: Series) -> str:
+        """Return the symbol of a parameter as printed, in notation."""
+        quantity = self._find_quantity(series)
+        return quantity.notation if quantity else series.symbol
+
+    def write_symbol(self, series: Series) -> str:
+        """Return the same as a plain line."""
+        return write_plain(self.name_symbol(series))
 
     def as_printed(self, trend: Trend) -> Trend:
         """Return a trend with the sign that the standard prints."""
-        quantity = self._find_quantity(trend.series.standard, trend.series.symbol)
+        quantity = self._find_quantity(trend.series)
         if quantity is None or quantity.printed_sign > 0:
             return trend
         calibrations = tuple(
@@ -49,10 +60,10 @@ class Names:
     def _find_standard(self, identifier: str) -> Standard | None:
         return next((each for each in self.standards if each.identifier == identifier), None)
 
-    def _find_quantity(self, standard: str, symbol: str) -> Quantity | None:
-        found = self._find_standard(standard)
+    def _find_quantity(self, series: Series) -> Quantity | None:
+        found = self._find_standard(series.standard)
         quantities = found.quantities if found else ()
-        return next((each for each in quantities if each.symbol == symbol), None)
+        return next((each for each in quantities if each.symbol == series.symbol), None)
 
 
 def write_value(parameter: RecordedParameter, sign: DecimalSign) -> str:
@@ -62,6 +73,11 @@ def write_value(parameter: RecordedParameter, sign: DecimalSign) -> str:
     else:
         text = " ± ".join(round_pair(parameter.value, parameter.expanded_uncertainty, sign))
     return with_unit(text, find_printed_symbol(parameter.unit))
+
+
+def write_limit(parameter: RecordedParameter, sign: DecimalSign) -> str:
+    """Return the limit of a value with its unit; that of one without any is zero."""
+    return with_unit(write_stated_number(parameter.limit or 0.0, sign), find_printed_symbol(parameter.unit))
 
 
 def write_change(change: float, unit: str, sign: DecimalSign) -> str:
