@@ -21,7 +21,7 @@ from zlmreport.machines.contest import (
     make_nameless_curves,
 )
 from zlmreport.machines.forms import CircleForm, list_forms_of, make_whole_form, split_parts_of
-from zlmreport.machines.noise import NoiseModel, Whitened, find_anew
+from zlmreport.machines.noise import NoiseModel, find_anew
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
@@ -355,18 +355,11 @@ def _measure_apart(study: CircleStudy, curve: FloatArray, other: CircleCandidate
         return 1.0
     whole = make_whole_form(other.effect, study.design, other.form.searched)
     explained = max(
-        _measure_explained(under, form.columns, own)
+        under.measure_explained(under.whiten(form.columns), own)
         for form in split_parts_of(other.effect, whole)
         if form.terms
     )
     return 1.0 - explained / length
-
-
-def _measure_explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
-    """Return the squared length of what columns make of a whitened curve, (N, 1)."""
-    others = under.whiten(columns)
-    matrix, products = under.multiply(others, others), under.multiply(others, own)
-    return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 
 def _find_left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:

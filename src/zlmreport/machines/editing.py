@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Sequence
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
@@ -67,7 +68,7 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
     Raises `InputError` if the file has changed since it was read, or its list cannot be changed without
     changing more; `AccessError` if it cannot be written.
     """
-    path, before = machine.path, machine.stated_effects
+    path, before = machine.path, machine.file.keys.model.effects
     content = demand(path, LARGEST)
     _refuse_changed(path, content, machine)
     text = decode(content, str(path))
@@ -85,7 +86,7 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
     rewrite(path, edited.encode(), lambda latest: _refuse_changed(path, latest, machine))
 
 
-def _edit_text(text: str, before: tuple[str, ...], effects: tuple[str, ...], place: Place) -> str:
+def _edit_text(text: str, before: Sequence[str], effects: tuple[str, ...], place: Place) -> str:
     if find_own_list(Written.of(text), _EFFECTS) is None:
         return add_list(text, _EFFECTS, [Scalar(place, each) for each in effects])
     for name in (each for each in effects if each not in before):

@@ -10,6 +10,7 @@ import re
 from dataclasses import dataclass
 
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS
+from zlmreport.machines.volume import DIAGONALS
 from zlmreport.measurement.error_symbol import find_error_named
 
 _POSITIONING, _STRAIGHTNESS, _PITCH, _YAW, _ROLL = "positioning", "straightness", "pitch", "yaw", "roll"
@@ -30,8 +31,6 @@ _TURNS = {
     _ROLL: {"X": "A", "Y": "B", "Z": "C"},
 }
 _PLANES = {"XY": "XY", "YX": "XY", "YZ": "YZ", "ZY": "YZ", "ZX": "ZX", "XZ": "ZX"}
-#: Body diagonals by the signs of their directions in X, Y and Z.
-_DIAGONALS = ("PPP", "NPP", "PNP", "NNP")
 _AXIS = re.compile(r"([XYZ])\d?(?:AXIS|ACHSE)?")
 _NUMBER = r"(\d+(?:\.\d+)?)(?:MM)?"
 
@@ -114,7 +113,7 @@ def find_diagonal_by_name(name: str) -> str:
     >>> find_diagonal_by_name("diagonal ppp"), find_diagonal_by_name("x-pitch")
     ('PPP', '')
     """
-    return next((each for each in _split(name) if each in _DIAGONALS), "")
+    return next((each for each in _split(name) if each in DIAGONALS), "")
 
 
 def _split(name: str) -> list[str]:

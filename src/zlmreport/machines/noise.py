@@ -187,6 +187,11 @@ class Whitened:
         """Return oneᵀ·P·other of columns that were whitened by turn."""
         return np.asarray(one.T @ other - (self.taken.T @ one).T @ (self.taken.T @ other))
 
+    def measure_explained(self, columns: FloatArray, curve: FloatArray) -> float:
+        """Return the squared length of what columns make of a curve, (N, 1); both were whitened by turn."""
+        matrix, products = self.multiply(columns, columns), self.multiply(columns, curve)
+        return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
+
 
 class NoiseModel:
     """The noise of a design beside a model, for any of its shapes."""

@@ -172,20 +172,16 @@ def _compute_least_decision(
                 continue
             columns = make_whole_form(other, design, by_name[other.identifier].form.searched).columns
             kappa = _measure_apart(whitened, curve, columns) / study.noise.sigma**2
-            least = min(least, _compute_normal((kappa - _STRONG) / (2.0 * math.sqrt(max(kappa, 1e-12)))))
+            beyond = (kappa - _STRONG) / (2.0 * math.sqrt(max(kappa, 1e-12)))
+            least = min(least, 0.5 * (1.0 + math.erf(beyond / math.sqrt(2.0))))
     return least
 
 
 def _measure_apart(whitened: Whitened, curve: FloatArray, columns: FloatArray) -> float:
     """Return the squared length of a curve that columns leave of it."""
-    own, others = whitened.whiten(curve[:, np.newaxis]), whitened.whiten(columns)
-    matrix, products = whitened.multiply(others, others), whitened.multiply(others, own)
+    own = whitened.whiten(curve[:, np.newaxis])
     length = float(whitened.multiply(own, own)[0, 0])
-    return length - float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
-
-
-def _compute_normal(x: float) -> float:
-    return 0.5 * (1.0 + math.erf(x / math.sqrt(2.0)))
+    return length - whitened.measure_explained(whitened.whiten(columns), own)
 
 
 def find_visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> Iterator[VisibleSize]:

@@ -56,11 +56,6 @@ class MachineFile:
         return tuple(each.circle for each in self.measured)
 
     @property
-    def stated_effects(self) -> tuple[str, ...]:
-        """The effects that the file states, by name."""
-        return tuple(self.file.keys.model.effects)
-
-    @property
     def effect_names(self) -> tuple[str, ...]:
         """The effects of its model, by name."""
         return tuple(each.identifier for each in self.effects)
@@ -87,12 +82,7 @@ class MachineFile:
         return self.file.keys.certificate.number or self.path.stem
 
 
-def open_no_pdf(_path: Path) -> bytes | None:
-    """Open no PDF."""
-    return None
-
-
-def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -> MachineFile:
+def read_machine(path: Path, registry: Registry, opened: Opened = lambda _: None) -> MachineFile:
     """Read a machine file and all that it names.
 
     Raises `InputError` with every mistake of the file itself; `AccessError` if a file cannot be read.

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.machines.comparison import ComparedTest, StandardNumbers
+from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import MachineModel, find_unit_of
@@ -109,7 +109,15 @@ def collect_compared_sizes(found: ComparedTest) -> dict[str, Any]:
         "rms_measured": _MICRO * found.rms.measured,
         "rms_predicted": _MICRO * found.rms.predicted,
         "rms_left": _MICRO * found.rms.left,
-        "numbers": [_collect_standard_values(each) for each in found.numbers],
+        "numbers": [
+            {
+                "standard": numbers.standard,
+                "measured": {each.quantity.symbol: _MICRO * each.value for each in numbers.measured},
+                "predicted": _write_in_micrometres(numbers.predicted),
+                "left": _write_in_micrometres(numbers.left),
+            }
+            for numbers in found.numbers
+        ],
         "of_axes": _write_in_micrometres(found.of_axes),
         "of_effects": _write_in_micrometres({effect.identifier: size for effect, size in found.of_effects}),
         "fails": [
@@ -121,15 +129,6 @@ def collect_compared_sizes(found: ComparedTest) -> dict[str, Any]:
 
 def _write_in_micrometres(values: Mapping[str, float]) -> dict[str, float]:
     return {name: _MICRO * value for name, value in values.items()}
-
-
-def _collect_standard_values(numbers: StandardNumbers) -> dict[str, Any]:
-    return {
-        "standard": numbers.standard,
-        "measured": {each.quantity.symbol: _MICRO * each.value for each in numbers.measured},
-        "predicted": _write_in_micrometres(numbers.predicted),
-        "left": _write_in_micrometres(numbers.left),
-    }
 
 
 def collect_stretch(stretch: Stretch, *, is_circle: bool) -> dict[str, Any]:

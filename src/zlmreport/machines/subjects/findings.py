@@ -252,9 +252,7 @@ def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
 
 def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
     """Return the error before and after a change of the model."""
-    sizes = [
-        write_significant(MICROMETRE.from_si(each), 2) for each in (before.rms, after.rms, after.noise.rms)
-    ]
+    sizes = [_write_size(each) for each in (before.rms, after.rms, after.noise.rms)]
     names = list_in_words(after.names or [_NONE])
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
@@ -267,10 +265,7 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
         title = next(
             each.effect.title for each in diagnosis.candidates if each.effect.identifier == first.effect
         )
-        before, after, noise = (
-            write_significant(MICROMETRE.from_si(each), 2)
-            for each in (first.before, first.after, first.noise)
-        )
+        before, after, noise = map(_write_size, (first.before, first.after, first.noise))
         return _NEXT_ADD.given(effect=title, before=before, after=after, noise=noise)
     if diagnosis.is_tied and planned.proposals:
         first_run = planned.proposals[0]
@@ -280,14 +275,6 @@ def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
     return _NEXT_LOOK
 
 
-def lay_out_said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
-    """Yield what is said of a diagnosis, but for its tests."""
-    yield lay_out_verdict(diagnosis, say)
-    for section in (lay_out_candidates(diagnosis, say), lay_out_absence(diagnosis, say)):
-        if section:
-            yield section
-
-
 def lay_out_diagnosis(
     found: MachineDiagnosis, before: Sequence[ComparedTest], say: Sayer
 ) -> Iterator[Section]:
@@ -295,12 +282,13 @@ def lay_out_diagnosis(
 
     `before`: The circles with the model that was diagnosed.
     """
-    verdict, *others = lay_out_said_of(found, say)
     failures = make_failure_notice(before, say)
     sizes = lay_out_sizes(before, say, found.noise_of_readings)
-    yield verdict
+    yield lay_out_verdict(found, say)
     yield Section("tests", "Tests", (sizes, failures) if failures else (sizes,))
-    yield from others
+    for section in (lay_out_candidates(found, say), lay_out_absence(found, say)):
+        if section:
+            yield section
 
 
 _NEXT_ADD = Words(

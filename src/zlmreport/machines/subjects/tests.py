@@ -13,6 +13,7 @@ from zlmreport.machines.comparison import ComparedTest, StandardNumbers
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.residual import Stretch, centre
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 
 _MOST_STRETCHES, _MOST_SHARES = 3, 5
@@ -175,14 +176,10 @@ def draw_circle(found: ComparedTest) -> Figure:
             (180.0, "−", circle.nominal.axes[0]), (270.0, "−", circle.nominal.axes[1]),
         )
     )  # fmt: skip
-    spans = {
-        name: float(f"{np.ptp(each):.3g}")
-        for name, each in (("measured", measured), ("predicted", predicted), ("left", left))
-    }
     return Figure(
         f"circle-{found.name}",
         _CIRCLE_TITLE.given(test=found.name, what=write_title_of(circle)),
-        _CIRCLE_SEEN.given(**spans), _ANGLE, _RADIAL, "°", "µm",
+        _say_spans(measured, predicted, left), _ANGLE, _RADIAL, "°", "µm",
         (
             Panel(
                 heading=_BOTH, curves=tuple(shown), projection="polar", directions=directions,
@@ -191,6 +188,12 @@ def draw_circle(found: ComparedTest) -> Figure:
         ),
         spans_are_alike=False, is_wide=True,
     )  # fmt: skip
+
+
+def _say_spans(*curves: FloatArray) -> Words:
+    """Say how far each curve goes, µm: measured, predicted, left."""
+    spans = (float(f"{np.ptp(each):.3g}") for each in curves)
+    return _CIRCLE_SEEN.given(**dict(zip(("measured", "predicted", "left"), spans, strict=True)))
 
 
 def draw_line(found: ComparedTest) -> Figure:
@@ -218,14 +221,10 @@ def draw_line(found: ComparedTest) -> Figure:
         ]
         bands.append(Band("U", _BANDS[way], at, predicted[own] - u[own], predicted[own] + u[own]))
         rest.append(Curve(_WAYS[way], role, at, left[own]))
-    spans = {
-        name: float(f"{np.ptp(each):.3g}")
-        for name, each in (("measured", measured), ("predicted", predicted), ("left", left))
-    }
     return Figure(
         f"line-{found.name}",
         _CIRCLE_TITLE.given(test=found.name, what=write_title_of(line)),
-        _CIRCLE_SEEN.given(**spans), _PLACE, _DEVIATION, "mm", "µm",
+        _say_spans(measured, predicted, left), _PLACE, _DEVIATION, "mm", "µm",
         (
             Panel(heading=_BOTH, curves=tuple(shown), bands=tuple(bands)),
             Panel(heading=_WHAT_IS_LEFT, curves=tuple(rest)),
