@@ -246,8 +246,8 @@ def _find_another_feed_of_circle(
         found, said = (float(f"{60 * MILLIMETRE.from_si(each):.2g}") for each in (feed, stated))
         yield _OTHER_FEED.given(speed=found, feed=said, unit="mm/min")
         return
-    pieces = [_measure_feed(way[at][known[at]], seconds[at][known[at]]) for at in _list_pieces(measurements)]
-    of_pieces = [each for each in pieces if each is not None]
+    pieces = ((way[at][known[at]], seconds[at][known[at]]) for at in _list_pieces(measurements))
+    of_pieces = [float(gone.sum() / taken.sum()) for gone, taken in pieces if taken.size]
     if of_pieces and not stated / _OF_FEED <= min(of_pieces) <= max(of_pieces) <= stated * _OF_FEED:
         slowest, fastest, said = (
             float(f"{60 * MILLIMETRE.from_si(each):.2g}") for each in (min(of_pieces), max(of_pieces), stated)
@@ -262,11 +262,6 @@ def _list_pieces(measurements: MeasurementSet) -> Iterator[slice]:
     for first, end in pairwise(bounds):
         for begin in range(int(first), int(end) - _OF_A_PIECE, _OF_A_PIECE):
             yield slice(begin, begin + _OF_A_PIECE)
-
-
-def _measure_feed(way: FloatArray, seconds: FloatArray) -> float | None:
-    """Return the feed over some steps, m/s; None where there are none."""
-    return float(way.sum() / seconds.sum()) if seconds.size else None
 
 
 def _find_exceeded_feed(

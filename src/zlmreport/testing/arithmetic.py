@@ -246,14 +246,9 @@ def gives_the_same_again(standard: Standard, options: Options, *_: Any) -> None:
     )
 
 
-def _lay_places(standard: Standard) -> FloatArray:
-    """Return where the positions of a standard stand: along a length, or round a circle, rad."""
-    return read_only_floats(_ROUND * _PLACES) if is_of_circles(standard) else _PLACES
-
-
 def _make_statistics(standard: Standard, readings: FloatArray) -> PositionStatistics:
     """Return the statistics of readings, or of lines on which these stand in another order of positions."""
-    places = _lay_places(standard)
+    places = read_only_floats(_ROUND * _PLACES) if is_of_circles(standard) else _PLACES
     lines = {
         name: position_statistics(np.roll(readings, shift, axis=-2), places)
         for shift, name in enumerate(names_of_lines(standard))

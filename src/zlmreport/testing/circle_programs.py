@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
-from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.circle import PLANES, NominalCircle
-from zlmreport.model.planning.circle_path import CirclePath, PlannedTurn
+from zlmreport.model.planning.circle_path import CirclePath, list_planned_turns
 from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.testing.expectations import check, expect, expect_members, list_checks_of, run_all
@@ -42,12 +41,7 @@ def sample_circle_path(
     plane: str = "XY", *, first: float = 0.0, extent: float = 360.0, arc: float = 180.0, runs: int = 2
 ) -> CirclePath:
     """Return the path of a circular test of 100 mm at 1500 mm/min, 2 mm of run-up, 4 s between its turns."""
-    last = first + extent
-    turns = tuple(
-        PlannedTurn(sense, run, *((first, last) if sense is Approach.POSITIVE else (last, first)), arc)
-        for run in range(1, runs + 1)
-        for sense in Approach
-    )
+    turns = list_planned_turns(first, extent, arc, runs)
     circle = NominalCircle(plane, 0.1, 0.025, (0.25, 0.2, 0.12))
     return CirclePath(NUMBER, circle, 1500.0, turns, 2.0, 4.0, PLACE)
 

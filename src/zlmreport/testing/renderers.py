@@ -265,10 +265,6 @@ def _read_csv(content: bytes) -> str:
     return "\n".join(cell for row in rows for cell in row)
 
 
-def _read_plain(content: bytes) -> str:
-    return content.decode()
-
-
 #: How to read the text of a file again, where the kit knows.
 _READERS: Mapping[str, Reader] = {
     ".csv": _read_csv,
@@ -276,7 +272,7 @@ _READERS: Mapping[str, Reader] = {
     ".json": _read_json,
     ".pdf": _read_pdf,
     ".xml": _read_xml,
-    ".txt": _read_plain,
+    ".txt": bytes.decode,
     ".xlsx": _read_workbook,
 }
 #: Stands for a user's words.

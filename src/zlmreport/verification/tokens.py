@@ -89,7 +89,7 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
         end = _end_of_string(content, at)
         return content[at:end], end
     for kind, made in (
-        (_NAME, lambda found: PdfName(_unescape(found[1]))),
+        (_NAME, lambda found: PdfName(_ESCAPED.sub(lambda each: bytes([int(each[1], 16)]), found[1]))),
         (_REFERENCE, lambda found: Reference(int(found[1]), int(found[2]))),
         (_NUMBER, lambda found: float(found[0]) if b"." in found[0] else int(found[0])),
         (_WORD, lambda found: {b"true": True, b"false": False}.get(found[0])),
@@ -98,10 +98,6 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
         if found := kind.match(content, at):
             return made(found), found.end()
     raise OddError(f"what stands at byte {at} is no object")
-
-
-def _unescape(name: bytes) -> bytes:
-    return _ESCAPED.sub(lambda found: bytes([int(found[1], 16)]), name)
 
 
 def _read_dictionary(content: bytes, at: int, depth: int) -> tuple[Value, int]:

@@ -72,10 +72,6 @@ STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(
 )
 
 
-def _give_standard_conditions(_time: float) -> Mapping[str, float]:
-    return STANDARD_CONDITIONS
-
-
 @dataclass(frozen=True, slots=True)
 class Scene:
     """What an emulated instrument looks at.
@@ -94,7 +90,7 @@ class Scene:
 
     axis: EmulatedAxis = field(default_factory=MovingAxis)
     troubles: Troubles = field(default_factory=Troubles)
-    conditions: Callable[[float], Mapping[str, float]] = _give_standard_conditions
+    conditions: Callable[[float], Mapping[str, float]] = lambda _: STANDARD_CONDITIONS
 
     def condition(self, name: str, time: float) -> float:
         """Return a condition at a time in s from the start, SI."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.building import Built, Exchange
+from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.report import report_error, report_model, report_remainder
 
 SCHEMA = "zlmreport/build/1"
@@ -13,7 +13,7 @@ SCHEMA = "zlmreport/build/1"
 
 def build_values(built: Built) -> dict[str, Any]:
     """Return a build as plain values for a JSON file."""
-    last = built.last
+    last, exchange = built.last, built.exchange
     axis = last.fit.design.axis
     return {
         "schema": SCHEMA,
@@ -29,7 +29,7 @@ def build_values(built: Built) -> dict[str, Any]:
             }
             for each in built.steps
         ],
-        "exchange": _collect_exchange(built.exchange),
+        "exchange": exchange and {"in": list(exchange.coming), "out": list(exchange.going)},
         "doubts": [
             {"effects": list(each.names), "probability": each.probability, "added": each.is_named}
             for each in built.doubts
@@ -41,7 +41,3 @@ def build_values(built: Built) -> dict[str, Any]:
         "model": report_model(last.fit),
         "error": report_error(last.error, axis),
     }
-
-
-def _collect_exchange(exchange: Exchange | None) -> dict[str, Any] | None:
-    return None if exchange is None else {"in": list(exchange.coming), "out": list(exchange.going)}

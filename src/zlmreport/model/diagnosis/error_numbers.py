@@ -27,7 +27,11 @@ class ErrorNumbers:
 def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     """Return how far a fitted model is from the readings."""
     floor = estimate_noise_floor(fitted.design, choose_scattering(fitted))
-    rms = _compute_least_rms(fitted)
+    return make_error_numbers(fitted, _compute_least_rms(fitted), floor)
+
+
+def make_error_numbers(fitted: Fit, rms: float, floor: float | None) -> ErrorNumbers:
+    """Return the numbers of a fitted model that leaves an RMS beside a noise floor, m or rad."""
     return ErrorNumbers(
         rms,
         floor,

@@ -21,7 +21,7 @@ from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder, RemainderPart
-from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+from zlmreport.model.diagnosis.residuals import ResidualTest
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
@@ -100,7 +100,15 @@ def report(
         "noise": report_noise(fitted.noise, axis),
         "verdict": diagnosis.verdict.value,
         "p_value": diagnosis.p_value,
-        "failures": [_collect_failure(each, language) for each in diagnosis.failures],
+        "failures": [
+            {
+                "test": each.test.value,
+                "p_value": each.p_value,
+                "where": each.where.in_language(language),
+                "statement": each.statement.in_language(language),
+            }
+            for each in diagnosis.failures
+        ],
         "candidates": [
             {
                 **_collect_candidate(each, fitted.design, language),
@@ -290,15 +298,6 @@ def _estimate(estimate: ParameterEstimate, design: Design) -> dict[str, Any]:
     if estimate.expected is not None:
         found["expected"] = estimate.expected * unit.per_si
     return found
-
-
-def _collect_failure(failure: Failure, language: Language) -> dict[str, Any]:
-    return {
-        "test": failure.test.value,
-        "p_value": failure.p_value,
-        "where": failure.where.in_language(language),
-        "statement": failure.statement.in_language(language),
-    }
 
 
 def _collect_candidate(candidate: EffectCandidate, design: Design, language: Language) -> dict[str, Any]:

@@ -273,7 +273,8 @@ def _find_strongest_wave(
         finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
         best, _ = residuals.find_best_block(_make_waves(where, finer))
         period = float(finer[best])
-    amplitude = np.hypot(*_fit_coefficients(residuals, _make_waves(where, np.array([period]))[0]))
+    wave = _make_waves(where, np.array([period]))[0]
+    amplitude = np.hypot(*np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0])
     # What a wave does between targets half a period apart, nobody saw.
     seen = min(float(amplitude), float(np.abs(residuals.fit.residual).max()))
     return period, p_value, wording.deviation(residuals.design.axis, seen)
@@ -283,10 +284,6 @@ def _make_waves(where: FloatArray, periods: FloatArray) -> FloatArray:
     """Return sine and cosine of each period, shape (periods, N, 2)."""
     angles = 2 * np.pi * where / periods[:, np.newaxis]
     return np.stack([np.sin(angles), np.cos(angles)], axis=2)
-
-
-def _fit_coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0], dtype=np.float64)
 
 
 def _compute_ratio(centred: FloatArray) -> FloatArray:

@@ -141,7 +141,9 @@ class Contrasts:
         `contrast`, (N,): Of the deviations.
         """
         total = float(contrast @ contrast)
-        is_by_target = np.array([self._is_by_target(part) for part in self.parts], dtype=np.bool_)
+        # Readings of other targets share nothing of such a part, made independent singly.
+        is_single = self.single.kept is None
+        is_by_target = np.array([is_single and each.source in BY_TARGET for each in self.parts], np.bool_)
         own = [self.single.whiten(part.factor) for part in self.parts]
         widths = [each.shape[1] for each, apart in zip(own, is_by_target, strict=True) if not apart]
         beside = [each for each, apart in zip(own, is_by_target, strict=True) if not apart]
@@ -166,10 +168,6 @@ class Contrasts:
             return float(logarithm), squares
 
         return criterion
-
-    def _is_by_target(self, part: NoisePart) -> bool:
-        """Return whether readings of other targets share nothing of a part, made independent singly."""
-        return self.single.kept is None and part.source in BY_TARGET
 
     def make_metric(self, ratios: FloatArray) -> Metric:
         """Return the inner product for one φ, shape (parts,)."""

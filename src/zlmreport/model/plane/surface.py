@@ -19,14 +19,14 @@ from zlmreport.language import same
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.units import Unit
-from zlmreport.model.diagnosis.error_numbers import LARGEST_RATIO, ErrorNumbers
+from zlmreport.model.diagnosis.error_numbers import LARGEST_RATIO, ErrorNumbers, make_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
-from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, cross_validate, fit
+from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.fitting.observations import Observations, select_readings
 from zlmreport.model.fitting.repeats import estimate_noise_floor
@@ -45,10 +45,6 @@ class SurfaceLine:
     def list_aside(self) -> IntArray:
         """Return the readings that stand off, by their places among those observed."""
         return find_outliers(self.observed.design, self.observed.deviation).readings
-
-    def drop_aside(self) -> Observations:
-        """Return the readings without those that stand off."""
-        return self.observed.without(self.list_aside())
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,7 +111,7 @@ def _make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArra
 
 
 def _select_one_way(line: SurfaceLine, approach: Approach) -> Observations:
-    kept = line.drop_aside()
+    kept = line.observed.without(line.list_aside())
     chosen = np.flatnonzero(kept.design.direction == float(approach))
     return Observations(
         select_readings(kept.design, chosen),
@@ -293,7 +289,7 @@ def fit_surface(readings: SurfaceReadings, instrument: InstrumentError) -> Surfa
         readings,
         fitted,
         powers,
-        _compute_error(fitted, readings.noise_floor),
+        make_error_numbers(fitted, fitted.rms, readings.noise_floor),
         _fit(crossed, readings, assumed).estimates[-1],
     )
 
@@ -307,15 +303,6 @@ def _fit(powers: Powers, readings: SurfaceReadings, assumed: Assumptions) -> Fit
             "measure the same positions on every line, and more than one run"
         )
         raise ModelError([sentence]) from error
-
-
-def _compute_error(fitted: Fit, floor: float | None) -> ErrorNumbers:
-    return ErrorNumbers(
-        fitted.rms,
-        floor,
-        (fitted.rms / floor) ** 2 if floor else None,
-        cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
-    )
 
 
 def _to_powers(

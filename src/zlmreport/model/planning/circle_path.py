@@ -201,14 +201,19 @@ def plan_circle_path(job: Job, place: Place, feed: float | None) -> CirclePath:
     if feed < _LEAST_FEED:
         message = f"circle.feed: {feed:g} is less than can be programmed; state {_LEAST_FEED:g} or more"
         raise InputError.at(place, message)
-    first, last = keys.start, keys.start + keys.extent
-    turns = tuple(
-        PlannedTurn(sense, run, *((first, last) if sense is Approach.POSITIVE else (last, first)), keys.arc)
-        for run in range(1, (job.keys.plan.runs or _USUAL_RUNS) + 1)
-        for sense in Approach
-    )
+    turns = list_planned_turns(keys.start, keys.extent, keys.arc, job.keys.plan.runs or _USUAL_RUNS)
     number = job.keys.certificate.number
     return CirclePath(number, job.axis.circle, feed, turns, keys.run_up, keys.rest, place)
+
+
+def list_planned_turns(first: float, extent: float, arc: float, runs: int) -> tuple[PlannedTurn, ...]:
+    """Return so many turns in each sense, one to and one fro; angles in °."""
+    last = first + extent
+    return tuple(
+        PlannedTurn(sense, run, *((first, last) if sense is Approach.POSITIVE else (last, first)), arc)
+        for run in range(1, runs + 1)
+        for sense in Approach
+    )
 
 
 def write_circle_heading(path: CirclePath, options: ProgramOptions) -> Iterator[str]:
