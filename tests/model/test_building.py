@@ -11,12 +11,12 @@ from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observ
 from model.hidden_effect import example as study_of_example, example_diagnosis
 from zlmreport.cli.model_lines import build_lines
 from zlmreport.measurement.arrays import read_only_integers
-from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import Built, build, is_outstanding, list_needless, name_steps
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
 from zlmreport.model.diagnosis.finding import find
+from zlmreport.model.diagnosis.report import build_values
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.sessions import add_zeros

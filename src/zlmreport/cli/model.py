@@ -46,10 +46,9 @@ from zlmreport.job.loading import load
 from zlmreport.job.parse import LARGEST, is_named_as_yaml
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict
-from zlmreport.model.diagnosis.report import report
+from zlmreport.model.diagnosis.report import build_values, report
 from zlmreport.model.diagnosis.study import Fitted, Study, read_addition, refuse_useless
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.priors import Lesson, learn_priors, write_priors

@@ -20,12 +20,17 @@ from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.diagnosis.asking import AskedLength, list_lengths_asked
-from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
-from zlmreport.model.diagnosis.report import report, report_error, report_model, write_verdict_statement
+from zlmreport.model.diagnosis.report import (
+    build_values,
+    report,
+    report_error,
+    report_model,
+    write_verdict_statement,
+)
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, choose_terms
 from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions

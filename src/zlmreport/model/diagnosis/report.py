@@ -1,4 +1,4 @@
-"""The verdict of a diagnosis or a build in sentences; ``zlmreport model diagnose --json``: it as values."""
+"""The verdict of a diagnosis or a build in sentences; ``--json`` of ``zlmreport model``: it as values."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.language.numbers import write_share
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
+from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.candidate import Doubt, EffectCandidate, ask_about, find_doubts
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
@@ -31,7 +32,7 @@ from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.profile import find_intervals
 
-SCHEMA = "zlmreport/diagnosis/1"
+SCHEMA, BUILD_SCHEMA = "zlmreport/diagnosis/1", "zlmreport/build/1"
 #: Probability from which on a candidate is worth a word.
 _SERIOUS = 0.01
 
@@ -139,6 +140,38 @@ def report(
         "contradicted": [each.in_language(language) for each in diagnosis.contradicted],
         "outliers": diagnosis.outliers.tolist(),
         "remarks": [each.in_language(language) for each in diagnosis.remarks],
+    }
+
+
+def build_values(built: Built) -> dict[str, Any]:
+    """Return a build as plain values for a JSON file."""
+    last, exchange = built.last, built.exchange
+    axis = last.fit.design.axis
+    return {
+        "schema": BUILD_SCHEMA,
+        "steps": [
+            {
+                "effect": each.identifier,
+                "settings": each.effect.settings.model_dump(mode="json"),
+                **({"removed": True} if each.is_removed else {}),
+                **({"indistinguishable_from": list(each.equals)} if each.equals else {}),
+                "rms_before": axis.deviation_unit.from_si(each.before.rms),
+                "rms_after": axis.deviation_unit.from_si(each.after.rms),
+                "noise_rms": report_error(each.after, axis)["noise_rms"],
+            }
+            for each in built.steps
+        ],
+        "exchange": exchange and {"in": list(exchange.coming), "out": list(exchange.going)},
+        "doubts": [
+            {"effects": list(each.names), "probability": each.probability, "added": each.is_named}
+            for each in built.doubts
+        ],
+        "questions": [each.in_language(Language.ENGLISH) for each in built.questions],
+        "needless": list(built.needless),
+        "verdict": last.verdict.value,
+        "remainder": report_remainder(last.remainder, last.fit.design),
+        "model": report_model(last.fit),
+        "error": report_error(last.error, axis),
     }
 
 
