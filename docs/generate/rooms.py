@@ -50,9 +50,14 @@ def _uses() -> dict[str, frozenset[str]]:
 
 
 def _imported(path: Path) -> Iterator[str]:
-    """Yield the first names below the package of what a module imports."""
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == _PACKAGE:
+    """Yield the first names below the package of what a module imports, but for types alone."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    blocks = (each for each in ast.walk(tree) if isinstance(each, ast.If))
+    of_types = {inner for each in blocks if ast.unparse(each.test) == "TYPE_CHECKING" for inner in each.body}
+    for node in ast.walk(tree):
+        if node in of_types or not isinstance(node, ast.ImportFrom) or not node.module:
+            continue
+        if node.module.split(".")[0] == _PACKAGE:
             below = node.module.split(".")[1:]
             yield from below[:1] or (each.name for each in node.names)
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from markdown import code, symbol, table
 
 from zlmreport.evaluation.evaluation import Basis, QuantityGroup
-from zlmreport.job.installed import list_adoptions_of
+from zlmreport.job.standards import list_adoptions_of
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.kinds import STANDARD

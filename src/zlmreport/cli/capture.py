@@ -13,7 +13,7 @@ from itertools import chain
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
+from zlmreport.cli.capture_display import JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
 from zlmreport.cli.capture_steered import SteeredLines
 from zlmreport.cli.jobs import tell_requirements
 from zlmreport.cli.terminal import Colour, make_visible, show_path
@@ -93,7 +93,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _choose_display(options: Namespace) -> Callable[[Job, Assignment], Display]:
+def _choose_display(options: Namespace) -> type[PlainLines]:
     if options.steered:
         return SteeredLines
     if options.json:
@@ -197,7 +197,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     job: Job,
     assignment: Assignment,
     registry: Registry,
-    display: Display,
+    display: PlainLines,
     path: Path,
     *,
     resume: bool,
@@ -286,7 +286,7 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
     connection: Connection,
     assignment: Assignment,
     journal: Journal,
-    display: Display,
+    display: PlainLines,
 ) -> None:
     """Follow the axis until the test is over; between two sittings the operator sees to what went wrong."""
     while not journal.progress.is_over:

@@ -11,7 +11,7 @@ import sys
 import textwrap
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from typing import Any, Protocol
+from typing import Any
 
 from zlmreport.cli.terminal import Colour, hold_values, lay_out_heading, make_visible, write_duration
 from zlmreport.errors import AccessError, InputError, Place, count_in_words
@@ -54,34 +54,6 @@ _CLEAR_BELOW, _UP = "\x1b[J", "\x1b[{}A"
 _BAR = 24
 #: What a line begins with before its words: the number of a step, or what happened.
 _NAME = re.compile(r"\d+\. |\S+ {2,}")
-
-
-class Display(Protocol):
-    """Shows a capture to somebody."""
-
-    def wait(self) -> None:
-        """Say whose test it is, while the instrument is awaited."""
-
-    def begin(self, follower: Follower) -> None:
-        """Say what is to be done before readings are taken."""
-
-    def tell(self, event: Event) -> None:
-        """Say what has happened."""
-
-    def take_keys(self) -> AbstractContextManager[None]:
-        """Take orders from a keyboard, if there is one."""
-
-    def show(self, follower: Follower, reading: LiveReading) -> Iterable[Order]:
-        """Show the present moment, and return what the operator orders then; mostly nothing."""
-
-    def see_to(self, event: Event | None, progress: Progress) -> None:
-        """Let the operator see to what has happened; raise `AccessError` if there is none."""
-
-    def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
-        """Let the operator say which visit a stop is, None for none; raise `AccessError` if there is none."""
-
-    def leave(self, message: str) -> None:
-        """Say at last how the capture goes on."""
 
 
 def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | None:
@@ -162,7 +134,7 @@ def is_watched() -> bool:
 
 
 class PlainLines:
-    """Prints a line for what happens; nothing moves, and nobody is asked."""
+    """Shows a capture to somebody: a line for what happens; nothing moves, and nobody is asked."""
 
     def __init__(self, job: Job, assignment: Assignment) -> None:
         self._job = job

@@ -18,7 +18,8 @@ from zlmreport.looking import look_at, write_job_of
 from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
-    from zlmreport.web.app import Served
+    from zlmreport.web.answers import PageAnswers
+    from zlmreport.web.folder_app import FolderWorkbench
 
 _PLACE = Place("zlmreport workbench")
 #: Suffixes of jobs; any other file holds readings.
@@ -42,7 +43,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _open_workbench(options: Namespace) -> Served:
+def _open_workbench(options: Namespace) -> PageAnswers | FolderWorkbench:
     """Return the page of a job, of a machine, or of a folder.
 
     Raises `InputError` if a folder or a machine stands beside other files, or a folder holds none.

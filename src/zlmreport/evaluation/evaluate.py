@@ -5,18 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from zlmreport.evaluation.checks import deviation_in_words
 from zlmreport.evaluation.evaluation import (
-    Arithmetic,
     EvaluatedParameter,
     Evaluation,
     Finding,
     PositionColumn,
-    PositionQuantity,
     Quantity,
     QuantityGroup,
 )
@@ -27,29 +25,14 @@ from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 
+if TYPE_CHECKING:
+    from zlmreport.plugin.protocols import Standard
+
 _IDENTICAL = Words("{adoption} is identical to {standard}.")
 
 
-class EvaluatingStandard(Protocol):
-    """The part of a standard that evaluation needs (the whole: `zlmreport.plugin.protocols.Standard`)."""
-
-    identifier: str
-    designation: str
-    title: Words
-    position_index: str
-    quantities: tuple[Quantity, ...]
-    position_quantities: tuple[PositionQuantity, ...]
-    notes: tuple[Words, ...]
-
-    def requirements(self, measurements: MeasurementSet, options: Any) -> Iterable[Finding]:
-        """Hold the standard's requirements against the test."""
-
-    def arithmetic(self, statistics: PositionStatistics, options: Any) -> Arithmetic:
-        """Return the standard's parameters and columns, with the batch dimensions of the statistics."""
-
-
 def evaluate(
-    standard: EvaluatingStandard,
+    standard: Standard,
     measurements: MeasurementSet,
     options: Any,
     tolerances: Mapping[str, float],
@@ -111,7 +94,7 @@ def name_adoption(evaluation: Evaluation, adoption: str) -> Evaluation:
 
 
 def _select_notes(
-    standard: EvaluatingStandard, measurements: MeasurementSet, reported: frozenset[str]
+    standard: Standard, measurements: MeasurementSet, reported: frozenset[str]
 ) -> tuple[Words, ...]:
     """Return the notes of a standard without those on parameters of which the test reports none.
 

@@ -6,16 +6,20 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from pydantic import BaseModel, create_model
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
-from zlmreport.job.installed import Installed, InstalledExtension, InstalledProgram, WithKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, find_key_place, make_keys_of
 from zlmreport.job.types import JobPart, LiveInstrumentKeys, Options, find_model_in, list_keys_in, optional
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.extending import Extension
+    from zlmreport.plugin.protocols import Controller, DataSource, Instrument, PartProgram
+    from zlmreport.plugin.registry import Registry
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +72,7 @@ def group_naming(key: str, item: Node) -> Keys:
 
 
 def choose_source(
-    tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
+    tree: Keys, path: tuple[str, ...], registry: Registry, problems: list[Problem]
 ) -> SourceChoice | None:
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
     keys, within = find_at(tree, path), ".".join(path)
@@ -83,7 +87,7 @@ def choose_source(
 
 
 def choose_sources_of_tests(
-    keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]
+    keys: JobKeys, tree: Keys, registry: Registry, problems: list[Problem]
 ) -> dict[str, SourceChoice]:
     """Return the data source of each named test; one that several share is checked once."""
     found = {}
@@ -100,7 +104,7 @@ def choose_sources_of_tests(
 
 
 def _choose_instrument(
-    source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
+    source: type[Options], keys: Keys, registry: Registry, problems: list[Problem], *, within: str
 ) -> Choice | None:
     """Return the live instrument that the keys of a data source name; None if they name none."""
     known = list_keys_in(source)
@@ -111,8 +115,10 @@ def _choose_instrument(
     return None
 
 
+#: A plugin with keys of its own beside the one that names it.
+WithKeys: TypeAlias = "Controller | DataSource | Instrument | PartProgram"
 #: Returns the writer of an identifier that is named at a place; raises `InputError` if there is none.
-Find: TypeAlias = Callable[[str, Place | None], InstalledProgram]
+Find: TypeAlias = "Callable[[str, Place | None], PartProgram]"
 
 
 def choose_programs_of(
@@ -184,7 +190,7 @@ class ControllerChoice(Choice):
 
 
 def choose_controller_of(
-    stated: Node | None, registry: Installed, problems: list[Problem]
+    stated: Node | None, registry: Registry, problems: list[Problem]
 ) -> ControllerChoice | None:
     """Return the control that a group of keys names; None if it names none, or a wrong one."""
     choice = _choose_in(stated, "controller", registry.controller, problems, within="compensation")
@@ -203,7 +209,7 @@ class ExtensionChoice:
     programs: tuple[Choice, ...] = ()
 
 
-def group_model(extension: InstalledExtension) -> type[BaseModel]:
+def group_model(extension: Extension) -> type[BaseModel]:
     """Return a model whose one key is the group of an extension: as a job has it."""
     field: Any = optional(extension.description, example=dict(extension.example))
     group: Any = (extension.options | None, field)
@@ -213,7 +219,7 @@ def group_model(extension: InstalledExtension) -> type[BaseModel]:
     return model
 
 
-def choose_extensions(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[ExtensionChoice]:
+def choose_extensions(tree: Keys, registry: Registry, problems: list[Problem]) -> Iterator[ExtensionChoice]:
     """Yield the groups of a job, each with its keys and its part programs; mistakes are added to problems."""
     for name in registry.extension_keys:
         entry = tree.entries.get(name)

@@ -11,13 +11,12 @@ import hashlib
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import demand, rewrite
 from zlmreport.job.effect_choices import EffectChoice, choose_effects_of
 from zlmreport.job.extents import Written
-from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.list_edits import (
@@ -33,6 +32,9 @@ from zlmreport.job.loading import load
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Items, Node, Scalar, walk
 from zlmreport.job.yaml_text import write_as_text
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.registry import Registry
 
 #: The list of a model.
 EFFECTS, CANDIDATES = ListKey("model", "effects"), ListKey("model", "candidates")
@@ -68,7 +70,7 @@ class Edit:
         rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
 
 
-def read_named_effect(text: str, registry: Installed, place: Place) -> WrittenEffect:
+def read_named_effect(text: str, registry: Registry, place: Place) -> WrittenEffect:
     """Return an effect that a person names: ``backlash``, or ``polynomial: {order: 5}`` as in a job.
 
     Raises `InputError` if there is no such effect, or it has no such key, with the nearest that there is.
@@ -96,7 +98,7 @@ class ListChange:
 def edit_effects(
     path: Path,
     job: Job,
-    registry: Installed,
+    registry: Registry,
     *,
     add: Sequence[WrittenEffect] = (),
     remove: Collection[str] = (),
@@ -114,7 +116,7 @@ def edit_effects(
 
 
 def edit_list(
-    path: Path, job: Job, registry: Installed, change: ListChange, is_meant: Callable[[Job], bool]
+    path: Path, job: Job, registry: Registry, change: ListChange, is_meant: Callable[[Job], bool]
 ) -> Edit:
     """Return the change of one list of a job.
 
@@ -192,7 +194,7 @@ def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
         )
 
 
-def _load_content(path: Path, registry: Installed, content: bytes) -> Job | None:
+def _load_content(path: Path, registry: Registry, content: bytes) -> Job | None:
     """Return the job that a file would be with another content; None for one that makes no sense."""
     try:
         return load(path, registry, content=content)

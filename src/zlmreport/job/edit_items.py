@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
@@ -23,7 +23,6 @@ from zlmreport.job.edit import (
     state_meaning,
 )
 from zlmreport.job.extents import ValueForm, Written
-from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.list_edits import ListKey, UneditableError, add_member, find_members, insert
 from zlmreport.job.loading import load
@@ -31,6 +30,9 @@ from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.job.parse import decode
 from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, make_keys_of
 from zlmreport.job.yaml_text import write_as_text
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.registry import Registry
 
 #: What means the same with and without quotes, and is written without.
 _DATE = re.compile(r"\d{4}-\d\d-\d\d", re.ASCII)
@@ -46,7 +48,7 @@ class ParameterChoice:
     value: float | None  #: To fix it at, in the users' unit; None to leave it to the readings.
 
 
-def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterChoice) -> Edit:
+def edit_parameter(path: Path, job: Job, registry: Registry, wanted: ParameterChoice) -> Edit:
     """Return the change of a job that fixes a parameter of its model, or frees it.
 
     Raises `InputError` if the model has no such effect, or that no such parameter; if the file has changed,
@@ -108,7 +110,7 @@ def _write_number(value: float) -> str:
 EXCLUDED = ListKey("measurement", "excluded")
 
 
-def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[ExclusionKeys]) -> Edit:
+def exclude(path: Path, job: Job, registry: Registry, exclusions: Sequence[ExclusionKeys]) -> Edit:
     """Return the change of a job that sets readings aside.
 
     Raises `InputError` if the file has changed since it was loaded, or is written in a way in which nothing
@@ -119,7 +121,7 @@ def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[Excl
     return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
 
 
-def include(path: Path, job: Job, registry: Installed, index: int) -> Edit:
+def include(path: Path, job: Job, registry: Registry, index: int) -> Edit:
     """Return the change of a job that brings a reading back: the one that the list names at an index.
 
     Raises `InputError` or `AccessError` as for `exclude`.
@@ -141,7 +143,7 @@ def _make_exclusion_node(exclusion: ExclusionKeys) -> Node:
 
 
 def edit_keys(
-    path: Path, job: Job, registry: Installed, stated: Mapping[str, float | str], units: Mapping[str, str]
+    path: Path, job: Job, registry: Registry, stated: Mapping[str, float | str], units: Mapping[str, str]
 ) -> Edit:
     """Return the change of a job that states keys which it does not state yet; nothing else changes.
 

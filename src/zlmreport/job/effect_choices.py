@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pydantic import ConfigDict, create_model, model_validator
 
@@ -14,10 +14,13 @@ from zlmreport.job.contradictions import validate
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.formula_parts import refuse_unsound
-from zlmreport.job.installed import Installed, InstalledEffect
 from zlmreport.job.sentences import show_value
 from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of
 from zlmreport.job.types import Finite, JobPart, Options, list_keys_in, optional
+
+if TYPE_CHECKING:
+    from zlmreport.model.effects.effect import Effect
+    from zlmreport.plugin.registry import Registry
 
 _SHAPE = (
     "an effect is its name, or {name: {parameter: value}} for one whose parameters are given, or "
@@ -107,7 +110,7 @@ def find_next_number(identifier: str, choices: Iterable[EffectChoice]) -> int:
 
 
 def choose_effects_of(
-    listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
+    listed: Node | None, registry: Registry, problems: list[Problem], *, within: str
 ) -> tuple[EffectChoice, ...]:
     """Return the effects of a list.
 
@@ -126,7 +129,7 @@ def choose_effects_of(
             continue
         identifier, keys = named
         try:
-            effect: InstalledEffect = registry.effect(identifier, item.place)
+            effect = registry.effect(identifier, item.place)
         except InputError as error:
             problems.extend(error.problems)
             continue
@@ -150,7 +153,7 @@ def _report_no_effect(item: Node, within: str) -> Problem:
 
 
 def _choose_formula(
-    item: Keys, registry: Installed, problems: list[Problem], within: str
+    item: Keys, registry: Registry, problems: list[Problem], within: str
 ) -> EffectChoice | None:
     keys = validate(FormulaKeys, item, problems, within=within)
     if keys is None:
@@ -172,7 +175,7 @@ def _choose_formula(
 
 
 def choose_candidates(
-    listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
+    listed: Node | None, registry: Registry, problems: list[Problem], *, within: str
 ) -> tuple[EffectChoice, ...]:
     """Return the formulas of a list of candidates; as `choose_effects_of`, and each must be a formula."""
     found = choose_effects_of(listed, registry, problems, within=within)
@@ -195,9 +198,7 @@ def _name_effect(item: Node) -> tuple[str, Keys] | None:
     return None
 
 
-def _choose_effect(
-    effect: InstalledEffect, keys: Keys, problems: list[Problem], within: str
-) -> EffectChoice | None:
+def _choose_effect(effect: Effect, keys: Keys, problems: list[Problem], within: str) -> EffectChoice | None:
     own = list_keys_in(effect.options)
     settings_keys = keys.without(*(key for key in keys.entries if key not in own))
     settings = validate(effect.options, settings_keys, problems, within=within)

@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
@@ -17,7 +17,6 @@ from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import confine as confined, demand, say_outside
 from zlmreport.job.contradictions import find_problems_in_part, validate
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
-from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Scalar, find_key_place, place_of, walk
@@ -31,6 +30,9 @@ from zlmreport.job.types import (
     resolve_path_named,
 )
 from zlmreport.language import Language
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.extending import Extension
 
 #: What a layout can be made of.
 PLACEHOLDERS = ("machine", "manufacturer", "model", "serial", "axis", "number")
@@ -232,7 +234,7 @@ class FleetFile:
 
 
 def load_fleet(
-    path: Path, content: bytes | None = None, extensions: Callable[[], Sequence[InstalledExtension]] = tuple
+    path: Path, content: bytes | None = None, extensions: Callable[[], Sequence[Extension]] = tuple
 ) -> FleetFile:
     """Read a fleet file and check all that can be checked without its jobs.
 
@@ -325,9 +327,7 @@ def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
     return (value.text, place) if isinstance(value, Scalar) else ("", place)
 
 
-def _find_wrong_defaults(
-    shared: Keys, extensions: Callable[[], Sequence[InstalledExtension]]
-) -> Iterator[Problem]:
+def _find_wrong_defaults(shared: Keys, extensions: Callable[[], Sequence[Extension]]) -> Iterator[Problem]:
     """Yield what is wrong with the defaults wherever the jobs put them."""
     others = extensions() if shared.entries.keys() - list_keys_in(JobKeys).keys() else ()
     own = shared.without(*(each.identifier for each in others))

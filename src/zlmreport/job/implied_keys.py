@@ -5,19 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from zlmreport.errors import InputError
 from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.choices import SourceChoice, group_naming
 from zlmreport.job.circle_keys import CircleKeys
-from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys, Measurement
 from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, find_at, make_keys_of, merge, place_of
 from zlmreport.measurement.error_symbol import ErrorSymbol, find_error_named, find_letter_of
 from zlmreport.measurement.measurand import POSITIONING, is_for
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.registry import Registry
 
 _TESTS = ("measurement", "tests")
 
@@ -66,7 +68,7 @@ def add_shared_source(tree: Keys) -> Keys:
     return make_keys_of(tree.place, tuple({**tree.entries, "measurement": whole}.values()))
 
 
-def add_axis(tree: Keys, registry: Installed) -> Keys:
+def add_axis(tree: Keys, registry: Registry) -> Keys:
     """Return the keys of a job without an axis, with the one that a circle, an extension or an error has."""
     error = _find_error_in(tree)
     name = next((key for key in registry.axis_keys if key in tree.entries), "")
@@ -85,7 +87,7 @@ def add_axis(tree: Keys, registry: Installed) -> Keys:
     return merge(tree, make_keys_of(tree.place, (KeyEntry("axis", place, axis),)))
 
 
-def share_keys(tree: Keys, registry: Installed) -> Keys:
+def share_keys(tree: Keys, registry: Registry) -> Keys:
     """Return the keys of a job with what standards ask of the measurement among their own keys.
 
     Such a key stands in `measurement`, or at the top of the job; each standard that asks for it gets it. One
@@ -123,7 +125,7 @@ def share_keys(tree: Keys, registry: Installed) -> Keys:
     return make_keys_of(tree.place, tuple(entries.values()))
 
 
-def make_job_of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> Job:
+def make_job_of_test(job: Job, name: str, source: SourceChoice, registry: Registry) -> Job:
     """Return one of several measured lines as a job of its own: what is not said of it is as in the job."""
     whole, own = job.keys.measurement, job.keys.measurement.tests[name]
     inherited = {

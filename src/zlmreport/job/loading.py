@@ -37,7 +37,6 @@ from zlmreport.job.implied_keys import (
     make_job_of_test,
     share_keys,
 )
-from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.keys_file import KeysFile, read_keys_file
@@ -56,6 +55,7 @@ from zlmreport.measurement.measurand import POSITIONING
 
 if TYPE_CHECKING:
     from zlmreport.job.effect_choices import EffectChoice
+    from zlmreport.plugin.registry import Registry
 
 _SOURCE = ("measurement", "source")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
@@ -77,7 +77,7 @@ class _Chosen:
 
 def load(
     path: Path,
-    registry: Installed,
+    registry: Registry,
     formats: tuple[str, ...] = (),
     content: bytes | None = None,
     defaults: Defaults | None = None,
@@ -96,7 +96,7 @@ def load(
     return _add_sessions(_check_job(composition, path.parent, registry, formats), path, registry)
 
 
-def _collect_jobs(composition: Composition, path: Path, registry: Installed, formats: tuple[str, ...]) -> Job:
+def _collect_jobs(composition: Composition, path: Path, registry: Registry, formats: tuple[str, ...]) -> Job:
     """Return a job that makes one document of several jobs."""
     document = composition.keys
     named = list_jobs_named(document)
@@ -137,7 +137,7 @@ def _collect_jobs(composition: Composition, path: Path, registry: Installed, for
     )
 
 
-def _add_sessions(job: Job, path: Path, registry: Installed) -> Job:
+def _add_sessions(job: Job, path: Path, registry: Registry) -> Job:
     """Return a job with the further tests that its model names, and what earlier ones taught."""
     if job.keys.model is None:
         return job
@@ -149,7 +149,7 @@ def _add_sessions(job: Job, path: Path, registry: Installed) -> Job:
 
 
 def _check_job(
-    composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
+    composition: Composition, folder: Path, registry: Registry, formats: tuple[str, ...] = ()
 ) -> Job:
     """Return the job in a folder that files make together, without the further tests that its model names."""
     tree = share_keys(add_shared_source(composition.keys), registry)
@@ -224,7 +224,7 @@ def _check_job(
     return replace(job, tests=parts, files=(*job.files, *files))
 
 
-def _choose_where_stated(tree: Keys, registry: Installed, problems: list[Problem]) -> _Chosen:
+def _choose_where_stated(tree: Keys, registry: Registry, problems: list[Problem]) -> _Chosen:
     """Return the plugins that a job's model, plan, compensation and extensions name, where it has these."""
     chosen = _Chosen(extensions=tuple(choose_extensions(tree, registry, problems)))
     if "model" in tree.entries:
@@ -278,7 +278,7 @@ def _read_priors(job: Job) -> KeysFile[PriorsKeys] | None:
     return found
 
 
-def _read_sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
+def _read_sessions(job: Job, path: Path, registry: Registry) -> tuple[Job, ...]:
     """Return the jobs of further tests of an axis; the sessions that these name are not theirs to add.
 
     Raises `InputError` if one is the job itself, stands there twice, or is of another axis or error.
@@ -308,7 +308,7 @@ def _list_measured(axis: Axis) -> tuple[str, AxisKind, str]:
 
 
 def _choose_formats(
-    tree: Keys, keys: JobKeys | None, registry: Installed, problems: list[Problem]
+    tree: Keys, keys: JobKeys | None, registry: Registry, problems: list[Problem]
 ) -> tuple[str, ...]:
     """Return the output formats; without a list of them, the usual ones."""
     stated = find_at(tree, ("output", "formats"))
@@ -324,7 +324,7 @@ def _choose_formats(
         return ()
 
 
-def choose_formats_once(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
+def choose_formats_once(named: Iterable[tuple[str, Place]], registry: Registry) -> tuple[str, ...]:
     """Return the identifiers of output formats, each once.
 
     Raises `InputError` for each that no plugin provides.

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from zlmreport.errors import InputError, Problem, did_you_mean, quoted
 from zlmreport.job.evaluation_keys import UNCERTAIN_LENGTHS
-from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, place_of
 from zlmreport.measurement.axis import AxisKind
@@ -26,6 +25,8 @@ from zlmreport.measurement.units import DEGREE, MILLIMETRE
 
 if TYPE_CHECKING:
     from zlmreport.job.effect_choices import EffectChoice
+    from zlmreport.plugin.protocols import Standard
+    from zlmreport.plugin.registry import Registry
 
 _ERROR = ("measurement", "error")
 
@@ -41,7 +42,7 @@ def find_stated_error(keys: JobKeys) -> ErrorSymbol | None:
         return None
 
 
-def find_measurand_of(keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]) -> Measurand:
+def find_measurand_of(keys: JobKeys, tree: Keys, registry: Registry, problems: list[Problem]) -> Measurand:
     """Return what was measured: as the job says, or else as its standards do.
 
     Mistakes are added to the problems: an error that is none, standards that are not for it, an axis that the
@@ -73,14 +74,12 @@ def _say_in_words(measurand: Measurand, keys: JobKeys) -> str:
     return f"{measurand.identifier} (measurement.error: {stated})" if stated else measurand.identifier
 
 
-def _say_what_would_fit(measurand: Measurand, registry: Installed) -> str:
+def _say_what_would_fit(measurand: Measurand, registry: Registry) -> str:
     fitting = [each.identifier for each in registry.standards if is_for(each, measurand)]
     return f"would fit: {', '.join(fitting)}" if fitting else "no installed standard evaluates that"
 
 
-def _list_standards(
-    keys: JobKeys, tree: Keys, registry: Installed
-) -> Iterator[tuple[int, InstalledStandard]]:
+def _list_standards(keys: JobKeys, tree: Keys, registry: Registry) -> Iterator[tuple[int, Standard]]:
     """Yield the standards of a job that are installed; the others are refused elsewhere."""
     for index, each in enumerate(keys.evaluate):
         try:
@@ -93,7 +92,7 @@ def _find_stated(
     stated: str,
     keys: JobKeys,
     tree: Keys,
-    standards: Sequence[tuple[int, InstalledStandard]],
+    standards: Sequence[tuple[int, Standard]],
     problems: list[Problem],
 ) -> Measurand | None:
     """Return what `measurement.error` names: an error of ISO 230-1, or a measurand of the standards."""
@@ -132,7 +131,7 @@ def _find_stated(
 def _find_of_standards(
     keys: JobKeys,
     tree: Keys,
-    standards: Sequence[tuple[int, InstalledStandard]],
+    standards: Sequence[tuple[int, Standard]],
     problems: list[Problem],
 ) -> Measurand | None:
     """Return what all standards of a job are for: positioning if all are, or the one that they share."""
@@ -296,7 +295,7 @@ def convert_places_to_si(at: Mapping[str, Any]) -> tuple[tuple[str, float], ...]
 
 
 def find_effect_contradictions(
-    effects: Sequence[EffectChoice], measurand: Measurand, registry: Installed
+    effects: Sequence[EffectChoice], measurand: Measurand, registry: Registry
 ) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the effects of a model that do not describe what was measured."""
     for index, choice in enumerate(effects):

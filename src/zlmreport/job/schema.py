@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
@@ -20,19 +20,25 @@ from zlmreport.job.evaluation_keys import (
     StandardKeys,
 )
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys, list_adoptions_of
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Measurement, SourceKeys
+from zlmreport.job.standards import list_adoptions_of
 from zlmreport.job.tree import Step
 from zlmreport.job.types import LiveInstrumentKeys, find_model_at
 from zlmreport.language import Language
+
+if TYPE_CHECKING:
+    from zlmreport.job.choices import WithKeys
+    from zlmreport.model.effects.effect import Effect
+    from zlmreport.plugin.protocols import Standard
+    from zlmreport.plugin.registry import Registry
 
 Schema: TypeAlias = dict[str, Any]
 #: What a text looks like that is a number.
 _NUMBER = r"^\s*[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?\s*$"
 
 
-def make_job_schema(registry: Installed) -> Schema:
+def make_job_schema(registry: Registry) -> Schema:
     """Return the JSON Schema (draft 2020-12) of the job file.
 
     A file may be a job, or a part of one that others extend. What a job must have is asked only of a whole
@@ -122,7 +128,7 @@ def make_job_schema(registry: Installed) -> Schema:
     }
 
 
-def _find_listed_programs(registry: Installed) -> dict[str, type | None]:
+def _find_listed_programs(registry: Registry) -> dict[str, type | None]:
     """Return what the part programs are written of, by the definition of what names them in a list."""
     listed: dict[str, type | None] = {ProgramKeys.__name__: None}
     for extension in registry.extensions:
@@ -185,12 +191,12 @@ def _make_by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) ->
 _ERROR_SYMBOLS = "^[EABC][0A-CU-Z][A-CU-Z](_[a-z]+)?$"
 
 
-def _list_names(standard: InstalledStandard) -> tuple[str, ...]:
+def _list_names(standard: Standard) -> tuple[str, ...]:
     """Return what a job may call a standard: its identifier, and its identical adoptions."""
     return (standard.identifier, *list_adoptions_of(standard))
 
 
-def _describe_standard(standard: InstalledStandard, definitions: Schema) -> Schema:
+def _describe_standard(standard: Standard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
     of_all = StandardKeys.model_json_schema()["properties"]
     limit = of_all["tolerances"]["additionalProperties"]
@@ -217,7 +223,7 @@ def _describe_standard(standard: InstalledStandard, definitions: Schema) -> Sche
     return _add_keys(_make_own_keys(standard.options, standard.identifier, definitions), keys)
 
 
-def _make_of_the_measurement(registry: Installed, definitions: Schema) -> Schema:
+def _make_of_the_measurement(registry: Registry, definitions: Schema) -> Schema:
     """Return the keys of standards that a job may write in `measurement` or at its top, by their names."""
     asked: dict[str, list[Schema]] = {}
     for standard in registry.standards:
@@ -233,7 +239,7 @@ def _make_of_the_measurement(registry: Installed, definitions: Schema) -> Schema
     }
 
 
-def _make_effect(effect: InstalledEffect, definitions: Schema) -> Schema:
+def _make_effect(effect: Effect, definitions: Schema) -> Schema:
     """Return the schema of an effect with keys: its own, and its parameters in any of its forms.
 
     Which parameters there are depends on its own keys, and a schema cannot say so of every plugin.

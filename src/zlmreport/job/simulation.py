@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -16,12 +16,14 @@ from zlmreport.job.document_keys import Number
 from zlmreport.job.effect_choices import EffectChoice, choose_effects_of
 from zlmreport.job.evaluation_keys import AxisModelKeys
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
-from zlmreport.job.installed import Installed
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, find_at, find_key_place, place_of
 from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text, optional
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.registry import Registry
 
 Share = Annotated[float, Field(ge=0, lt=1)]
 
@@ -154,7 +156,7 @@ class SimulationFile:
         return place_of(self.tree, steps)
 
 
-def load_simulation(path: Path, registry: Installed, content: bytes | None = None) -> SimulationFile:
+def load_simulation(path: Path, registry: Registry, content: bytes | None = None) -> SimulationFile:
     """Read a simulation file and check all that can be checked without simulating.
 
     Raises `InputError` with every mistake, in the order of their places; `AccessError` if it, or a file that

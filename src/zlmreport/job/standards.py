@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import demand
 from zlmreport.job.choices import group_naming
 from zlmreport.job.contradictions import validate
 from zlmreport.job.evaluation_keys import StandardKeys
-from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import StandardChoice
 from zlmreport.job.parse import LARGEST
 from zlmreport.job.tree import Items, Keys, Scalar, find_at
@@ -21,12 +21,21 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.provenance import SourceFile
 
+if TYPE_CHECKING:
+    from zlmreport.plugin.protocols import Standard
+    from zlmreport.plugin.registry import Registry
+
 #: Keys of `evaluate` that every standard has.
 _OF_EVERY_STANDARD = tuple(StandardKeys.model_fields)
 
 
+def list_adoptions_of(standard: Standard) -> tuple[str, ...]:
+    """Return the names under which other bodies publish a standard's text; none for most."""
+    return getattr(standard, "adoptions", ())
+
+
 def choose_standards(
-    tree: Keys, registry: Installed, problems: list[Problem], error: str = ""
+    tree: Keys, registry: Registry, problems: list[Problem], error: str = ""
 ) -> Iterator[StandardChoice]:
     """Yield the standards that a job's `evaluate` lists, with their own keys and no tolerances yet.
 
@@ -61,7 +70,7 @@ def choose_standards(
             yield StandardChoice(standard.identifier, options, place, {}, adoption=adoption)
 
 
-def _find_unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:
+def _find_unknown_tolerances(keys: Keys, standard: Standard) -> Iterator[Problem]:
     """Yield tolerances for what is no parameter of the standard, or cannot have one."""
     tolerances = find_at(keys, ("tolerances",))
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
@@ -90,7 +99,7 @@ def _find_unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterato
 
 
 def convert_tolerances_to_si(
-    tolerances: Mapping[str, float], standard: InstalledStandard, axis: Axis
+    tolerances: Mapping[str, float], standard: Standard, axis: Axis
 ) -> dict[str, float]:
     """Return tolerances, given in the unit of what was measured or in a parameter's own, in SI."""
     own = {each.symbol: each.unit for each in standard.quantities if each.unit is not None}

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from pathlib import Path
-from typing import Any, Protocol
+from collections.abc import Callable
+from typing import Any
 
 from pydantic import ValidationError
+from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
@@ -17,30 +17,14 @@ from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language, accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
-from zlmreport.web.commands import Wanted
+from zlmreport.web.commands import FileCommands, Wanted
 from zlmreport.web.diagnoses import Diagnoses
-from zlmreport.web.making import Making, draw_page
+from zlmreport.web.guard import Door, DoorKeeper
+from zlmreport.web.making import draw_page
 from zlmreport.web.texts import NO_SCRIPT, TITLE, collect_texts
 from zlmreport.web.watched import LoadedFile, WatchedFile
 
 OTHER_PAGE = "the request is none of a page of this version"
-
-
-class FileCommands(Protocol):
-    """What a page can have made."""
-
-    @property
-    def making(self) -> Mapping[str, Making]:
-        """What is under way or done, by its name."""
-
-    def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
-        """Begin to make something, and return how far it is."""
-
-    def find_file(self, name: str) -> Path | None:
-        """Return where a file lies that was made."""
-
-    def end(self) -> None:
-        """End all that is under way."""
 
 
 class PageAnswers:
@@ -57,9 +41,21 @@ class PageAnswers:
         """Return all that the page shows at once."""
         raise NotImplementedError
 
+    def list_results(self, language: Language) -> dict[str, Any]:
+        """Return what takes longer than the graphs, the fall of the error first."""
+        raise NotImplementedError
+
+    def compare_before_and_after(self, wanted: str, test: str, language: Language) -> dict[str, Any]:
+        """Return what the graphs draw before and after a step of the model, or an effect that it may lack."""
+        raise NotImplementedError
+
     def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         raise NotImplementedError
+
+    def list_stamps(self) -> dict[str, str]:
+        """Return the state of all files: a page that shows another one asks for what follows anew."""
+        return {"stamp": self.bench.make_stamp()}
 
     def describe_making(self, state: dict[str, Any], language: Language) -> dict[str, Any]:  # noqa: ARG002 - as it is
         """Return how far something is that is being made, as the page shows it."""
@@ -78,8 +74,19 @@ class PageAnswers:
         self.diagnoses.end()
         self.commands.end()
 
-    def list_routes(self) -> list[Route]:
-        """Return the addresses that all pages have."""
+    def make_app(self, door: Door) -> DoorKeeper:
+        """Return the application behind its guard."""
+        return DoorKeeper(self.make_unguarded_app(), door)
+
+    def make_unguarded_app(self) -> Starlette:
+        """Return the application, without a guard: behind one of its own, or that of a folder."""
+        return Starlette(routes=[*self._list_routes(), *self.list_own_routes()])
+
+    def list_own_routes(self) -> list[Route]:
+        """Return the addresses that no other kind of page has."""
+        raise NotImplementedError
+
+    def _list_routes(self) -> list[Route]:
         return [
             Route("/", self.answer_page),
             Route("/files/{name}", answer_with_file),
@@ -87,6 +94,9 @@ class PageAnswers:
             Route("/documents/{name}/{page:int}.png", self.answer_picture),
             Route("/api/texts", self.answer_texts),
             Route("/api/job", self.answer_job),
+            Route("/api/stamp", self.answer_stamp),
+            Route("/api/results", self.answer_results),
+            Route("/api/step", self.answer_step),
             Route("/api/diagnosis", self.answer_diagnosis),
             Route("/api/diagnosis/stop", self.stop_diagnosis, methods=["POST"]),
             Route("/api/change", self.change, methods=["POST"]),
@@ -119,6 +129,23 @@ class PageAnswers:
     async def answer_job(self, request: HttpRequest) -> Response:
         """Answer with the file as values."""
         return await self.answer(request, lambda: self.view(self.choose_language(request)))
+
+    async def answer_stamp(self, _: HttpRequest) -> Response:
+        """Answer with the state of all files."""
+        return JSONResponse(await run_in_threadpool(self.list_stamps))
+
+    async def answer_results(self, request: HttpRequest) -> Response:
+        """Answer with what takes longer than the graphs."""
+        return await self.answer(request, lambda: self.list_results(self.choose_language(request)))
+
+    async def answer_step(self, request: HttpRequest) -> Response:
+        """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
+
+        def found() -> dict[str, Any]:
+            wanted, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
+            return self.compare_before_and_after(wanted, test, self.choose_language(request))
+
+        return await self.answer(request, found)
 
     async def answer_diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the file, or with the seconds for which it has been under way."""

@@ -7,12 +7,10 @@ import webbrowser
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
 from pydantic import ValidationError
-from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
@@ -30,9 +28,12 @@ from zlmreport.web.comparison import ComparedTests
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.effect_page import make_effect_page
 from zlmreport.web.folded import fold
-from zlmreport.web.guard import HOST, Door, DoorKeeper
+from zlmreport.web.guard import HOST, Door
 from zlmreport.web.stairs import add_stairs
 from zlmreport.web.view import collect_before_and_after, collect_closer, make_results, make_view
+
+if TYPE_CHECKING:
+    from zlmreport.web.folder_app import FolderWorkbench
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,17 +76,10 @@ class Workbench(PageAnswers):
         PageAnswers.end(self)
         self.capture.process.end()
 
-    def make_app(self, door: Door) -> DoorKeeper:
-        """Return the application behind its guard."""
-        return DoorKeeper(self.make_unguarded_app(), door)
-
-    def make_unguarded_app(self) -> Starlette:
-        """Return the application, without a guard: behind one of its own, or that of a folder."""
-        own = [
+    def list_own_routes(self) -> list[Route]:
+        """Return the addresses of effects, of tests side by side, and of a capture."""
+        return [
             Route("/effects/{effect}", self.answer_page),
-            Route("/api/stamp", self.answer_stamp),
-            Route("/api/results", self.answer_results),
-            Route("/api/step", self.answer_step),
             Route("/api/closer", self.answer_closer),
             Route("/api/tests", self.answer_tests),
             Route("/api/effects/{effect}", self.answer_effect),
@@ -93,42 +87,31 @@ class Workbench(PageAnswers):
             Route("/api/capture", self.answer_capture),
             Route("/api/capture", self.change_capture, methods=["POST"]),
         ]
-        return Starlette(routes=[*self.list_routes(), *own])
 
     def view(self, language: Language) -> dict[str, Any]:
         """Return the page of the job."""
         return make_view(self.bench, self.bench.load(), language)
 
+    def list_results(self, language: Language) -> dict[str, Any]:
+        """Return the fall of the error, and what the standards say."""
+        return make_results(self.bench, self.bench.load(), language)
+
+    def compare_before_and_after(self, wanted: str, test: str, language: Language) -> dict[str, Any]:  # noqa: ARG002 - there is one
+        """Return what the graphs draw before and after a step of the model, or an effect that it may lack."""
+        return collect_before_and_after(self.bench, self.bench.load(), wanted, language)
+
     def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         change(self.bench, wanted)
+
+    def list_stamps(self) -> dict[str, str]:
+        """Return the state of all files, also of the tests beside that of the job."""
+        return {"stamp": self.bench.make_stamp(), "tests": self.comparison.make_stamp()}
 
     def describe_making(self, state: dict[str, Any], language: Language) -> dict[str, Any]:
         """Return how far something is that is being made, a build with its staircase."""
         bench = self.bench
         return add_stairs(state, bench.load().job, bench.registry, language)
-
-    async def answer_stamp(self, _: HttpRequest) -> Response:
-        """Answer with the state of all files: a page that shows another one asks for what follows anew."""
-        stamps = await run_in_threadpool(lambda: (self.bench.make_stamp(), self.comparison.make_stamp()))
-        return JSONResponse(dict(zip(("stamp", "tests"), stamps, strict=True)))
-
-    async def answer_results(self, request: HttpRequest) -> Response:
-        """Answer with the fall of the error and what the standards say."""
-        return await self.answer(
-            request, lambda: make_results(self.bench, self.bench.load(), self.choose_language(request))
-        )
-
-    async def answer_step(self, request: HttpRequest) -> Response:
-        """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
-
-        def found() -> dict[str, Any]:
-            wanted = request.query_params.get("of", "")[:500]
-            return collect_before_and_after(
-                self.bench, self.bench.load(), wanted, self.choose_language(request)
-            )
-
-        return await self.answer(request, found)
 
     async def answer_folded(self, request: HttpRequest) -> Response:
         """Answer with an effect that repeats, on one period; with nothing for any other effect."""
@@ -186,20 +169,9 @@ class Workbench(PageAnswers):
         return await self.answer(request, done)
 
 
-class Served(Protocol):
-    """What can be served: the page of a job, or that of a folder."""
-
-    def make_app(self, door: Door) -> DoorKeeper:
-        """Return the application behind its guard."""
-
-    def warm_up(self) -> None:
-        """Begin what a page would wait for."""
-
-    def end(self) -> None:
-        """End all that is under way."""
-
-
-def serve(workbench: Served, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
+def serve(
+    workbench: PageAnswers | FolderWorkbench, port: int, ready: Callable[[str], None], *, open_browser: bool
+) -> None:
     """Listen on the loopback address until the user ends it; the workbench ends then, or if it cannot begin.
 
     `port`: On which; 0 for any free one.

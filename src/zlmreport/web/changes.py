@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, StringConstraints, ValidationError
@@ -29,7 +30,6 @@ from zlmreport.web.journal import (
     REDO,
     UNDO,
     BenchJournal,
-    JournalStep,
     find_redoable,
     find_undoable,
     make_entry,
@@ -223,21 +223,20 @@ def _is_value(value: float | str) -> bool:
     return bool(value.strip()) if isinstance(value, str) else math.isfinite(value)
 
 
-def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, find_undoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
-
-
-def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, find_redoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
-
-
-def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
+def _put_back(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     """Return the change that puts back what a line of the record replaced."""
+    content, subject = find_last_step(bench.path, loaded.digest, request)
+    job = load(bench.path, bench.registry, content=content)
+    return _Step(Edit(bench.path, loaded.digest, content, job), subject)
+
+
+def find_last_step(path: Path, digest: str, request: Request) -> tuple[bytes, str]:
+    """Return what an undo or a redo puts back into a file, and what the record says that it is about."""
+    find = find_undoable if request.action == UNDO else find_redoable
+    last = find(BenchJournal.of(path).read_entries(), digest)
     if last is None:
         raise NothingToUndoError
-    job = load(bench.path, bench.registry, content=last.content)
-    subject = last.subject if last.action in {UNDO, REDO} else f"{last.action} {last.subject}"
-    return _Step(Edit(bench.path, loaded.digest, last.content, job), subject)
+    return last.content, last.subject if last.action in {UNDO, REDO} else f"{last.action} {last.subject}"
 
 
 def _try_fit(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
@@ -267,6 +266,6 @@ ACTIONS: Mapping[str, Callable[[Bench, Loaded, Request], _Step]] = {
     "exclude": _exclude,
     "include": _include,
     "state": _state,
-    UNDO: _undo,
-    REDO: _redo,
+    UNDO: _put_back,
+    REDO: _put_back,
 }

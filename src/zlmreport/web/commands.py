@@ -44,8 +44,33 @@ class Wanted(BaseModel):
     after: ShortText = ""
 
 
+class FileCommands:
+    """What a page can have made, and where the files of it lie."""
+
+    __slots__ = ()
+
+    making: Mapping[str, Making]  #: What is under way or done, by its name.
+
+    def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
+        """Begin to make something, and return how far it is.
+
+        Raises `InputError` if a format, a control, an effect or a second test is none that the page offered.
+        """
+        raise NotImplementedError
+
+    def find_file(self, name: str) -> Path | None:
+        """Return where a file lies that was made from the page; None for any other name."""
+        found = (each.find_file(name) for each in self.making.values())
+        return next((path for path in found if path is not None and path.is_file()), None)
+
+    def end(self) -> None:
+        """End all that is under way."""
+        for each in self.making.values():
+            each.end()
+
+
 @dataclass(slots=True)
-class Commands:
+class Commands(FileCommands):
     """The commands of a page, each in a process of its own."""
 
     bench: Bench  #: The job.
@@ -62,10 +87,7 @@ class Commands:
         return cls(bench, {name: Making(read, plugins) for name, read in readers.items()})
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
-        """Begin to make something, and return how far it is.
-
-        Raises `InputError` if a format, a control, an effect or a second test is none that the page offered.
-        """
+        """Begin to make something, and return how far it is."""
         loaded, path = self.bench.load(), self.bench.path
         if name == "certificate":
             arguments = [
@@ -95,14 +117,9 @@ class Commands:
         self.making[name].begin(loaded.stamp, *arguments)
         return self.making[name].describe_state()
 
-    def find_file(self, name: str) -> Path | None:
-        """Return where a file lies that was made from the page; None for any other name."""
-        return find_made_file(self.making, name)
-
     def end(self) -> None:
         """End all that is under way, and take away what was only looked at."""
-        for each in self.making.values():
-            each.end()
+        FileCommands.end(self)
         with self._lock:
             aside, self._aside = self._aside, None
         if aside is not None:
@@ -153,12 +170,6 @@ def list_demanded_formats(wanted: Wanted, offered: Iterable[Renderer]) -> list[s
     for each in wanted.formats:
         _demand(each, known, "format")
     return ["--format", ",".join(wanted.formats)] if wanted.formats else []
-
-
-def find_made_file(making: Mapping[str, Making], name: str) -> Path | None:
-    """Return where a file lies that one of several commands wrote; None for any other name."""
-    found = (each.find_file(name) for each in making.values())
-    return next((path for path in found if path is not None and path.is_file()), None)
 
 
 def list_siblings(path: Path) -> list[str]:

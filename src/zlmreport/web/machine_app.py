@@ -8,8 +8,6 @@ from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
-from starlette.applications import Starlette
-from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
 from starlette.responses import JSONResponse, Response
 from starlette.routing import Route
@@ -24,17 +22,12 @@ from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.answers import OTHER_PAGE, PageAnswers
 from zlmreport.web.bench import PLACE
-from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
-from zlmreport.web.commands import Wanted, find_made_file, list_demanded_formats
+from zlmreport.web.changes import ConflictError, Request, find_last_step
+from zlmreport.web.commands import FileCommands, Wanted, list_demanded_formats
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
-from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.journal import (
     REDO,
     UNDO,
-    BenchJournal,
-    JournalStep,
-    find_redoable,
-    find_undoable,
     make_entry,
     record_change,
 )
@@ -48,7 +41,7 @@ _DIAGNOSING = "zlmreport.web.machine_diagnoses"
 
 
 @dataclass(frozen=True, slots=True)
-class MachineCommands:
+class MachineCommands(FileCommands):
     """The document of a machine, made in a process of its own, and its tables, which take no time."""
 
     bench: MachineBench
@@ -56,10 +49,7 @@ class MachineCommands:
     tables: dict[str, Path] = field(default_factory=dict)  #: Files of tables that were written, by name.
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
-        """Begin to make it, and return how far it is.
-
-        Raises `InputError` if a format is none that the page offered.
-        """
+        """Begin to make it, and return how far it is."""
         loaded = self.bench.load()
         formats = list_demanded_formats(wanted, self.bench.renderers)
         self.making[name].begin(
@@ -69,12 +59,7 @@ class MachineCommands:
 
     def find_file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
-        return self.tables.get(name) or find_made_file(self.making, name)
-
-    def end(self) -> None:
-        """End all that is under way."""
-        for each in self.making.values():
-            each.end()
+        return self.tables.get(name) or FileCommands.find_file(self, name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,19 +89,9 @@ class MachineWorkbench(PageAnswers):
         commands = MachineCommands(bench, {"certificate": Making(make_values, plugins)})
         return cls(bench, Diagnoses(path, answers, plugins, _DIAGNOSING), commands)
 
-    def make_app(self, door: Door) -> DoorKeeper:
-        """Return the application behind its guard."""
-        return DoorKeeper(self.make_unguarded_app(), door)
-
-    def make_unguarded_app(self) -> Starlette:
-        """Return the application, without a guard: behind one of its own, or that of a folder."""
-        own = [
-            Route("/api/stamp", self.answer_stamp),
-            Route("/api/results", self.answer_results),
-            Route("/api/step", self.answer_step),
-            Route("/api/tables", self.answer_tables, methods=["POST"]),
-        ]
-        return Starlette(routes=[*self.list_routes(), *own])
+    def list_own_routes(self) -> list[Route]:
+        """Return the address of tables across axes."""
+        return [Route("/api/tables", self.answer_tables, methods=["POST"])]
 
     def list_page_texts(self, language: Language) -> dict[str, str]:
         """Return the words of the page, and that it is one of a machine."""
@@ -126,28 +101,17 @@ class MachineWorkbench(PageAnswers):
         """Return the page of the machine."""
         return self._make_view(language).list_page()
 
+    def list_results(self, language: Language) -> dict[str, Any]:
+        """Return the fall of the error, the tests in numbers, the 21 errors and the work space."""
+        return self._make_view(language).list_results()
+
+    def compare_before_and_after(self, wanted: str, test: str, language: Language) -> dict[str, Any]:
+        """Return what the graphs draw before and after a step of the model, or an effect that it may lack."""
+        return self._make_view(language).compare_before_and_after(wanted, test)
+
     def carry_out(self, wanted: Request) -> None:
         """Do what a click asks for."""
         change_machine(self.bench, wanted)
-
-    async def answer_stamp(self, _: HttpRequest) -> Response:
-        """Answer with the state of all files."""
-        return JSONResponse({"stamp": await run_in_threadpool(self.bench.make_stamp)})
-
-    async def answer_results(self, request: HttpRequest) -> Response:
-        """Answer with the fall of the error, the tests in numbers, the 21 errors and the work space."""
-        return await self.answer(
-            request, lambda: self._make_view(self.choose_language(request)).list_results()
-        )
-
-    async def answer_step(self, request: HttpRequest) -> Response:
-        """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
-
-        def found() -> dict[str, Any]:
-            of, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
-            return self._make_view(self.choose_language(request)).compare_before_and_after(of, test)
-
-        return await self.answer(request, found)
 
     async def answer_tables(self, request: HttpRequest) -> Response:
         """Answer with the forecast of tables across axes, write them, or hold circles against them."""
@@ -207,19 +171,10 @@ def _write(
     return request.effect
 
 
-def _undo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_undoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
-
-
-def _redo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, find_redoable(BenchJournal.of(bench.path).read_entries(), loaded.digest))
-
-
-def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
-    if last is None:
-        raise NothingToUndoError
-    put_back(loaded.machine, last.content)
-    return last.subject if last.action in {UNDO, REDO} else f"{last.action} {last.subject}"
+def _put_back(bench: MachineBench, loaded: LoadedMachine, request: Request) -> str:
+    content, subject = find_last_step(bench.path, loaded.digest, request)
+    put_back(loaded.machine, content)
+    return subject
 
 
 def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
@@ -229,6 +184,6 @@ def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
 _ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = {
     "add": _add,
     "remove": _remove,
-    UNDO: _undo,
-    REDO: _redo,
+    UNDO: _put_back,
+    REDO: _put_back,
 }

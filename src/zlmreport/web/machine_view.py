@@ -30,13 +30,12 @@ from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.web.bench import PLACE
 from zlmreport.web.blocks import collect_blocks, list_all_sections
-from zlmreport.web.journal import REDO, UNDO, BenchJournal, find_redoable, find_undoable
 from zlmreport.web.machine_bench import LoadedMachine, MachineBench, find_fall_of
 from zlmreport.web.machine_graphs import collect_graph, collect_model, collect_residuals, find_readings_of
 from zlmreport.web.machine_tables import list_offered_tables
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import split_symbol
-from zlmreport.web.view import SHOWN, list_step, say_done_by
+from zlmreport.web.view import list_steps
 
 _MOST_FAILURES = 3
 
@@ -72,8 +71,6 @@ class MachineView:
     def list_page(self) -> dict[str, Any]:
         """Return what is shown at once: tests with their graphs, effects, what was done."""
         loaded, machine, names = self.loaded, self.loaded.machine, self.names
-        entries = BenchJournal.of(self.bench.path).read_entries()
-        back = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
         study = self.study
         compared = self.bench.compare(loaded, study)
         keys = machine.file.keys
@@ -109,11 +106,7 @@ class MachineView:
                 "tables": list_offered_tables(self.bench, loaded, self.language),
             },
             "asked": [],
-            "steps": [list_step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
-            **{
-                name: None if each is None else names.name_in(self.say(say_done_by(each)))
-                for name, each in zip((UNDO, REDO), back, strict=True)
-            },
+            **list_steps(self.bench.path, loaded.digest, names),
         }
 
     def list_results(self) -> dict[str, Any]:

@@ -6,7 +6,7 @@ Nothing of it stands in the job: a step is taken by a click, as any other change
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from zlmreport.document.subjects.fit import write_deviation
@@ -25,12 +25,6 @@ def make_stairs(
 
     `steps`: As ``zlmreport model build --json`` has them, errors in the unit of the job's deviations.
     """
-    return list(_list_stairs(steps, job, registry, names))
-
-
-def _list_stairs(
-    steps: Sequence[Mapping[str, Any]], job: Job, registry: Registry, names: Naming
-) -> Iterator[dict[str, Any]]:
     unit, language = job.axis.deviation_unit, names.language
     largest = max((each["rms_before"] for each in steps), default=0.0) or 1.0
 
@@ -38,10 +32,10 @@ def _list_stairs(
         number = write_deviation(None if value is None else unit.to_si(value), job.axis, language)
         return with_unit(number, unit.symbol)
 
-    for each in steps:
+    def stair(each: Mapping[str, Any]) -> dict[str, Any]:
         removed = bool(each.get("removed"))
         noise = each["noise_rms"]
-        yield {
+        return {
             "effect": each["effect"],
             "argument": _write_argument(each["effect"], each["settings"], job, registry),
             "removed": removed,
@@ -51,6 +45,8 @@ def _list_stairs(
             "share": each["rms_after"] / largest,
             "floor": None if noise is None else min(1.0, noise / largest),
         }
+
+    return [stair(each) for each in steps]
 
 
 def _name_one_of(step: Mapping[str, Any], names: Naming) -> str:

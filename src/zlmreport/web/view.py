@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from zlmreport.document.figures.model_diagram import ModelDiagram
@@ -39,7 +40,7 @@ _STEPS = {
     "redo": Words("done again: {subject}"),
 }
 #: Steps that are shown; the file beside the job holds all of them.
-SHOWN = 30
+_SHOWN = 30
 
 
 def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
@@ -47,8 +48,6 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
     whole = bench.fit_whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     names = panels.naming
-    entries = BenchJournal.of(bench.path).read_entries()
-    steps = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,
         "digest": loaded.digest,
@@ -61,7 +60,6 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
         "others": panels.list_other_effects(),
         "excluded": panels.list_excluded(),
         "offered": list_offered(bench, loaded, language),
-        "steps": [list_step(each, language, names) for each in reversed(entries[-SHOWN:])],
         "asked": [
             {
                 "key": each.key,
@@ -74,10 +72,7 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
                 loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
             )
         ],
-        **{
-            name: None if entry is None else names.name_in(say_done_by(entry).in_language(language))
-            for name, entry in zip((UNDO, REDO), steps, strict=True)
-        },
+        **list_steps(bench.path, loaded.digest, names),
     }
 
 
@@ -130,12 +125,25 @@ def collect_closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> d
     }
 
 
-def list_step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
+def list_steps(path: Path, digest: str, names: Naming) -> dict[str, Any]:
+    """Return what was done on a page, the last first, and what an undo and a redo would take back."""
+    entries = BenchJournal.of(path).read_entries()
+    back = {UNDO: find_undoable(entries, digest), REDO: find_redoable(entries, digest)}
+    return {
+        "steps": [_list_step(each, names) for each in reversed(entries[-_SHOWN:])],
+        **{
+            name: entry and names.name_in(_say_done_by(entry).in_language(names.language))
+            for name, entry in back.items()
+        },
+    }
+
+
+def _list_step(entry: JournalStep, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
-    words = say_done_by(entry)
+    words = _say_done_by(entry)
     if entry.action in {UNDO, REDO}:
         words = _STEPS[entry.action].given(subject=words)
-    return {"at": entry.at[11:19], "text": names.name_in(words.in_language(language))}
+    return {"at": entry.at[11:19], "text": names.name_in(words.in_language(names.language))}
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,7 +159,7 @@ class _StatedKeys:
         return ", ".join((name_key(key) or same(key)).in_language(language) for key in self.keys)
 
 
-def say_done_by(entry: JournalStep) -> Words:
+def _say_done_by(entry: JournalStep) -> Words:
     """Return what a step did; of one that took another back or brought it back, what that did."""
     action, subject = entry.action, entry.subject
     if action in {UNDO, REDO}:

@@ -11,7 +11,7 @@ from zlmreport.document.certificate.conditions import Described
 from zlmreport.document.certificate.cover import split_address
 from zlmreport.document.certificate.digest import digest_of
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords, Party
-from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, lay_out_in_full
+from zlmreport.document.certificate.material import LaidOut, Material, lay_out_in_full
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.own_words import arrange_sections, fill_in
 from zlmreport.document.certificate.statements import (
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from zlmreport.document.certificate.own_look import Logo
     from zlmreport.document.certificate.results import Evaluated, Tested
     from zlmreport.document.figures.figure import Figure
+    from zlmreport.document.subjects.annex import Modelled
     from zlmreport.job.document_keys import Laboratory
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
@@ -45,7 +46,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     evaluated: tuple[Evaluated, ...],
     plugins: Mapping[str, str],
     doubtful: tuple[Words, ...] = (),
-    interpretation: Interpretation | None = None,
+    interpretation: Modelled | None = None,
     as_found: tuple[Evaluated, ...] = (),
     describe: Callable[[Writer], Sequence[Described]] = lambda _: (),
     generator: str = GENERATOR,
@@ -212,7 +213,7 @@ def _lay_out(material: Material) -> LaidOut:
     return lay_out(material)
 
 
-def _link_readings(job: Job, interpretation: Interpretation, writer: Writer) -> Linked | None:
+def _link_readings(job: Job, interpretation: Modelled, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
     keys = job.keys
     is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"

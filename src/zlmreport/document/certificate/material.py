@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from zlmreport.document.certificate import (
     conditions,
@@ -22,35 +22,13 @@ if TYPE_CHECKING:
     from zlmreport.document.blocks import Block, Section
     from zlmreport.document.certificate.attachments import Source
     from zlmreport.document.certificate.conditions import Described
-    from zlmreport.document.certificate.document import Letterhead, Linked
+    from zlmreport.document.certificate.document import Letterhead
     from zlmreport.document.certificate.results import Evaluated, Tested
+    from zlmreport.document.subjects.annex import Modelled
     from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
     from zlmreport.language import Words
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
-
-
-class Interpretation(Protocol):
-    """What the laboratory thinks that the deviations come from: handed in, and no more known of it here."""
-
-    @property
-    def diagnosis(self) -> AxisDiagnosis:
-        """For renderers of data."""
-        ...
-
-    @property
-    def sessions(self) -> tuple[MeasurementSet, ...]:
-        """Other tests that it rests on."""
-        ...
-
-    def lay_out_section(self, writer: Writer) -> Section:
-        """Return the annex."""
-        ...
-
-    def list_linked(self, writer: Writer) -> Linked:
-        """Return the annex's graphs as values, for documents in which readings can be pointed at."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +42,8 @@ class Material:
     doubts: tuple[Words, ...]  #: Sentences on values that seem to be in another unit.
     #: Sentences on what readings show that the job does not say, and on calibrations that do not hold.
     evidence: tuple[Words, ...]
-    interpretation: Interpretation | None  #: By an error model; None where the job names none.
+    #: What the laboratory thinks that the deviations come from; None where the job names no error model.
+    interpretation: Modelled | None
     described: Sequence[Described]  #: What extensions say of their groups of job keys.
     sources: tuple[Source, ...]  #: The files that it is made from.
     #: generator and plugins: Name and version of this program; identifier and version of every plugin that

@@ -21,8 +21,8 @@ from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluate import EvaluatingStandard
     from zlmreport.measurement.units import Unit
+    from zlmreport.plugin.protocols import Standard
 
 #: Title of the fall of the error, and the heading of its first column.
 FALL, EFFECT = Words("How the error falls"), Words("Effect")
@@ -65,7 +65,7 @@ class StandardForecast:
 
 
 def make_forecasts(
-    standards: Iterable[tuple[EvaluatingStandard, Any]], study: Study, history: Sequence[Fitted]
+    standards: Iterable[tuple[Standard, Any]], study: Study, history: Sequence[Fitted]
 ) -> tuple[StandardForecast, ...]:
     """Return the forecast by each standard; none of an error that no control corrects, such as an angle."""
     if not study.measurements.axis.measurand.is_position:

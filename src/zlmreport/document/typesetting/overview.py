@@ -5,7 +5,6 @@ from __future__ import annotations
 from base64 import b64encode
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import ClassVar
 
 from markupsafe import Markup
 
@@ -16,6 +15,7 @@ from zlmreport.document.typesetting.resources import (
     style_sheet,
     write_font_faces,
 )
+from zlmreport.document.typesetting.templates import Context
 
 
 def make_drawing(image: str) -> Markup:
@@ -77,10 +77,10 @@ class OverviewGroupContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewTableContext:
+class OverviewTableContext(Context):
     """A table of the overview."""
 
-    template: ClassVar[str] = "overview_table.html"
+    template = "overview_table.html"
     key: str  #: Its anchor.
     style: str  #: Class name of its columns.
     title: str  #: Its heading.
@@ -111,10 +111,10 @@ class OverviewMachineContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewMachinesContext:
+class OverviewMachinesContext(Context):
     """Every machine with its axes."""
 
-    template: ClassVar[str] = "overview_machines.html"
+    template = "overview_machines.html"
     title: str
     count: str  #: Of axes.
     caption: str
@@ -123,10 +123,10 @@ class OverviewMachinesContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewTrendContext:
+class OverviewTrendContext(Context):
     """A parameter over the years: it is shown when its small graph is chosen."""
 
-    template: ClassVar[str] = "overview_trend.html"
+    template = "overview_trend.html"
     key: str  #: Its anchor.
     title: str
     subtitle: str
@@ -147,10 +147,10 @@ class TileContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewSectionContext:
+class OverviewSectionContext(Context):
     """A section of the overview: its anchor and title, a lead below it, and its tables as markup."""
 
-    template: ClassVar[str] = "overview_section.html"
+    template = "overview_section.html"
     key: str
     title: str
     lead: str
@@ -159,10 +159,10 @@ class OverviewSectionContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewToolsContext:
+class OverviewToolsContext(Context):
     """Search, choices and order of the axes, above their table."""
 
-    template: ClassVar[str] = "overview_tools.html"
+    template = "overview_tools.html"
     #: search and example: Label of the field, and what may stand in it.
     search: str
     example: str
@@ -172,20 +172,20 @@ class OverviewToolsContext:
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewLegendContext:
+class OverviewLegendContext(Context):
     """How to read a small graph: the graph, what each line of it is, and what the tests mean."""
 
-    template: ClassVar[str] = "overview_legend.html"
+    template = "overview_legend.html"
     drawing: Markup
     terms: tuple[tuple[str, str], ...]
     paragraphs: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewContext:
+class OverviewContext(Context):
     """The overview of a fleet: head, headline, tiles, sections, trends."""
 
-    template: ClassVar[str] = "overview.html"
+    template = "overview.html"
     language: str  #: ISO 639-1 code.
     #: title and subtitle: At the head.
     title: str

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 from functools import lru_cache
 from html import unescape
 from math import inf
-from typing import ClassVar, TypeAlias
+from typing import ClassVar
 from xml.etree import ElementTree as ET
 
 from jinja2 import ChoiceLoader, DictLoader, PackageLoader, PrefixLoader, StrictUndefined, TemplateError
@@ -23,18 +23,16 @@ from zlmreport.document.blocks import Facts, Symbol, split_at_symbols
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
-from zlmreport.document.typesetting.overview import (
-    OverviewContext,
-    OverviewLegendContext,
-    OverviewMachinesContext,
-    OverviewSectionContext,
-    OverviewTableContext,
-    OverviewToolsContext,
-    OverviewTrendContext,
-)
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.errors import InputError, Place
 from zlmreport.language.formatting import HELD, WORD_JOINER, Span, hold_together, split_spans
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What a template is rendered with."""
+
+    template: ClassVar[str]  #: Its name.
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,10 +46,10 @@ class CellContext:
 
 
 @dataclass(frozen=True, slots=True)
-class SymbolContext:
+class SymbolContext(Context):
     """A symbol or formula, each stretch with its way of being set."""
 
-    template: ClassVar[str] = "symbol.html"
+    template = "symbol.html"
     spans: tuple[Span, ...]
 
 
@@ -66,10 +64,10 @@ class RowGroupContext:
 
 
 @dataclass(frozen=True, slots=True)
-class TableContext:
+class TableContext(Context):
     """A table."""
 
-    template: ClassVar[str] = "table.html"
+    template = "table.html"
     label: str  #: ``Table 2``.
     caption: Markup  #: What it shows.
     size: str  #: Class name of its type size.
@@ -86,10 +84,10 @@ class TableContext:
 
 
 @dataclass(frozen=True, slots=True)
-class FormulasContext:
+class FormulasContext(Context):
     """Definitions: symbol and formula, set already, and name of each; the rest as in a table."""
 
-    template: ClassVar[str] = "formulas.html"
+    template = "formulas.html"
     label: str
     caption: str
     whole: bool
@@ -98,10 +96,10 @@ class FormulasContext:
 
 
 @dataclass(frozen=True, slots=True)
-class FactsContext:
+class FactsContext(Context):
     """Groups of names and values, in one column or two."""
 
-    template: ClassVar[str] = "facts.html"
+    template = "facts.html"
     columns: tuple[tuple[Facts, ...], ...]
 
     @property
@@ -111,10 +109,10 @@ class FactsContext:
 
 
 @dataclass(frozen=True, slots=True)
-class ParagraphContext:
+class ParagraphContext(Context):
     """A paragraph of running text, which a verdict may begin."""
 
-    template: ClassVar[str] = "paragraph.html"
+    template = "paragraph.html"
     text: Markup
     fine: bool  #: Whether it is in small type.
     shape: str  #: Class name of the verdict's shape; empty without one.
@@ -122,20 +120,20 @@ class ParagraphContext:
 
 
 @dataclass(frozen=True, slots=True)
-class NoticeContext:
+class NoticeContext(Context):
     """A statement that nobody may overlook, or words of somebody else."""
 
-    template: ClassVar[str] = "notice.html"
+    template = "notice.html"
     heading: str
     items: tuple[Markup, ...]
     is_quoted: bool
 
 
 @dataclass(frozen=True, slots=True)
-class GraphContext:
+class GraphContext(Context):
     """A graph with its caption."""
 
-    template: ClassVar[str] = "graph.html"
+    template = "graph.html"
     label: str  #: ``Figure 3``.
     caption: Markup  #: Its title.
     alternative: str  #: What it shows, for those who cannot see it.
@@ -144,14 +142,14 @@ class GraphContext:
 
 
 @dataclass(frozen=True, slots=True)
-class SectionContext:
+class SectionContext(Context):
     """A section: its anchor, number, title, and its blocks as markup.
 
     `is_whole`: Whether no page parts it; `is_joined`: Whether it stays with what ends before it; `kept`: How
     many of its last blocks no page parts, where that is not all of it.
     """
 
-    template: ClassVar[str] = "section.html"
+    template = "section.html"
     key: str
     number: int
     title: str
@@ -163,27 +161,27 @@ class SectionContext:
 
 
 @dataclass(frozen=True, slots=True)
-class LinkedContext:
+class LinkedContext(Context):
     """The place of the linked graphs, which a script fills; `values` is what they show, as JSON."""
 
-    template: ClassVar[str] = "linked.html"
+    template = "linked.html"
     values: Markup
 
 
 @dataclass(frozen=True, slots=True)
-class LetterheadContext:
+class LetterheadContext(Context):
     """Who issues the document; `logo` is the address of the logo, empty without one."""
 
-    template: ClassVar[str] = "letterhead.html"
+    template = "letterhead.html"
     letterhead: Letterhead
     logo: str
 
 
 @dataclass(frozen=True, slots=True)
-class DocumentContext:
+class DocumentContext(Context):
     """The document: head with metadata and style, title, cover, sections, texts for the page margins."""
 
-    template: ClassVar[str] = "document.html"
+    template = "document.html"
     #: What stands beside its blocks: titles, words of the page margins, metadata of the file.
     certificate: Certificate
     style: Markup  #: Style sheets in the document's head; empty where the renderer hands them over otherwise.
@@ -198,42 +196,13 @@ class DocumentContext:
 
 
 @dataclass(frozen=True, slots=True)
-class WorkbenchContext:
+class WorkbenchContext(Context):
     """The page of the workbench, which its scripts fill: language, title, and what it says without them."""
 
-    template: ClassVar[str] = "workbench.html"
+    template = "workbench.html"
     language: str
     title: str
     needs_script: str
-
-
-#: What a template is rendered with.
-Context: TypeAlias = (
-    DocumentContext
-    | LetterheadContext
-    | SectionContext
-    | TableContext
-    | FormulasContext
-    | FactsContext
-    | ParagraphContext
-    | NoticeContext
-    | GraphContext
-    | LinkedContext
-    | SymbolContext
-    | OverviewContext
-    | OverviewSectionContext
-    | OverviewTableContext
-    | OverviewToolsContext
-    | OverviewLegendContext
-    | OverviewMachinesContext
-    | OverviewTrendContext
-    | WorkbenchContext
-)
-
-
-def name_template_of(context: type[Context]) -> str:
-    """Return the name of the template that belongs to a kind of context."""
-    return str(vars(context)["template"])
 
 
 #: Characters that XML 1.0 has no place for, not even escaped.
@@ -274,7 +243,7 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
     prints.
     """
     values = {field.name: getattr(context, field.name) for field in fields(context)}
-    name = name_template_of(type(context))
+    name = context.template
     text = make_environment().get_template(name).render(values)
     if name in dict(own):
         usual, place = text, Place(name)

@@ -12,18 +12,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.budget import Budget
-from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, make_table_of
 from zlmreport.model.compensation.forecast import TableForecast, forecast
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.protocols import Controller
 
 #: Places between two rows of the finest grid at which a grid is looked at, and grids that are.
 _BETWEEN, _MOST_GRIDS = 8, 20
@@ -114,27 +116,11 @@ def make_grid_of(
     return best
 
 
-class TableWriter(Protocol):
-    """What making a table needs of a control (`zlmreport.plugin.Controller`)."""
-
-    identifier: str
-    title: Words
-    confidence: str
-    is_equidistant: bool
-    notes: tuple[Words, ...]
-
-    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
-        """Return its files."""
-
-    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
-        """Return what the control makes of them."""
-
-
 @dataclass(frozen=True, slots=True)
 class Made:
     """A table, with all that it was made from and into."""
 
-    controller: TableWriter  #: The control.
+    controller: Controller  #: The control.
     basis: TableBasis  #: What is known of the axis.
     grid: Grid  #: Where the table has its rows, and why.
     #: Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
@@ -153,7 +139,7 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
     axis: Axis,
     number: str,
     place: Place,
-    controller: TableWriter,
+    controller: Controller,
     own: Any,
     *,
     step: float | None = None,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,7 +14,6 @@ from zlmreport.job.edit import CANDIDATES, WrittenEffect, list_items_written, re
 from zlmreport.job.effect_choices import EffectChoice, find_next_number, number_effect
 from zlmreport.job.formula import find_names_in, parse_formula
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.numbers import write_significant
@@ -43,6 +43,9 @@ from zlmreport.model.fitting.observations import (
 )
 from zlmreport.model.fitting.priors import PriorExpectation
 from zlmreport.model.fitting.sessions import add_zeros, hold_together
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.registry import Registry
 
 #: The effect that is a full polynomial over the position.
 _POLYNOMIAL = "polynomial"
@@ -257,7 +260,7 @@ def find_instrument_error(job: Job, length: float) -> InstrumentError:
 
 
 def read_addition(
-    text: str, job: Job, registry: Installed, effects: Sequence[Effect], place: Place
+    text: str, job: Job, registry: Registry, effects: Sequence[Effect], place: Place
 ) -> tuple[WrittenEffect, tuple[str, ...]]:
     """Return an effect that a person names, and the effects of the model that it takes the place of.
 

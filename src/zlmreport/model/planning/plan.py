@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from zlmreport.errors import InputError, count_in_words
-from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
@@ -28,6 +27,9 @@ from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_P
 from zlmreport.measurement.units import REFERENCE_TEMPERATURE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, plan_path
 from zlmreport.model.planning.targets import makes_whole_turns, sample_targets
+
+if TYPE_CHECKING:
+    from zlmreport.plugin.protocols import Standard
 
 _SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0
@@ -270,17 +272,8 @@ def expect_conditions(
     }
 
 
-class DemandingStandard(Protocol):
-    """The part of a standard that a plan needs (the whole: `zlmreport.plugin.protocols.Standard`)."""
-
-    designation: str
-
-    def requirements(self, measurements: MeasurementSet, options: Any) -> Iterable[Finding]:
-        """Hold the standard's requirements against the test."""
-
-
 #: A standard with its own job keys.
-PlannedStandard: TypeAlias = tuple[DemandingStandard, Any]
+PlannedStandard: TypeAlias = "tuple[Standard, Any]"
 
 
 def choose_count(

@@ -237,7 +237,7 @@ class Registry:
     def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
         """Return a standard, as `find` does; by the name of an identical adoption, too."""
         if identifier not in self.list_identifiers(kinds.STANDARD):
-            from zlmreport.job.installed import list_adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
+            from zlmreport.job.standards import list_adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
 
             for each in self.standards:
                 if identifier in list_adoptions_of(each):
