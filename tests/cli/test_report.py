@@ -199,6 +199,18 @@ def test_jobs_that_write_the_same_files_are_refused(shop: Shop) -> None:
     assert shop.files() == ["CAL-1.json"]
 
 
+def test_numbers_that_differ_in_case_alone_name_the_same_files(shop: Shop) -> None:
+    shop.job(name="one.yaml")
+    shop.job(name="two.yaml", number="cal-1")
+    run = shop.run("one.yaml", "two.yaml")
+    assert run.code == 2
+    assert run.messages == (
+        "two.yaml:3:11: one.yaml writes files of the number CAL-1 to the same folder; "
+        "cal-1 differs from it in case alone\n"
+    )
+    assert shop.files() == ["CAL-1.json"]
+
+
 def test_same_number_in_another_folder_is_no_clash(shop: Shop) -> None:
     shop.job(name="a/one.yaml")
     shop.job(name="b/two.yaml")

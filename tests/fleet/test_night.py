@@ -279,6 +279,26 @@ def test_a_copied_number_is_refused_and_the_certificate_that_has_it_stays(fleet:
     assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED, "z": What.FAILED}
 
 
+def test_two_new_numbers_that_differ_in_case_alone_are_both_refused(fleet: Fleet) -> None:
+    fleet.job("y", ("CAL-Y", "cal-X"))
+    night = fleet.spend()
+    assert night.what == {"x": What.FAILED, "y": What.FAILED}
+    assert "jobs/y.yaml:3:11 (as cal-X) too" in night.of("x").problems[0].message
+
+
+def test_a_number_that_differs_in_case_alone_from_an_issued_one_is_refused(fleet: Fleet) -> None:
+    fleet.spend()
+    fleet.job("z", ("CAL-Z", "Cal-x"))
+    night = fleet.spend()
+    assert night.what == {"x": What.UNCHANGED, "y": What.UNCHANGED, "z": What.FAILED}
+    fleet.job("z")
+    fleet.job("x", ("CAL-X", "CAL-x"))
+    night = fleet.spend()
+    assert night.what == {"x": What.FAILED, "y": What.UNCHANGED, "z": What.ISSUED}
+    assert "differs in case alone from CAL-X" in night.of("x").problems[0].message
+    assert fleet.certificate("x").is_file()
+
+
 def test_a_number_that_another_fleet_issued_is_refused(fleet: Fleet) -> None:
     fleet.spend()
     fleet.write("fleet.yaml", FLEET.replace("Hall North", "Hall South"))

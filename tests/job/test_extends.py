@@ -9,6 +9,7 @@ import pytest
 
 from job.jobs import REGISTRY, SOUND
 from refusals import refused
+from zlmreport.errors import Place
 from zlmreport.job.extends import LONGEST_CHAIN
 from zlmreport.job.loading import load
 from zlmreport.plugin import AccessError, InputError
@@ -82,6 +83,49 @@ def test_mistake_in_an_extended_file_is_placed_there(tmp_path: Path) -> None:
     ).problems
     assert problem.place.file == str(tmp_path / "base.yaml")
     assert (problem.place.line, problem.place.column) == (2, 3)
+
+
+def test_what_each_job_has_of_its_own_is_missing_in_the_job_and_not_in_a_file_that_it_extends(
+    tmp_path: Path,
+) -> None:
+    base = (
+        "certificate: {kind: report}\naxis: {kind: linear, travel: [0, 300]}\n"
+        "measurement: {date: 2026-11-18, source: {plugin: exemplary-text}}\n"
+    )
+    job = "schema: zlmreport/job/1\nextends: base.yaml\nevaluate: [exemplary:1]\n"
+    problems = refused(_loaded, tmp_path, job=job, base=base).problems
+    assert [each.message.split(" is missing")[0] for each in problems] == [
+        "axis.name",
+        "certificate.number",
+        "measurement.source.file",
+    ]
+    assert {each.place for each in problems} == {Place(str(tmp_path / "job.yaml"), 1, 1)}
+
+
+def test_a_group_that_a_job_begins_is_where_it_lacks_a_key(tmp_path: Path) -> None:
+    job = SOUND.replace("    file: six.txt\n", "").replace("    plugin: exemplary-text\n", "    words: []\n")
+    (problem, *_) = refused(
+        _loaded,
+        tmp_path,
+        job=f"extends: base.yaml\n{job}",
+        base="measurement: {source: {plugin: exemplary-text}}\n",
+    ).problems
+    assert problem.place.file == str(tmp_path / "job.yaml")
+
+
+def test_what_an_extended_file_begins_is_missing_there(tmp_path: Path) -> None:
+    base = "certificate: {authorised_by: {function: Head}}\n"
+    (problem,) = refused(_loaded, tmp_path, job=f"extends: base.yaml\n{SOUND}", base=base).problems
+    assert problem.message.startswith("certificate.authorised_by.name is missing")
+    assert problem.place == Place(str(tmp_path / "base.yaml"), 1, 15)
+
+
+@pytest.mark.parametrize("certificate", ["", "certificate: {language: de}\n"])
+def test_a_document_of_several_jobs_lacks_its_number_itself(tmp_path: Path, certificate: str) -> None:
+    document = f"schema: zlmreport/job/1\n{certificate}measurements: [part.yaml]\n"
+    (problem,) = refused(_loaded, tmp_path, job=document, part=SOUND).problems
+    assert problem.message.startswith("certificate.number is missing")
+    assert problem.place == Place(str(tmp_path / "job.yaml"), 2 if certificate else 1, 1)
 
 
 def test_missing_file_is_named_where_it_is_extended(tmp_path: Path) -> None:

@@ -141,17 +141,18 @@ def _try_step(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
 
 def _refuse_shared_files(results: Sequence[JobResult]) -> list[JobResult]:
     """Refuse jobs whose files would overwrite those of a job before them."""
-    first: dict[Path, Path] = {}
+    first: dict[Path, tuple[Path, str]] = {}
     checked = []
     for result in results:
         job = result.job
         if job is None:
             checked.append(result)
             continue
-        stem = job.directory.resolve() / job.keys.certificate.number
-        owner = first.setdefault(stem, result.path)
+        number = job.keys.certificate.number
+        owner, taken = first.setdefault(job.directory.resolve() / number.casefold(), (result.path, number))
         if owner is not result.path:
-            message = f"{owner} writes files of the number {job.keys.certificate.number} to the same folder"
+            message = f"{owner} writes files of the number {taken} to the same folder"
+            message += "" if taken == number else f"; {number} differs from it in case alone"
             error = InputError.at(job.place_of("certificate.number"), message)
             checked.append(replace(result, job=None, error=error))
         else:

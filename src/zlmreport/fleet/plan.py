@@ -82,6 +82,8 @@ def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[PlannedJob, ...]:
     return tuple(_refuse_shared_numbers(planned, evening))
 
 
+_OF_ITS_OWN = "each certificate has one of its own"
+_NOT_BY_CASE = f"{_OF_ITS_OWN}, and case alone makes no other"
 #: What became of a job, before the day.
 _ENDED = {
     State.MADE: "the ledger was made again on",
@@ -130,7 +132,7 @@ def _plan_job(path: Path, why: str, evening: Evening) -> PlannedJob:
         return PlannedJob(path, job, Due.REFUSAL, why, problems=error.problems)
     issued = evening.certificates.get(number)
     planned = PlannedJob(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
-    refusal = _say_refusal(issued, evening) if issued else ""
+    refusal = _say_refusal(issued, evening) if issued else _say_twin(number, evening)
     return _refuse_job(planned, Problem(place, refusal)) if refusal else planned
 
 
@@ -170,20 +172,36 @@ def _say_refusal(issued: Issued, evening: Evening) -> str:
     return ""
 
 
+def _say_twin(number: str, evening: Evening) -> str:
+    """Say that a number was issued in other letters: the files of both are one where case is ignored."""
+    for taken, issued in evening.certificates.items():
+        if taken.casefold() == number.casefold():
+            return (
+                f"the number {number} differs in case alone from {taken}, which was issued on "
+                f"{_read_day(issued.night)} for {issued.job}; {_NOT_BY_CASE}"
+            )
+    return ""
+
+
 def _refuse_shared_numbers(planned: Sequence[PlannedJob], evening: Evening) -> Iterator[PlannedJob]:
     """Yield the jobs, refusing those that have another's number; the one issued with it keeps it."""
     by_number: dict[str, list[PlannedJob]] = defaultdict(list)
     for each in planned:
-        by_number[each.number].append(each)
+        by_number[each.number.casefold()].append(each)
     for each in planned:
-        others = [other for other in by_number[each.number] if other is not each]
+        others = [other for other in by_number[each.number.casefold()] if other is not each]
         if not each.number or not others or _is_rightly_held(each) or each.due is Due.REFUSAL:
             yield each
             continue
         place, *places = (_number_place(one.path, evening.fleet) for one in (each, *others))
+        named = [
+            str(where) if other.number == each.number else f"{where} (as {other.number})"
+            for other, where in zip(others, places, strict=True)
+        ]
+        is_by_case = any(other.number != each.number for other in others)
         message = (
-            f"the number {each.number} stands in {', '.join(map(str, places))} too; each certificate has "
-            "one of its own"
+            f"the number {each.number} stands in {', '.join(named)} too; "
+            f"{_NOT_BY_CASE if is_by_case else _OF_ITS_OWN}"
         )
         yield _refuse_job(each, Problem(place, message))
 

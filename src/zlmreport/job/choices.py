@@ -61,7 +61,8 @@ def _choose_in(
     except InputError as error:
         problems.extend(error.problems)
         return None
-    own = replace(group.without(key), place=place)
+    lacking = place if place.file == group.place.file else group.place
+    own = replace(group.without(key), place=lacking)
     options = validate(plugin.options, own, problems, within=within, also_known=[key])
     return Choice(plugin.identifier, options, place) if options else None
 

@@ -89,13 +89,14 @@ def make_part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
             f"this job is on machine {quoted(serials[0])}, and the document on {quoted(serials[1])}: it is "
             "made of measurements of one machine",
         )
-    certificate = document.entries.get("certificate")
+    none = KeyEntry("certificate", document.place, make_keys_of(document.place))
+    certificate = document.entries.get("certificate", none)
     shared = [document.entries[key] for key in _SHARED if key in document.entries]
-    if certificate and isinstance(certificate.value, Keys):
-        of_all = certificate.value.entries
-        kept = tuple(of_all[key] for key in _OF_CERTIFICATE if key in of_all)
-        group = make_keys_of(certificate.value.place, kept)
-        shared.append(KeyEntry("certificate", certificate.place, group))
+    group = certificate.value
+    if isinstance(group, Keys):
+        of_all = group.entries
+        group = make_keys_of(group.place, tuple(of_all[key] for key in _OF_CERTIFICATE if key in of_all))
+    shared.append(KeyEntry("certificate", certificate.place, group))
     return merge(own.without("certificate"), make_keys_of(own.place, tuple(shared)))
 
 

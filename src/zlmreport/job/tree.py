@@ -13,6 +13,9 @@ from zlmreport.errors import Place
 #: A key, or a place in a list, on the way to a value.
 Step: TypeAlias = str | int
 
+#: Groups in which each job has something of its own: what they lack is added to it, not to what it extends.
+_OF_EACH_JOB = frozenset({"certificate", "axis", "measurement", "as_found", "source"})
+
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 
 
@@ -56,7 +59,7 @@ class KeyEntry:
 class Keys:
     """A group of keys, in the order in which they stand."""
 
-    place: Place
+    place: Place  #: Where it begins; of one that a job takes over and adds to, where the job would have it.
     entries: Mapping[str, KeyEntry]
 
     def without(self, *keys: str) -> Keys:
@@ -94,11 +97,12 @@ def walk(tree: Node, path: tuple[Step, ...]) -> Iterator[tuple[Step, Place, Node
 
 
 def place_of(tree: Node, path: tuple[Step, ...]) -> Place:
-    """Return the place of a value, or of its nearest parent that exists."""
-    place = tree.place
-    for _, place, _ in walk(tree, path):  # noqa: B007 - the last place found is the answer
-        pass
-    return place
+    """Return the place of a value; of a missing one, of its nearest parent in the file that lacks it."""
+    found = [("", tree.place, tree), *walk(tree, path)]
+    *_, (_, place, group) = found
+    if len(found) > len(path) or not isinstance(group, Keys) or group.place.file == place.file:
+        return place
+    return next((each for _, each, _ in reversed(found) if each.file == group.place.file), group.place)
 
 
 def find_key_place(tree: Node, path: tuple[Step, ...]) -> Place:
@@ -119,7 +123,7 @@ def find_at(tree: Node, path: tuple[Step, ...]) -> Node | None:
 
 def merge(base: Keys, own: Keys) -> Keys:
     """Return the keys of two files together: groups are merged, anything else of `own` replaces."""
-    entries = dict(base.entries)
+    entries = {key: _take_over(entry, own.place) for key, entry in base.entries.items()}
     for key, entry in own.entries.items():
         value = entry.value
         inherited = entries.get(key)
@@ -127,6 +131,15 @@ def merge(base: Keys, own: Keys) -> Keys:
             value = merge(inherited.value, value)
         entries[key] = KeyEntry(key, entry.place, value)
     return Keys(own.place, MappingProxyType(entries))
+
+
+def _take_over(entry: KeyEntry, place: Place) -> KeyEntry:
+    """Return a key of another file; a group to which each job adds is where the job would add to it."""
+    group = entry.value
+    if entry.key not in _OF_EACH_JOB or not isinstance(group, Keys):
+        return entry
+    within = (_take_over(each, place) for each in group.entries.values())
+    return KeyEntry(entry.key, entry.place, make_keys_of(place, within))
 
 
 def walk_scalars(tree: Node) -> Iterator[Scalar]:
