@@ -42,6 +42,13 @@ def test_nothing_is_called_sound_above_a_doubt_or_an_incomplete_uncertainty(shop
     assert set(notices) <= set(made)
 
 
+def test_of_a_budget_that_gives_no_u_it_is_told_why(shop: Shop) -> None:
+    shop.job(("evaluate:", "uncertainty: {misalignment: 0.2}\nevaluate:"))
+    notice = "  open     no U: the uncertainty of the measuring instrument is not stated"
+    assert notice in shop.run("check", "job.yaml").output.splitlines()
+    assert notice in shop.run("job.yaml").output.splitlines()
+
+
 def test_a_requirement_stays_in_a_line_where_there_is_room_and_else_says_below_what_was_found(
     shop: Shop, monkeypatch: pytest.MonkeyPatch
 ) -> None:

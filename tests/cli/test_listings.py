@@ -53,6 +53,17 @@ def test_plugins_that_do_not_work_are_listed_with_the_reason(
     assert run.output.endswith("switched off by ZLMREPORT_DISABLE_PLUGINS\n  resting\n")
 
 
+def test_what_two_plugins_provide_is_listed_as_what_no_job_can_use(
+    shop: Shop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    twice = [(Plugin(name, name, "acme", "1"), offering([ExemplaryStandard()])) for name in ("one", "two")]
+    use(monkeypatch, collect(twice))
+    assert " ".join(shop.run("plugins").output.split()).endswith(
+        "provided twice two plugins provide standard 'exemplary:1': one and two; switch one off: "
+        "ZLMREPORT_DISABLE_PLUGINS=two"
+    )
+
+
 @pytest.mark.parametrize("columns", [60, 80])
 def test_a_long_title_has_the_room_that_a_line_leaves(
     columns: int, shop: Shop, monkeypatch: pytest.MonkeyPatch

@@ -331,3 +331,8 @@ def test_whose_a_temperature_is_that_does_not_say_so_is_asked(table: Any) -> Non
     assert asked.startswith("Whose temperature is Temperatur?")
     assert "material_temperature: Temperatur" in asked
     assert set(found.read.conditions) == {"Temperatur"}
+
+
+def test_of_one_target_it_is_said_where_it_is(shop: Shop) -> None:
+    shop.write("one.csv", "target,direction,run,deviation\n125.5,+,1,1\n125.5,-,1,2\n")
+    assert "2 readings of 1 target at 125.5 mm; 1 run" in shop.run("look", "one.csv").output

@@ -121,6 +121,8 @@ def test_what_is_there_is_not_touched(begun: Any, capsys: pytest.CaptureFixture[
             "zlmreport new: there is a module 'numpy' already, and Python would take one",
         ),
         (["renderer", "json"], "zlmreport new: there is a module 'json' already"),
+        (["renderer", "pdf"], "zlmreport new: a plugin provides format 'pdf' already, and jobs could name"),
+        (["effect", "backlash"], "zlmreport new: a plugin provides effect 'backlash' already"),
         (["source", "x", "--from", "job.yaml"], "zlmreport new: --from takes a formula, which is an effect"),
     ],
 )

@@ -101,7 +101,8 @@ def _summarise(read: MeasurementSet) -> str:
     is_circle = read.axis.measurand.is_closed
     target, run, sense = ("angle", "turn", "sense") if is_circle else ("target", "run", "direction")
     senses = f"both {sense}s" if read.is_bidirectional else f"one {sense}"
-    travel = f"from {_write_range(at[0], at[-1], place)}"
+    single = f"at {_write_number(at[0])}{write_behind(place.symbol)}"
+    travel = f"from {_write_range(at[0], at[-1], place)}" if len(at) > 1 else single
     parts = [
         f"{count_in_words(count, 'reading')} of {count_in_words(len(at), target)} {travel}",
         f"{count_in_words(len(read.runs), run)}, {senses}",

@@ -34,7 +34,7 @@ from zlmreport.document.writer import Writer, is_mixed, write_with_uncertainty
 from zlmreport.errors import NOT_MET, InputError, ZlmreportError, as_problems, count_in_words
 from zlmreport.evaluation.evaluation import judge_together
 from zlmreport.evaluation.report import report_parameter
-from zlmreport.evaluation.uncertainty.budget import Budget
+from zlmreport.evaluation.uncertainty.budget import NoBudget
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
@@ -42,7 +42,7 @@ from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, Finding
-    from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+    from zlmreport.evaluation.uncertainty.budget import Budget
     from zlmreport.job.job import Job
     from zlmreport.language import Words
     from zlmreport.measurement.axis import Axis
@@ -397,8 +397,11 @@ def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
 
 
 def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
-    """Yield what U leaves out, where there is one."""
-    if isinstance(result.budget, Budget):
+    """Yield what U leaves out, where there is one; or why there is none, though a budget is stated."""
+    if isinstance(result.budget, NoBudget):
+        if result.job and result.job.keys.uncertainty.model_fields_set:
+            yield from _tell_notice("open", f"no U: {writer.say(result.budget.reason)}")
+    elif result.budget:
         for block in say_uncertainty(result.budget, result.evaluations, writer):
             if isinstance(block, Notice):
                 yield from _tell_notice("open", block.heading)

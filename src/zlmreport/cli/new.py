@@ -37,6 +37,7 @@ _ADVICE = "choose another name, such as 'shop-rule'"
 def run(options: Namespace) -> int:
     """Write the folder of a plugin; no file that is there already is touched."""
     kind, name = _find_kind(options.kind), _check_name(options.name)
+    _refuse_taken(kind, name)
     folder, module = Path(name), _name_module(name)
     documents = make_skeleton_of(kind, name)
     further = ""
@@ -54,7 +55,7 @@ def make_skeleton_of(kind: str, name: str) -> dict[str, bytes]:
     module = _name_module(name)
     meant = {
         "kind": kind,
-        "group": _GROUPS.get(kind, f"zlmreport.{kind}"),
+        "group": _name_group(kind),
         "needed": _NEEDED.get(kind, "zlmreport"),
         "guide": GUIDES[kind],
         "identifier": name,
@@ -131,6 +132,22 @@ def _check_name(named: str) -> str:
             f"there is a module {module!r} already, and Python would take one for the other; {_ADVICE}",
         )
     return named
+
+
+def _refuse_taken(kind: str, name: str) -> None:
+    """Raise `InputError` if an installed plugin is called so: no job could name one of two."""
+    from zlmreport.plugin.kinds import KINDS  # noqa: PLC0415 - likewise
+    from zlmreport.plugin.registry import find_plugins  # noqa: PLC0415
+
+    registry = find_plugins()
+    for each in KINDS:
+        if each.group == _name_group(kind) and name in registry.list_identifiers(each):
+            there = f"a plugin provides {each.label} {name!r} already, and jobs could name neither of two"
+            raise InputError.at(_PLACE, f"{there}; {_ADVICE}")
+
+
+def _name_group(kind: str) -> str:
+    return _GROUPS.get(kind, f"zlmreport.{kind}")
 
 
 def _name_module(name: str) -> str:

@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from zlmreport.cli.terminal import Colour, lay_out_table, print_json, show_path
+from zlmreport.cli.terminal import Colour, lay_out_table, print_json, show_path, wrap
 from zlmreport.language import Language
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.registry import DISABLE, Plugin, Registry, find_plugins
@@ -35,6 +35,10 @@ def _list_plugins(registry: Registry) -> Iterator[str]:
         yield Colour.RED.set("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
         yield from lay_out_table(rows, indent="  ", wrapping=2)
+    if clashes := registry.list_clashes():
+        yield Colour.RED.set("provided twice")
+        for each in clashes:
+            yield from wrap(each)
     if registry.disabled:
         yield f"switched off by {DISABLE}"
         yield from (f"  {name}" for name in registry.disabled)

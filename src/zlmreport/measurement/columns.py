@@ -369,8 +369,11 @@ def find_column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow fr
     try:
         unit = find_unit_named(spelling, known) if spelling else usual
     except ValueError as error:
-        place = stated_at if stated is not None else _place_of_unit(heading, table)
-        raise InputError.at(place, f"column {quoted(heading.text)}: {error}") from error
+        if stated is not None:
+            raise InputError.at(stated_at, f"column {quoted(heading.text)}: {error}") from error
+        said = f"if it is another, the job says so, as in 'units: {{{name}: {usual.symbol}}}'"
+        place = _place_of_unit(heading, table)
+        raise InputError.at(place, f"column {quoted(heading.text)}: {error}; {said}") from error
     return TextColumn(heading.index, heading.text, name, unit, known)
 
 

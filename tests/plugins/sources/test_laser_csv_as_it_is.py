@@ -59,6 +59,14 @@ def test_a_unit_of_another_quantity_in_such_a_row_is_refused_where_it_stands(fil
     )
 
 
+def test_a_unit_that_none_knows_is_answered_with_the_key_that_says_another(file: File) -> None:
+    table = "target (DMS);direction;run;deviation\n1°30′00″;+;1;1\n"
+    rotary = Axis("C", AxisKind.ROTARY)
+    assert file.complaint(table, rotary).endswith("the job says so, as in 'units: {target: °}'")
+    (target,) = file.read(table, rotary, units={"target": "°"}).target_positions
+    assert target == pytest.approx(np.deg2rad(1.5))
+
+
 @pytest.mark.parametrize("heading", ["deviation / nm", "deviation in nm", "deviation, nm", "deviation_nm"])
 def test_a_unit_behind_a_name_counts(file: File, heading: str) -> None:
     measurements = file.read(f"target\tdirection\trun\t{heading}\n0\t+\t1\t2000\n")

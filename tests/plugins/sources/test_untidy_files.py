@@ -120,6 +120,16 @@ def test_a_table_of_several_axes_is_refused_with_their_names(tmp_path: Path) -> 
         look_at(path, REGISTRY)
 
 
+def test_a_misspelt_direction_is_told_at_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "misspelt.csv"
+    path.write_text(
+        "target,direction,run,deviation\n0,forward,1,1\n9,forward,1,2\n9,reverse,1,2\n0,revers,1,1\n",
+        encoding="utf-8",
+    )
+    with pytest.raises(InputError, match=r"misspelt.csv:5:3: 'revers' is no direction; did you mean 'rev"):
+        look_at(path, REGISTRY)
+
+
 def test_of_a_wide_encoding_it_is_told_what_the_table_lacks(tmp_path: Path) -> None:
     path = tmp_path / "wide.txt"
     path.write_bytes("Pos\tF1\tR1\n0\t1\t2\n".encode("utf-16"))

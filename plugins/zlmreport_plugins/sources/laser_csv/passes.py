@@ -26,7 +26,7 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
     targets = [value for value in table.list_numbers(draft.find_column("target") or 0) if value is not None]
     if directions is not None and _are_directions(table.list_cells(directions)):
         taken = [
-            (target, read_direction(cell))
+            (target, _read_direction_or_none(cell))
             for target, cell in zip(targets, table.list_cells(directions), strict=False)
             if cell
         ]
@@ -64,10 +64,16 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
 
 
 def _are_directions(cells: Sequence[str]) -> bool:
+    """Return whether most cells name a direction; one that names none is then told at its place."""
+    named = [cell for cell in cells if cell]
+    return 2 * sum(_read_direction_or_none(cell) is not None for cell in named) > len(named)
+
+
+def _read_direction_or_none(cell: str) -> Approach | None:
     try:
-        return bool([read_direction(cell) for cell in cells if cell])
+        return read_direction(cell)
     except ValueError:
-        return False
+        return None
 
 
 def _find_way_back(targets: Sequence[float]) -> str:

@@ -144,6 +144,15 @@ class Registry:
             if name == kind.name
         )
 
+    def list_clashes(self) -> tuple[str, ...]:
+        """Return a sentence on each name that two plugins provide: no job can use it."""
+        return tuple(
+            _say_provided_twice(kind, identifier, offering)
+            for kind in KINDS
+            for identifier in self.list_identifiers(kind)
+            if len(offering := self._list_offering((kind.name, identifier))) > 1
+        )
+
     @property
     def failed(self) -> tuple[FailedPlugin, ...]:
         """Plugins that were to be loaded and could not be."""
