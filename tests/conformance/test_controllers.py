@@ -76,16 +76,17 @@ EXAMPLES = {
     ),
     # (interval − actual distance) × 2 in units of 0.001 mm: 30 mm that are 30.010 give −20.
     "mitsubishi": ControlExample(
-        {"-increments.txt": "1 -20\n2 10\n"}, ((0, 0, 0), (30, 10, 10), (60, 5, 5)), deviation_step=0.5
+        {"-increments.txt": "1 -20 0 30\n2 10 30 60\n"},
+        ((0, 0, 0), (30, 10, 10), (60, 5, 5)),
+        deviation_step=0.5,
     ),
     "heidenhain": ControlExample(
         {
             ".COM": "BEGIN X_AXIS .COM\nNR AXISPOS  BACKLASH  X\n0     +0.0000   +0.0015   +0.0000\n"
-            "1     +50.2500   +0.0015   +0.0033\n2     +100.5000   +0.0015   -0.0025\n[END]\n",
+            "1     +50.2500   +0.0048   +0.0033\n2     +100.5000   -0.0010   -0.0025\n[END]\n",
             ".CMA": "BEGIN CONFIG .CMA\nNR ACTIVE X\n0  *      KIT-7.COM\n[END]\n",
         },
         ((0, 0, 1.5), (50.25, 3.3, 4.8), (100.5, -2.5, -1)),
-        deviation_step=0.2,  # the play is rounded to 0.1 µm for itself
     ),
     "etalon": ControlExample(
         {

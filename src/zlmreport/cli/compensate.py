@@ -295,6 +295,7 @@ def _collect_values(
             "added": grid.added * factor,
             "allowed": grid.allowed * factor,
         },
+        "assumed": [say(each) for each in made.assumed],
         "unit": unit.ascii,
         "left_out": [name for name, _ in made.left_out],
         "forecast": {

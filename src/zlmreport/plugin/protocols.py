@@ -293,7 +293,10 @@ class Controller(Protocol):
     """A writer and reader of compensation tables in the words of a control.
 
     One more attribute, ``most_rows``, is the number of rows that the control takes; one that lacks it takes
-    any number. One that takes tables across axes has ``cross_sign``, ``known`` or ``stated``: whether it is
+    any number. One that counts its rows from the reference point of the axis, in whole steps, has
+    ``find_reference(axis, options)``, which returns where that is, m or rad.
+    ``list_assumed(table, options)`` yields, in `Words`, what is taken for granted because no key states it.
+    One that takes tables across axes has ``cross_sign``, ``known`` or ``stated``: whether it is
     known which way a positive value moves an axis, or the user has to say; ``cross_notes``, as ``notes``;
     ``cross_files(tables, moves)`` and ``read_cross(files, tables, moves)``, with `CrossTable` values and
     +1 or −1, the way in which a positive value moves the axis.

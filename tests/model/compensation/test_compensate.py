@@ -343,3 +343,36 @@ def test_a_test_of_another_machine_is_refused(folder: Path, capsys: Capture) -> 
     assert main(["compensate", "--unconfirmed", "--confirm", *jobs]) == 2
     message = "it is a test of machine 'M-2', and the table is of machine 'M-1'"
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("last", "travel", "said"),
+    [
+        (330, "", "From 330° to 360°, where the turn is closed, nothing was measured"),
+        (360, "", "0° and 360° are one place: the table has the mean of both there"),
+        (300, "", "From 300° to 360°, where the turn would be closed, nothing was measured"),
+        (330, ", travel: [0, 330]", ""),
+        (330, ", travel: [0, 340]", "The axis goes from 0° to 340°: beyond the targets nothing was measured"),
+    ],
+)
+def test_what_a_table_does_over_the_rest_of_a_turn_is_said(
+    folder: Path, capsys: Capture, last: int, travel: str, said: str
+) -> None:
+    rows = [
+        f"{place},+,{run},{5 * np.sin(np.radians(place)) + run / 10:.3f}"
+        for run in (1, 2)
+        for place in range(0, last + 1, 30)
+    ]
+    (folder / "c.csv").write_text("target,direction,run,deviation\n" + "\n".join(rows), encoding="utf-8")
+    (folder / "c.yaml").write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: C-1, kind: report}\n"
+        f"axis: {{name: C, kind: rotary, compensation_table: none{travel}}}\n"
+        'measurement: {source: {plugin: laser-csv, file: c.csv}}\nevaluate: ["iso230-2:2014"]\n',
+        encoding="utf-8",
+    )
+    assert main(["compensate", "c.yaml", "--controller", "linuxcnc", "-o", "out"]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert said in text
+    assert ("the turn" in text or "one place" in text) == (bool(said) and "travel" not in travel)
+    closed = {330: 360.0, 360: 360.0, 300: 300.0}[last] if not travel else float(last)
+    assert np.loadtxt(folder / "out" / "C-1.comp")[-1, 0] == pytest.approx(closed)

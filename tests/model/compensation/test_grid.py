@@ -7,7 +7,7 @@ import pytest
 
 from zlmreport.model.compensation.basis import ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import ErrorCurve
-from zlmreport.model.compensation.making import Grid, GridReason, make_grid_of
+from zlmreport.model.compensation.making import Grid, GridReason, GridRules, make_grid_of
 from zlmreport.plugin import Approach, FloatArray, Place
 
 PLACE = Place("test")
@@ -29,7 +29,8 @@ def known_by(single: float, **of_waves: object) -> TableBasis:
 
 
 def chosen(basis: TableBasis, **control: object) -> Grid:
-    return make_grid_of(basis, PLACE, **control)
+    step = control.pop("step", None)
+    return make_grid_of(basis, PLACE, step=step, rules=GridRules(**control))
 
 
 def test_rows_stand_at_the_targets_where_lines_between_them_are_within_u() -> None:

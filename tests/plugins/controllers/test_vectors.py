@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from decimal import Decimal
@@ -118,12 +119,14 @@ def test_fanuc_sums_what_its_manual_plots() -> None:
     steps = (2, 1, 1, -2, 0, -1, 0, -1, 2, 1, 0, -1, -1, -2, 0, 1, 2)
     text = "".join(f"N1{33 + row:04d}P{step}\n" for row, step in enumerate(steps))
     of = table([-400.0 + 50 * row for row in range(18)], [0.0] * 18)
-    found = -decoded("fanuc", {".txt": f"%\n{text}%\n"}, of, reference=32).forward * 1e6
+    found = -decoded("fanuc", {".txt": f"%\n{text}%\n"}, of, reference=40).forward * 1e6
     by_number = dict(zip(range(32, 50), np.round(found).astype(int).tolist(), strict=True))
     assert [by_number[number] for number in (40, 41, 49, 39, 35, 32)] == [0, 2, 2, 1, 4, 0]
     assert (min(by_number.values()), max(by_number.values())) == (-1, 4)
     meant = table(of.positions * 1e3, -np.cumsum([0, *steps]))
-    assert written("fanuc", meant, reference=32)[".txt"] == f"%\n{text}%\n"
+    files = written("fanuc", meant, reference=40)
+    assert files[".txt"] == f"%\n{text}%\n"
+    assert files["-parameters.txt"] == "3620 40\n3621 33\n3622 49\n3623 1\n3624 50 mm\n"
 
 
 def test_fanuc_rounds_the_running_sum() -> None:
@@ -135,7 +138,10 @@ def test_fanuc_rounds_the_running_sum() -> None:
 def test_fanuc_in_both_directions_is_two_tables_and_what_is_between_them() -> None:
     keys = {"reference": 0, "reverse": 60, "magnification": 3}
     files = written("fanuc", curve(), **keys)
-    assert files["-parameters.txt"] == "3623 3\n3624 30 mm\n3605#0 1\n3626 60\n3627 -4\n"
+    assert files["-parameters.txt"] == (
+        "3620 0\n3621 1\n3622 10\n3623 3\n3624 30 mm\n3605#0 1\n3626 60\n3627 -4\n"
+    )
+    assert re.findall(r"N1(\d+)P", files[".txt"]) == [f"{n:04d}" for n in (*range(1, 11), *range(60, 70))]
     found = decoded("fanuc", files, curve(), **keys)
     gap = (found.reverse - found.forward) * 1e6
     assert gap == pytest.approx(np.full(11, 12.0), abs=3.0)
@@ -148,13 +154,15 @@ def test_fanuc_has_no_number_beyond_its_last() -> None:
     """Numbers of the control are 0 to 1023; eleven rows from 1013 have the increments 1014 to 1023."""
     text = written("fanuc", curve(), reference=1013, magnification=4)[".txt"]
     assert text.splitlines()[-2].startswith("N11023P")
-    for keys in ({"reference": 1014}, {"reference": 0, "reverse": 1014}):
-        with pytest.raises(InputError, match="the last row has the number 1024"):
+    for keys in ({"reference": 1014}, {"reference": 0, "reverse": 1015}):
+        with pytest.raises(InputError, match="a row has the number 1024"):
             written("fanuc", curve(), magnification=4, **keys)
 
 
 def test_fanuc_states_magnification_and_interval() -> None:
-    assert written("fanuc", curve(), magnification=4)["-parameters.txt"] == "3623 4\n3624 30 mm\n"
+    assert written("fanuc", curve(), magnification=4)["-parameters.txt"] == (
+        "3620 40\n3621 41\n3622 50\n3623 4\n3624 30 mm\n"
+    )
 
 
 @pytest.mark.parametrize("name", ["siemens-840d", "siemens-840d-cec", "isg", "heidenhain", "etalon"])
@@ -173,17 +181,19 @@ def test_etalon_has_all_digits_of_a_long_axis() -> None:
 def test_mitsubishi_doubles_what_an_interval_is_too_short() -> None:
     """(interval − actual distance) × 2 in units of 0.001 mm: 30 mm that are 30.010 give −20."""
     text = written("mitsubishi", table([0, 30, 60], [0.0, 10.0, 5.0]))["-increments.txt"]
-    assert text == "1 -20\n2 10\n"
+    assert text == "1 -20 0 30\n2 10 30 60\n"
     with pytest.raises(InputError, match="127"):
         written("mitsubishi", table([0, 30], [0.0, 64.0]))
 
 
-def test_heidenhain_has_play_beside_the_forward_deviation() -> None:
-    files = written("heidenhain", curve())
+@pytest.mark.parametrize(("wanted", "back"), [(None, 0.009), ("reverse", 0.009), ("play", 0.012)])
+def test_heidenhain_has_the_deviation_back_beside_that_forward(wanted: str | None, back: float) -> None:
+    """Technical manual MANUALplus 620, 6.10: BACKLASH has what was measured in the negative direction."""
+    files = written("heidenhain", curve(), backlash=wanted)
     rows = [line.split() for line in files[".COM"].splitlines()]
     assert rows[1] == ["NR", "AXISPOS", "BACKLASH", "X"]
-    assert rows[2] == ["0", "+0.0000", "+0.0120", "-0.0030"]
-    assert rows[12] == ["10", "+300.0000", "+0.0120", "+0.0504"]
+    assert rows[2] == ["0", "+0.0000", f"{back:+.4f}", "-0.0030"]
+    assert rows[12] == ["10", "+300.0000", f"{back + (wanted != 'play') * 0.0534:+.4f}", "+0.0504"]
     assert rows[-1] == ["[END]"]
     assert [line.split() for line in files[".CMA"].splitlines()][1:3] == [
         ["NR", "ACTIVE", "X"],

@@ -34,6 +34,7 @@ from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict
+from zlmreport.model.compensation.curve import TURN, find_open_part, wrap
 from zlmreport.model.compensation.making import GridReason
 
 if TYPE_CHECKING:
@@ -96,6 +97,8 @@ _BEFORE, _SECOND_TEST = Words("Before"), Words("Second test")
 _FORECAST = Words("Forecast from the files as the control reads them")
 #: U of E, M, B and A by their symbols, before and with the table, in the unit of deviations.
 Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
+#: By how much a row may stand off the outermost target and be there, m or rad.
+_NEAR = 1e-9
 #: Of what is left, m or rad: the rounding of doubles is no curve.
 _DIGITS_DRAWN = 12
 #: What was done to the axis between two tests.
@@ -179,7 +182,11 @@ def lay_out_forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -
     return Section(
         "forecast",
         say(_FORECAST),
-        (Table(say(_FORECAST), columns, (RowGroup(rows),)), *(Paragraph(say(each)) for each in sentences)),
+        (
+            Table(say(_FORECAST), columns, (RowGroup(rows),)),
+            *(Paragraph(say(each), Mark.OPEN) for each in made.assumed),
+            *(Paragraph(say(each)) for each in sentences),
+        ),
     )
 
 
@@ -271,11 +278,11 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         yield _ALLOWED.given(allowed=amount(made.grid.allowed))
     if not made.basis.is_known_between:
         yield _UNKNOWN_BETWEEN
-    yield from _list_ends(made, writer)
+    yield from _list_ends(made, writer, amount)
     if _find_constant(made):
-        yield Words("The control's table begins at zero: a constant of {constant} was taken out.").given(
-            constant=amount(-found.constant)
-        )
+        yield Words(
+            "The control's table is zero at the reference point: a constant of {constant} was taken out."
+        ).given(constant=amount(-found.constant))
     if found.play:
         yield Words(
             "The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
@@ -296,13 +303,25 @@ def _list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
         yield _BOTH_SET_UPS if found.has_set_up else _SCATTER_ALONE
 
 
-def _list_ends(made: Made, writer: Writer) -> Iterator[Words]:
-    """Yield that rows end before the targets, and these before the axis."""
+def _list_ends(made: Made, writer: Writer, amount: Callable[[float], str]) -> Iterator[Words]:
+    """Yield that rows end before the targets or beyond, these before the axis, and what is over the turn."""
     axis, targets = made.meant.axis, made.basis.curve.positions
     first, last = (_write_length(float(targets[end]), writer) for end in (0, -1))
-    row = _write_length(float(made.decoded.positions[-1]), writer)
-    if made.decoded.positions[-1] < targets[-1] and row != last:
-        yield _ENDS_BEFORE.given(row=row, target=last)
+    rows = made.decoded.positions
+    low, high = (_write_length(float(rows[end]), writer) for end in (0, -1))
+    open_part = find_open_part(axis, targets)
+    if open_part is not None:
+        after = _write_length(float(targets[0]) + TURN, writer)
+        if made.meant.is_closed:
+            yield (_ONE_PLACE if last == after else _GOES_ROUND).given(first=first, last=last, after=after)
+        else:
+            jump = float(np.abs(made.decoded.at(targets[[0]]) - made.decoded.at(targets[[-1]])).max())
+            yield _STAYS_OPEN.given(last=last, after=after, jump=amount(jump))
+        return
+    if rows[-1] < targets[-1] and high != last:
+        yield _ENDS_BEFORE.given(row=high, target=last)
+    if (rows[0] < targets[0] and low != first) or (rows[-1] > targets[-1] and high != last):
+        yield _HELD_BEYOND.given(low=low, high=high)
     if axis.travel is None:
         return
     low, high = (_write_length(each, writer) for each in axis.travel)
@@ -310,6 +329,17 @@ def _list_ends(made: Made, writer: Writer) -> Iterator[Words]:
         yield _BEYOND_TARGETS.given(low=low, high=high)
 
 
+_GOES_ROUND = Words(
+    "From {last} to {after}, where the turn is closed, nothing was measured: the table goes over it in a "
+    "straight line, as between two targets."
+)
+_ONE_PLACE = Words("{first} and {last} are one place: the table has the mean of both there.")
+_STAYS_OPEN = Words(
+    "From {last} to {after}, where the turn would be closed, nothing was measured, and that is further than "
+    "between any two targets: the table is not closed over it. There its last value is taken to hold, and "
+    "where the turn begins again it jumps by {jump}. Targets on the whole turn close it."
+)
+_HELD_BEYOND = Words("The rows go from {low} to {high}: beyond the targets they hold the end values.")
 #: The last digit that deviations are written with, µm or ″.
 _LEAST_WRITTEN = 0.01
 _LEFT = Words(
@@ -376,12 +406,22 @@ def _find_constant(made: Made) -> float:
     return found.constant if abs(found.constant) > found.rounding else 0.0
 
 
+def _list_measured_rows(made: Made) -> FloatArray:
+    """Return the rows within what was measured; the targets, if none is."""
+    rows, targets = made.meant.positions, made.basis.curve.positions
+    if made.meant.is_closed:
+        rows = np.unique(wrap(rows, float(targets[0])))
+    inside = rows[(rows >= targets[0] - _NEAR) & (rows <= targets[-1] + _NEAR)]
+    return read_only_floats(inside if len(inside) else targets)
+
+
 def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     say, unit = writer.say, writer.deviation_unit
     constant = _find_constant(made)
     # what a check can see best
-    worst = int(np.argmax(np.abs(made.decoded.at(made.meant.positions).sum(axis=0))))
-    at = made.meant.positions[worst : worst + 1]
+    places = _list_measured_rows(made)
+    worst = int(np.argmax(np.abs(made.decoded.at(places).sum(axis=0))))
+    at = places[worst : worst + 1]
 
     def both(values: FloatArray) -> str:
         up, down = (_write_signed(unit.from_si(float(each[0])), writer) for each in values)
@@ -401,12 +441,15 @@ def _draw_figure(made: Made, writer: Writer) -> Figure:
     """Return the picture: means and table above, what is left below; beside a constant that was taken out."""
     curve, printed = made.basis.curve, writer.deviation_unit.from_si
     targets = read_only_floats(writer.position_unit.from_si(curve.positions))
-    rows = read_only_floats(writer.position_unit.from_si(made.decoded.positions))
+    places = made.decoded.positions
+    if made.meant.is_closed:
+        places = np.append(np.unique(wrap(places[:-1], float(curve.positions[0]))), curve.positions[0] + TURN)
+    rows = read_only_floats(writer.position_unit.from_si(places))
     constant = _find_constant(made)
     means, rest = np.stack([curve.forward, curve.reverse]) + constant, made.forecast.left + constant
-    table = np.stack([made.decoded.forward, made.decoded.reverse])
+    table = made.decoded.at(places)
     if made.active is not None:
-        table = table - made.active.at(made.decoded.positions)
+        table = table - made.active.at(places)
     directions = [each.index for each in curve.approaches]
 
     def curves(

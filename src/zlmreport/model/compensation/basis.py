@@ -17,7 +17,7 @@ import numpy as np
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.compensation.curve import ErrorCurve
+from zlmreport.model.compensation.curve import ErrorCurve, Function
 from zlmreport.model.diagnosis.study import BY_TABLE, correct_by_model
 from zlmreport.model.effects.design import place_at_positions
 from zlmreport.model.fitting.curve import find_waves_along
@@ -27,8 +27,6 @@ from zlmreport.model.fitting.observations import Observations
 #: Rows of a table that a wave needs in each of its periods.
 ROWS_A_PERIOD = 4
 _ROUNDING = 1e-9
-#: m or rad anywhere, shape (2, …): forward, reverse.
-Function = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)

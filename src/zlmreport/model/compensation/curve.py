@@ -5,6 +5,8 @@ One sign for all: e = actual − nominal. A controller turns it where it has to,
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,8 +15,15 @@ from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.measurement.axis import Axis, refuse_other_than_positions
+from zlmreport.measurement.axis import Axis, AxisKind, refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: Of a rotary axis, rad.
+TURN = 2 * math.pi
+#: By how much two angles differ that are one, rad.
+_ALIKE = 1e-6
+#: m or rad anywhere, shape (2, …): forward, reverse.
+Function = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +61,8 @@ class CompensationTable:
         The deviations e that the control is to take away, m or rad.
     place
         Where the table is asked for: for messages about what a control cannot take.
+    is_closed
+        Whether the table goes round a rotary axis: its last row is the first one, a turn on.
     """
 
     axis: Axis
@@ -60,10 +71,15 @@ class CompensationTable:
     forward: FloatArray
     reverse: FloatArray
     place: Place
+    is_closed: bool = False
 
     def at(self, positions: FloatArray) -> FloatArray:
-        """Return what the control takes away, shape (2, …): linear between rows, the end value outside."""
-        return np.stack([np.interp(positions, self.positions, each) for each in (self.forward, self.reverse)])
+        """Return what the control takes away, shape (2, …).
+
+        Linear between rows; outside the end value, but that of a table that is closed repeats every turn.
+        """
+        values = np.stack([self.forward, self.reverse])
+        return interpolate_rows(positions, self.positions, values, is_closed=self.is_closed)
 
 
 def make_error_curve(measurements: MeasurementSet, place: Place) -> ErrorCurve:
@@ -96,21 +112,96 @@ def make_error_curve(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     )
 
 
-def make_table_of(
-    deviations: FloatArray, rows: FloatArray, axis: Axis, number: str, place: Place
+def interpolate_rows(
+    positions: FloatArray, rows: FloatArray, values: FloatArray, *, is_closed: bool
+) -> FloatArray:
+    """Return values of shape (…, g) between their rows; outside the end value, or that of a turn before."""
+    if is_closed:
+        return np.stack([np.interp(positions, rows[:-1], each[:-1], period=TURN) for each in values])
+    return np.stack([np.interp(positions, rows, each) for each in values])
+
+
+def has_whole_turn(axis: Axis) -> bool:
+    """Return whether an axis turns round and round, as far as the job states its travel."""
+    travel = axis.travel
+    return axis.kind is AxisKind.ROTARY and (travel is None or travel[1] - travel[0] >= TURN - _ALIKE)
+
+
+def find_open_part(axis: Axis, targets: FloatArray) -> float | None:
+    """Return how much of a turn lies beyond the targets, rad; None for an axis that does not turn round.
+
+    Nothing is open, and None is returned, where the targets go further than a turn.
+    """
+    left = TURN - float(targets[-1] - targets[0])
+    return max(0.0, left) if has_whole_turn(axis) and left > -_ALIKE else None
+
+
+def closes(axis: Axis, targets: FloatArray) -> bool:
+    """Return whether a table of these targets can go round: no more is open than between two of them."""
+    left = find_open_part(axis, targets)
+    return left is not None and left <= float(np.diff(targets).max()) + _ALIKE
+
+
+def wrap(positions: FloatArray, first: float) -> FloatArray:
+    """Return positions within the turn that begins at the first, rad."""
+    return np.asarray(first + np.mod(positions - first, TURN))
+
+
+def reach_beyond(known: Function, targets: FloatArray, *, is_closed: bool) -> Function:
+    """Return a function of what was measured for positions beyond the targets, too.
+
+    Its end values are held there. Of one that is closed a straight line leads over the open part of the turn
+    to the first target; where first and last target are one place, it has the mean of both there.
+    """
+    first, last = float(targets[0]), float(targets[-1])
+    if not is_closed:
+        return lambda at: known(np.clip(at, first, last))
+    ends = known(np.array([first, last]))
+    apart = ends[:, :1] - ends[:, 1:]
+    left = max(0.0, TURN - (last - first))
+
+    def closed(at: FloatArray) -> FloatArray:
+        within = wrap(at, first)
+        values = known(np.minimum(within, last))
+        if left > _ALIKE:
+            return values + apart * np.clip((within - last) / left, 0.0, 1.0)
+        return values + apart * np.interp(within, targets[[0, 1, -2, -1]], [-0.5, 0.0, 0.0, 0.5])
+
+    return closed
+
+
+def make_table_of(  # noqa: PLR0913, PLR0917 - what it holds, where, and of what
+    deviations: FloatArray,
+    rows: FloatArray,
+    axis: Axis,
+    number: str,
+    place: Place,
+    turn_from: float | None = None,
 ) -> CompensationTable:
     """Return the table of deviations, with that of a table that was active during the test added.
 
     `deviations`, (2, g): What is left at the rows, forward and reverse, m or rad.
     `rows`, (g,): m or rad.
     `axis`, `number`, `place`: As of `CompensationTable`; the axis has the table that was active.
+    `turn_from`: Where the turn begins in which the axis was measured, of a table that is closed, rad.
     """
     old = axis.compensation_table
+    at = rows if turn_from is None else wrap(rows, turn_from)
     forward, reverse = (
-        read_only_floats(each + (old.at(rows, direction) if old else 0.0))
+        each + (old.at(at, direction) if old else 0.0)
         for each, direction in zip(deviations, (1.0, -1.0), strict=True)
     )
-    return CompensationTable(axis, number, read_only_floats(rows), forward, reverse, place)
+    if turn_from is not None:
+        forward[-1], reverse[-1] = forward[0], reverse[0]
+    return CompensationTable(
+        axis,
+        number,
+        read_only_floats(rows),
+        read_only_floats(forward),
+        read_only_floats(reverse),
+        place,
+        is_closed=turn_from is not None,
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect
 from zlmreport.evaluation.uncertainty.sampling import sample_singly
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.compensation.basis import TableBasis, join_directions
-from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve, halve_play
+from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve, halve_play, wrap
 
 #: Places between two rows at which the table is looked at.
 _BETWEEN = 16
@@ -100,7 +100,7 @@ def forecast(
     off = decoded.at(meant.positions) - target
     constant = float(off.mean())
     play = 0.0 if is_directional else float(np.mean(rows[0] - rows[1]))
-    fine = _lay_fine_places(meant.positions, curve.positions)
+    fine = _lay_fine_places(meant, curve.positions)
     known, gone = basis.known(fine), active.at(fine) if active else 0.0
     worst_at = np.abs(known + gone - decoded.at(fine) + constant).max(axis=0)
     worst = int(np.argmax(worst_at))
@@ -136,10 +136,12 @@ def _foretell(
     return compute_figures(np.stack([curve.forward, curve.reverse]) - change, curve), shown
 
 
-def _lay_fine_places(rows: FloatArray, targets: FloatArray) -> FloatArray:
+def _lay_fine_places(table: CompensationTable, targets: FloatArray) -> FloatArray:
     """Return places between the rows, within what was measured."""
-    stretches = [np.linspace(a, b, _BETWEEN) for a, b in pairwise(rows.tolist())]
+    stretches = [np.linspace(a, b, _BETWEEN) for a, b in pairwise(table.positions.tolist())]
     fine: FloatArray = np.unique(np.concatenate(stretches))
+    if table.is_closed:
+        fine = np.unique(wrap(fine, float(targets[0])))
     inside: FloatArray = fine[(fine >= targets[0]) & (fine <= targets[-1])]
     return inside
 

@@ -5,10 +5,15 @@ between them miss below the uncertainty of a mean, and never more than the contr
 that are two of their distances long or longer (the sampling theorem), and a wave needs `ROWS_A_PERIOD` rows:
 so a grid has at most twice as many intervals as the targets. Rows at the targets themselves come first, where
 a control takes rows that are unequally far apart.
+
+A control that counts its rows from the reference point of the axis gets them in whole steps from there, to
+beyond both ends of what was measured. A table that goes round a rotary axis has one turn of rows, the last at
+the place of the first.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
@@ -18,10 +23,18 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.budget import Budget
+from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
-from zlmreport.model.compensation.curve import CompensationTable, make_table_of
+from zlmreport.model.compensation.curve import (
+    TURN,
+    CompensationTable,
+    closes,
+    interpolate_rows,
+    make_table_of,
+    reach_beyond,
+)
 from zlmreport.model.compensation.forecast import TableForecast, forecast
 
 if TYPE_CHECKING:
@@ -33,6 +46,10 @@ _BETWEEN, _MOST_GRIDS = 8, 20
 _NOTHING = 1e-12
 #: More rows than any control takes; and what a double makes of a whole number of steps.
 _MOST_STEPS, _ROUNDING = 10_000, 1e-9
+#: What two places differ by that are one, rad; and the part of a finest step that counts for nothing.
+_SAME = 1e-6
+#: The finest step in which positions are entered at a control that does not say otherwise, mm or °.
+_FINEST = 0.001
 
 
 class GridReason(StrEnum):
@@ -73,47 +90,109 @@ def count_steps(length: float, step: float, place: Place) -> int:
     return int(count)
 
 
+@dataclass(frozen=True, slots=True)
+class GridRules:
+    """Where a control takes rows."""
+
+    is_equidistant: bool = False  #: Whether they must be equally far apart.
+    most_rows: int | None = None  #: None for any number.
+    #: From where it counts them, m or rad; None where each has its position.
+    reference: float | None = None
+    #: The least difference of two steps, m or rad; 0 for any.
+    finest_step: float = 0.0
+    is_closed: bool = False  #: Whether they go round a rotary axis.
+
+
 def make_grid_of(
-    basis: TableBasis,
-    place: Place,
-    *,
-    step: float | None = None,
-    is_equidistant: bool = False,
-    most_rows: int | None = None,
+    basis: TableBasis, place: Place, *, step: float | None = None, rules: GridRules | None = None
 ) -> Grid:
     """Return the grid of a table.
 
     `step`: Distance of the rows, m or rad; None for the rule.
 
-    Raises `InputError` if the step is refused by `count_steps`.
+    Raises `InputError` if the step is refused by `count_steps`, or does not go into a turn.
     """
+    rules = rules or GridRules()
     targets = basis.curve.positions
     first, last, count = float(targets[0]), float(targets[-1]), len(targets)
     places = np.union1d(np.linspace(first, last, 2 * _BETWEEN * count), targets)
     allowed = basis.expanded_uncertainty
 
     def judged(rows: FloatArray, reason: GridReason) -> Grid:
-        wanted = basis.make_wanted(rows)
-        lines = np.stack([np.interp(places, rows, each) for each in wanted(rows)])
-        inside = places <= rows[-1] + _NOTHING
+        wanted = reach_beyond(basis.make_wanted(rows), targets, is_closed=rules.is_closed)
+        lines = interpolate_rows(places, rows, wanted(rows), is_closed=rules.is_closed)
+        inside = places <= (last if rules.is_closed else rows[-1]) + _NOTHING
         missed = float(np.abs(wanted(places) - lines)[:, inside].max())
         return Grid(read_only_floats(rows), reason, missed if missed > _NOTHING else 0.0, allowed)
 
     if step is not None:
-        stated = first + step * np.arange(count_steps(last - first, step, place) + 1)
-        return judged(read_only_floats(stated), GridReason.STATED)
-    most = most_rows or 2 * count
-    grids = [judged(targets, GridReason.TARGETS)] if not is_equidistant and count <= most else []
-    numbers = np.unique(np.linspace(min(count, most), min(2 * count - 1, most), _MOST_GRIDS).astype(int))
-    grids += [
-        judged(read_only_floats(np.linspace(first, last, number)), GridReason.UNCERTAINTY)
-        for number in numbers.tolist()
-    ]
+        return judged(_lay_stated_rows(first, last, step, rules, place), GridReason.STATED)
+    most = rules.most_rows or 2 * count
+    grids = []
+    if not rules.is_equidistant and count + rules.is_closed <= most:
+        at_targets = targets
+        if rules.is_closed:
+            at_targets = np.append(targets[targets < first + TURN - _SAME], first + TURN)
+        grids.append(judged(at_targets, GridReason.TARGETS))
+    grids += [judged(rows, GridReason.UNCERTAINTY) for rows in _list_even_rows(targets, most, rules)]
     best = min(grids, key=lambda grid: (len(basis.list_left_out(grid.rows)), max(grid.added, allowed)))
     if best.added > max(allowed, _NOTHING):
         reason = GridReason.CONTROL if most < 2 * count - 1 else GridReason.SUPPORT
         return Grid(best.rows, reason, best.added, allowed)
     return best
+
+
+def _list_even_rows(targets: FloatArray, most: int, rules: GridRules) -> list[FloatArray]:
+    """Return rows that are equally far apart: no fewer than targets, and at most twice as many intervals."""
+    first, last, count = float(targets[0]), float(targets[-1]), len(targets)
+    if rules.is_closed:
+        around = round(TURN / rules.finest_step) if rules.finest_step else 0
+        whole = [each for each in range(1, 2 * count + 1) if each < most and around % each == 0]
+        fewest = count - (targets[-1] > first + TURN - _SAME)
+        begin = first if rules.reference is None else rules.reference
+        return [_step_from(begin, TURN / each, each) for each in whole if each >= min(fewest, whole[-1])]
+    numbers = np.unique(np.linspace(min(count, most), min(2 * count - 1, most), _MOST_GRIDS).astype(int))
+    if rules.reference is None:
+        return [read_only_floats(np.linspace(first, last, number)) for number in numbers.tolist()]
+    reach = max(last, rules.reference) - min(first, rules.reference)
+    steps = {
+        _round_up(max((last - first) / (number - 1), reach / max(most - 2, 1)), rules.finest_step)
+        for number in numbers.tolist()
+    }
+    return [_step_over(first, last, step, rules.reference) for step in sorted(steps, reverse=True)]
+
+
+def _lay_stated_rows(first: float, last: float, step: float, rules: GridRules, place: Place) -> FloatArray:
+    """Return rows a stated step apart."""
+    if not rules.is_closed:
+        count = count_steps(last - first, step, place)
+        if rules.reference is None:
+            return _step_from(first, step, count)
+        return _step_over(first, last, step, rules.reference)
+    count = count_steps(TURN, step, place)
+    begin = first if rules.reference is None else rules.reference
+    if abs(count * step - TURN) <= _SAME:
+        return _step_from(begin, TURN / count, count)
+    if rules.is_equidistant:
+        raise InputError.at(
+            place, "the table goes round a whole turn, which is no whole number of such steps; state another"
+        )
+    return read_only_floats(np.append(_step_from(begin, step, count), begin + TURN))
+
+
+def _step_from(begin: float, step: float, count: int) -> FloatArray:
+    return read_only_floats(begin + step * np.arange(count + 1))
+
+
+def _step_over(first: float, last: float, step: float, reference: float) -> FloatArray:
+    """Return rows in whole steps from the reference point, which is one, over all that was measured."""
+    low = min(0, math.floor((first - reference) / step + _ROUNDING))
+    high = max(0, math.ceil((last - reference) / step - _ROUNDING))
+    return read_only_floats(reference + step * np.arange(low, high + 1))
+
+
+def _round_up(step: float, finest: float) -> float:
+    return finest * math.ceil(step / finest - _SAME) if finest else step
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +211,9 @@ class Made:
     active: CompensationTable | None
     files: Mapping[str, str]  #: Texts by the ends of their names.
     forecast: TableForecast  #: What the table leaves.
+    #: What is taken for granted of the control and the axis, for nobody stated it.
+    assumed: tuple[Words, ...] = ()
+    reference: float | None = None  #: From where the control counts rows, m or rad.
 
 
 def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
@@ -154,10 +236,19 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
 
     Raises `InputError` if the control would refuse the table, or cut it off.
     """
-    most = getattr(controller, "most_rows", None)
-    grid = make_grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
+    targets, find_reference = basis.curve.positions, getattr(controller, "find_reference", None)
+    rules = GridRules(
+        controller.is_equidistant,
+        getattr(controller, "most_rows", None),
+        find_reference(axis, own) if find_reference else None,
+        axis.position_unit.to_si(_FINEST),
+        closes(axis, targets),
+    )
+    grid = make_grid_of(basis, place, step=step, rules=rules)
     rows, left_out = grid.rows, basis.list_left_out(grid.rows)
-    meant = make_table_of(basis.make_wanted(rows)(rows), rows, axis, number, place)
+    wanted = reach_beyond(basis.make_wanted(rows), targets, is_closed=rules.is_closed)
+    turn_from = float(targets[0]) if rules.is_closed else None
+    meant = make_table_of(wanted(rows), rows, axis, number, place, turn_from)
     files = controller.files(meant, own)
     decoded = controller.read(files, meant, own)
     old = axis.compensation_table
@@ -168,7 +259,9 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
             positions=read_only_floats(old.positions),
             forward=read_only_floats(old.values),
             reverse=read_only_floats(old.reverse or old.values),
+            is_closed=False,
         )
+    find_assumed = getattr(controller, "list_assumed", None)
     return Made(
         controller,
         basis,
@@ -179,4 +272,6 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
         active,
         files,
         forecast(basis, meant, decoded, active, budget),
+        tuple(find_assumed(meant, own)) if find_assumed else (),
+        rules.reference,
     )
