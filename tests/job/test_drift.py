@@ -59,10 +59,7 @@ def test_an_editor_takes_it() -> None:
             {"uncertainty": {"contributions": [{"name": "Nest", "range": 1, "acts": "along-the-length"}]}},
             "along-the-length does not fit: time is no length",
         ),
-        (
-            {"corrections": {"material": {"expansion_coefficient": 11}}},
-            "corrections: belongs to positioning",
-        ),
+        ({"corrections": {"material": {"expansion_coefficient": 11}}}, "corrections: belongs to positioning"),
         (
             {"measurement": {"tests": {"Q1": SOURCE}}},
             "measurement.tests.Q1: 'Q1' is none of the lines of drift",

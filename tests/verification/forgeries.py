@@ -651,9 +651,7 @@ _on_pictures(
     lambda _, picture: picture.__setitem__("/Alternates", Array([])),
 )
 _on_pictures(
-    "mask of a picture",
-    "no logo",
-    lambda _, picture: picture.__setitem__("/Mask", Array([0, 255] * 3)),
+    "mask of a picture", "no logo", lambda _, picture: picture.__setitem__("/Mask", Array([0, 255] * 3))
 )
 
 
