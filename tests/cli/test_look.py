@@ -75,7 +75,7 @@ TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
                 "run": "Passe",
                 "deviation": "Écart",
                 "air_temperature": "Température de l'air",
-            },
+            }
         },
     ),
     "an Italian wide table": (
@@ -90,7 +90,7 @@ TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
                 "direction": "Sentido",
                 "run": "Ciclo",
                 "position": "Posicion real",
-            },
+            }
         },
     ),
     "UTF-16": (LONG.replace(",", "\t").encode("utf-16"), {"encoding": "utf-16"}),

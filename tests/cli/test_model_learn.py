@@ -78,12 +78,7 @@ def test_the_certificate_carries_the_file_and_holds(shop: Shop) -> None:
     ("old", "new", "place", "message"),
     [
         ("linear", "rotary", "job.yaml:", "it was learned from rotary axes, and this one is linear"),
-        (
-            "tests: 8",
-            "measurand: straightness\ntests: 8",
-            "job.yaml:",
-            "from tests of straightness",
-        ),
+        ("tests: 8", "measurand: straightness\ntests: 8", "job.yaml:", "from tests of straightness"),
         ("[1, 3]", "[1]", "priors.yaml:4:", "each ratio has a probability"),
         ("position:", "place:", "priors.yaml:4:", "place"),
         ("zlmreport/priors/1", "zlmreport/job/1", "priors.yaml:1:", "a job"),

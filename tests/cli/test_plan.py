@@ -65,9 +65,7 @@ def lines(folder: Path, capsys: Capture) -> Callable[..., str]:
     return planned
 
 
-def test_json_has_targets_in_mm_and_visits_by_target_direction_and_run(
-    values: Callable[..., Any],
-) -> None:
+def test_json_has_targets_in_mm_and_visits_by_target_direction_and_run(values: Callable[..., Any]) -> None:
     plan = values()
     assert plan["schema"] == "zlmreport/plan/1"
     assert len(plan["targets"]) == 11
@@ -251,10 +249,7 @@ def test_part_programs_that_wait_for_a_folder_are_told(lines: Callable[..., str]
     ("arguments", "message"),
     [
         (["--program", "fanuc"], "a program is a file; state its folder, too: --output DIR\n"),
-        (
-            ["--program", ",", "-o", "plan"],
-            "there is no program in the list; for example fanuc,heidenhain\n",
-        ),
+        (["--program", ",", "-o", "plan"], "there is no program in the list; for example fanuc,heidenhain\n"),
         (["--program", "fanuc,fanuc", "-o", "plan"], "fanuc is listed twice; remove one of them\n"),
         (
             ["--program", "fanux", "-o", "plan"],

@@ -50,10 +50,7 @@ def test_plan_machine_instrument_capture_and_certificate_go_together(specificati
         job.write_text(patient, encoding="utf-8")
         assert main(["capture", str(job)]) == 0
         said += simulation.ended()
-    assert said[2:4] == [
-        "umd1: Laser interferometer display µMD1, emulated\n",
-        f"port: {link}\n",
-    ]
+    assert said[2:4] == ["umd1: Laser interferometer display µMD1, emulated\n", f"port: {link}\n"]
     assert said[6] == "the program has started\n"
     assert not link.exists()
     corrections = "corrections: {air: {assumed: standard air}, datum: -4}\n"

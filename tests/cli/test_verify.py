@@ -11,14 +11,7 @@ from pathlib import Path
 import pytest
 
 from installed import registry
-from verification.issued import (
-    LABORATORY,
-    READINGS,
-    issue,
-    lay_out,
-    with_attachment,
-    with_results,
-)
+from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
 from zlmreport import __version__
 from zlmreport.cli import main
 from zlmreport.verification.findings import CheckedCertificate, QuotedText

@@ -129,8 +129,7 @@ def test_what_was_found_of_one_that_was_adjusted_is_read_from_the_digital_certif
         "as_found: {work: repair, adjustment: New nut., measurement: {date: 2026-11-16, source: FOUND}}\n"
     )
     shop.write(
-        "positioning.yaml",
-        POSITIONING + adjusted.replace("FOUND", "{plugin: laser-csv, file: found.csv}"),
+        "positioning.yaml", POSITIONING + adjusted.replace("FOUND", "{plugin: laser-csv, file: found.csv}")
     )
     part = results(shop, whole("dcc, json"))["parts"]["EXX"]
     (shop.folder / "MACHINE-1.xml").rename(shop.folder / "given.xml")

@@ -35,12 +35,7 @@ def _diagnosis(rows: list[tuple[float, int, int, float]]) -> AxisDiagnosis:
     target, direction, run, deviation = (np.array(column) for column in zip(*rows, strict=True))
     positions, index = np.unique(target, return_inverse=True)
     measurements = MeasurementSet(
-        Axis("X"),
-        MILLIMETRE.to_si(positions),
-        index,
-        direction,
-        run,
-        MICROMETRE.to_si(deviation),
+        Axis("X"), MILLIMETRE.to_si(positions), index, direction, run, MICROMETRE.to_si(deviation)
     )
     return diagnose(
         model_of("offset", "scale-error", "backlash"), make_observations_of(measurements), INSTALLED

@@ -54,9 +54,7 @@ def needs(*entries: LedgerEntry, **options: Any) -> str:
 
 CALM = history([8.0, 8.4, 8.1, 8.3, 8.2])
 FAILURE = of_night(
-    entry(
-        LATEST, job="y/2026.yaml", state=State.FAILED, measured="", message="y.csv:3:4: 'abc' is no number"
-    ),
+    entry(LATEST, job="y/2026.yaml", state=State.FAILED, measured="", message="y.csv:3:4: 'abc' is no number")
 )
 
 

@@ -76,14 +76,7 @@ def test_the_overview_counts_what_is_gone(fleet: Fleet) -> None:
     fleet.spend()
     jobs = [f"jobs/{stem}.yaml" for stem in "vwyz"]
     state = describe_state("Hall North", fleet.entries(), jobs, None)
-    assert state.counts == {
-        "made": 0,
-        "unchanged": 4,
-        "left": 0,
-        "draft": 0,
-        "failed": 0,
-        "vanished": 1,
-    }
+    assert state.counts == {"made": 0, "unchanged": 4, "left": 0, "draft": 0, "failed": 0, "vanished": 1}
     retired = describe_state("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
     assert retired.counts["vanished"] == 0
 

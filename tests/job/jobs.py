@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
+from jsonschema import Draft202012Validator
 from pydantic import BaseModel
 
 from offers import exemplary_registry
 from zlmreport import ZlmreportError
 from zlmreport.job.loading import load
+from zlmreport.job.schema import make_job_schema
 from zlmreport.job.types import find_model_in
 from zlmreport.plugin.extension import Job
+from zlmreport.plugin.registry import Registry
 
 SOUND = """\
 schema: zlmreport/job/1
@@ -58,6 +62,12 @@ def mistakes(text: str | bytes, folder: Path) -> list[str]:
     except ZlmreportError as error:
         return [str(problem).removeprefix(f"{folder}/") for problem in error.problems]
     return []
+
+
+@cache
+def make_editor(registry: Registry = REGISTRY) -> Draft202012Validator:
+    """Return what holds a job against the schema, as editors do."""
+    return Draft202012Validator(make_job_schema(registry), format_checker=Draft202012Validator.FORMAT_CHECKER)
 
 
 def list_groups(model: type[BaseModel]) -> set[type[BaseModel]]:

@@ -18,11 +18,7 @@ def of(*standards: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(
-    ("adoption", "standard"),
-    [
-        ("BS ISO 230-2:2014", "iso230-2:2014"),
-        ("JIS B 6190-1:2016", "iso230-1:2012"),
-    ],
+    ("adoption", "standard"), [("BS ISO 230-2:2014", "iso230-2:2014"), ("JIS B 6190-1:2016", "iso230-1:2012")]
 )
 def test_an_identical_adoption_is_its_standard(adoption: str, standard: str) -> None:
     assert registry().standard(adoption).identifier == standard

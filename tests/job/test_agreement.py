@@ -7,18 +7,14 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-import jsonschema
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from job.jobs import REGISTRY, list_groups, mistakes
-from zlmreport.job.schema import make_job_schema
+from job.jobs import list_groups, make_editor, mistakes
 from zlmreport.plugin.extension import JobKeys
 
-SCHEMA = make_job_schema(REGISTRY)
-VALIDATOR = jsonschema.Draft202012Validator(
-    SCHEMA, format_checker=jsonschema.Draft202012Validator.FORMAT_CHECKER
-)
+VALIDATOR = make_editor()
+SCHEMA = VALIDATOR.schema
 SOUND: dict[str, Any] = {
     "schema": "zlmreport/job/1",
     "certificate": {"number": "R-1", "kind": "report"},

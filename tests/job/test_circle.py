@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import jsonschema
 import pytest
 import yaml
 
+from installed import registry
+from job.jobs import make_editor
 from refusals import mistakes
 from zlmreport.job.loading import load
-from zlmreport.job.schema import make_job_schema
 from zlmreport.plugin import CIRCLE
-from zlmreport.plugin.registry import find_plugins
 
-REGISTRY = find_plugins()
 JOB = {
     "schema": "zlmreport/job/1",
     "certificate": {"number": "CAL-1", "kind": "report"},
@@ -28,7 +26,7 @@ def loaded(folder: Path, **keys):
     path = folder / "job.yaml"
     job = {name: value for name, value in {**JOB, **keys}.items() if value is not None}
     path.write_text(yaml.safe_dump(job, sort_keys=False))
-    return load(path, REGISTRY)
+    return load(path, registry())
 
 
 def test_its_plane_stands_for_the_axis(tmp_path: Path) -> None:
@@ -92,7 +90,7 @@ def test_keys_of_lines_are_refused(tmp_path: Path, key: str, value, said: str) -
 
 
 def test_the_schema_takes_a_circle_instead_of_an_axis_and_not_neither() -> None:
-    validator = jsonschema.Draft202012Validator(make_job_schema(REGISTRY))
-    assert validator.is_valid(JOB)
-    assert not validator.is_valid({key: value for key, value in JOB.items() if key != "circle"})
-    assert not validator.is_valid({**JOB, "circle": {"plane": "XX", "radius": 1, "feed": 1}})
+    editor = make_editor(registry())
+    assert editor.is_valid(JOB)
+    assert not editor.is_valid({key: value for key, value in JOB.items() if key != "circle"})
+    assert not editor.is_valid({**JOB, "circle": {"plane": "XX", "radius": 1, "feed": 1}})

@@ -38,8 +38,7 @@ def test_all_days_to_come_are_told_at_once(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "line",
-    ["next_due: {date: 2032-11-18, agreed: true}", "instrument: {name: Laser, due: 2032-01-01}"],
+    "line", ["next_due: {date: 2032-11-18, agreed: true}", "instrument: {name: Laser, due: 2032-01-01}"]
 )
 def test_what_is_due_may_lie_in_the_future(line: str, tmp_path: Path) -> None:
     assert not refusals(with_lines(line), tmp_path)

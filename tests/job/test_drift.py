@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import jsonschema
 import pytest
 import yaml
 
+from installed import registry
+from job.jobs import make_editor
 from refusals import mistakes
 from zlmreport.job.loading import load
-from zlmreport.job.schema import make_job_schema
 from zlmreport.plugin import DISPLACEMENT, Coordinate
-from zlmreport.plugin.registry import find_plugins
 
-REGISTRY = find_plugins()
 SOURCE = {"source": {"plugin": "channels-csv", "file": "drift.csv"}}
 JOB = {
     "schema": "zlmreport/job/1",
@@ -27,7 +25,7 @@ JOB = {
 def loaded(folder: Path, **keys):
     path = folder / "job.yaml"
     path.write_text(yaml.safe_dump({**JOB, **keys}, sort_keys=False))
-    return load(path, REGISTRY)
+    return load(path, registry())
 
 
 def test_each_test_is_a_sensor_over_time(tmp_path: Path) -> None:
@@ -40,7 +38,7 @@ def test_each_test_is_a_sensor_over_time(tmp_path: Path) -> None:
 
 
 def test_an_editor_takes_it() -> None:
-    jsonschema.validate(JOB, make_job_schema(REGISTRY))
+    assert make_editor(registry()).is_valid(JOB)
 
 
 @pytest.mark.parametrize(
@@ -59,10 +57,7 @@ def test_an_editor_takes_it() -> None:
             {"uncertainty": {"contributions": [{"name": "Nest", "range": 1, "acts": "along-the-length"}]}},
             "along-the-length does not fit: time is no length",
         ),
-        (
-            {"corrections": {"material": {"expansion_coefficient": 11}}},
-            "corrections: belongs to positioning",
-        ),
+        ({"corrections": {"material": {"expansion_coefficient": 11}}}, "corrections: belongs to positioning"),
         (
             {"measurement": {"tests": {"Q1": SOURCE}}},
             "measurement.tests.Q1: 'Q1' is none of the lines of drift",

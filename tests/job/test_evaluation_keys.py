@@ -87,10 +87,7 @@ def test_a_scale_of_the_instrument_is_named_in_per_cent_of_the_reading(tmp_path:
 
 @pytest.mark.parametrize(
     ("sizes", "found"),
-    [
-        ({}, "none"),
-        ({"range": 1, "standard_uncertainty": 1}, "standard_uncertainty and range"),
-    ],
+    [({}, "none"), ({"range": 1, "standard_uncertainty": 1}, "standard_uncertainty and range")],
 )
 def test_a_contribution_is_stated_once(tmp_path: Path, sizes: dict[str, Any], found: str) -> None:
     contribution = {"name": "Dead path", "acts": "at-each-reading", **sizes}

@@ -7,14 +7,7 @@ from hypothesis import given, strategies as st
 
 from job.layouts import Layout, layouts
 from zlmreport.job.extents import Written
-from zlmreport.job.list_edits import (
-    ListKey,
-    UneditableError,
-    add_item,
-    add_list,
-    drop_item,
-    find_own_list,
-)
+from zlmreport.job.list_edits import ListKey, UneditableError, add_item, add_list, drop_item, find_own_list
 from zlmreport.job.parse import parse
 from zlmreport.job.tree import Items, Keys, Node, Scalar, walk
 
@@ -78,30 +71,20 @@ REMOVED = {
     "the last in brackets": ("effects: [a, b]\n", 1, "effects: [a]\n"),
     "the only one in brackets": ("effects: [ a ]\n", 0, "effects: [ ]\n"),
     "a line in brackets": ("effects: [\n  a,  # a\n  b,\n]\n", 0, "effects: [\n  b,\n]\n"),
-    "the last line in brackets": (
-        "effects: [\n  a,  # a\n  b  # b\n]\n",
-        1,
-        "effects: [\n  a  # a\n]\n",
-    ),
+    "the last line in brackets": ("effects: [\n  a,  # a\n  b  # b\n]\n", 1, "effects: [\n  a  # a\n]\n"),
     "what stands after a comment": ("effects: [a, # a\n b]\n", 1, "effects: [a, # a\n ]\n"),
 }
 NEW_LIST = {
     "after all other keys": ("a: 1\n", "a: 1\nmodel:\n  effects:\n    - thermal-drift\n"),
     "without a line break at the end": ("a: 1", "a: 1\nmodel:\n  effects:\n    - thermal-drift"),
-    "before the end of the document": (
-        "a: 1\n...\n",
-        "a: 1\nmodel:\n  effects:\n    - thermal-drift\n...\n",
-    ),
+    "before the end of the document": ("a: 1\n...\n", "a: 1\nmodel:\n  effects:\n    - thermal-drift\n...\n"),
     "at the column of the other keys": (
         "  a: 1\n",
         "  a: 1\n  model:\n    effects:\n      - thermal-drift\n",
     ),
     "in braces": ("{a: 1}\n", "{a: 1, model: {effects: [thermal-drift]}}\n"),
     "in JSON": ('{"a": 1}\n', '{"a": 1, "model": {"effects": ["thermal-drift"]}}\n'),
-    "below an empty key": (
-        "model:  # c\nb: 1\n",
-        "model:  # c\n  effects:\n    - thermal-drift\nb: 1\n",
-    ),
+    "below an empty key": ("model:  # c\nb: 1\n", "model:  # c\n  effects:\n    - thermal-drift\nb: 1\n"),
     "for nothing": ("model: ~\n", "model: {effects: [thermal-drift]}\n"),
     "in empty braces": ("model: {}\n", "model: {effects: [thermal-drift]}\n"),
     "below empty effects": (

@@ -30,14 +30,8 @@ def of(measurement: str) -> str:
             "{error: EYQ, source: {plugin: exemplary-text, file: six.txt}}",
             "'EYQ' is no error of ISO 230-1 that is measured",
         ),
-        (
-            "{at: {Q: 3}, source: {plugin: exemplary-text, file: six.txt}}",
-            "'Q' is no axis",
-        ),
-        (
-            "{at: {tool: 3}, source: {plugin: exemplary-text, file: six.txt}}",
-            "tool is three offsets",
-        ),
+        ("{at: {Q: 3}, source: {plugin: exemplary-text, file: six.txt}}", "'Q' is no axis"),
+        ("{at: {tool: 3}, source: {plugin: exemplary-text, file: six.txt}}", "tool is three offsets"),
         ("{date: 2026-11-18}", "measurement.source: missing"),
     ],
 )

@@ -11,13 +11,14 @@ import yaml
 from pydantic import BaseModel, Field, create_model
 
 from environments import ROOT
-from job.jobs import REGISTRY, SOUND, list_groups, with_line, with_lines
+from installed import registry
+from job.jobs import SOUND, list_groups, make_editor, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
 from zlmreport.job.schema import make_job_schema
 from zlmreport.plugin import Options
 from zlmreport.plugin.extension import JobKeys
-from zlmreport.plugin.registry import Plugin, collect, find_plugins
+from zlmreport.plugin.registry import Plugin, collect
 
 
 class _Loader(yaml.SafeLoader):
@@ -31,13 +32,11 @@ _Loader.yaml_implicit_resolvers = {
 
 
 def _complaints(text: str) -> list[str]:
-    validator = jsonschema.Draft202012Validator(make_job_schema(REGISTRY))
-    value = yaml.load(text, Loader=_Loader)
-    return [error.message for error in validator.iter_errors(value)]
+    return [error.message for error in make_editor().iter_errors(yaml.load(text, Loader=_Loader))]
 
 
 def test_schema_is_one() -> None:
-    jsonschema.Draft202012Validator.check_schema(make_job_schema(REGISTRY))
+    jsonschema.Draft202012Validator.check_schema(make_editor().schema)
 
 
 def test_sound_job_fits() -> None:
@@ -70,10 +69,7 @@ def test_sound_job_fits() -> None:
     ],
 )
 def test_what_the_program_refuses_does_not_fit(text: str) -> None:
-    checker = jsonschema.Draft202012Validator(
-        make_job_schema(REGISTRY), format_checker=jsonschema.Draft202012Validator.FORMAT_CHECKER
-    )
-    assert not checker.is_valid(yaml.load(text, Loader=_Loader))
+    assert _complaints(text)
 
 
 @pytest.mark.parametrize(
@@ -96,7 +92,7 @@ def test_what_the_program_takes_fits(text: str) -> None:
 
 
 def test_every_key_is_described() -> None:
-    schema = make_job_schema(REGISTRY)
+    schema = make_editor().schema
     undescribed = [
         f"{name}.{key}"
         for name, part in [("job", schema), *schema["$defs"].items()]
@@ -177,25 +173,23 @@ def test_plugin_whose_keys_json_does_not_know_is_taken_as_it_is() -> None:
 
 def test_every_example_and_every_part_of_one_fits() -> None:
     """Whole jobs, what they extend, and a job of a fleet that says only its file."""
-    validator = jsonschema.Draft202012Validator(make_job_schema(find_plugins({})))
     files = (ROOT / "configs").rglob("*.yaml")
     values = {path: yaml.load(path.read_text("utf-8"), Loader=_Loader) for path in files}
     jobs = {path: each for path, each in values.items() if each.get("schema") in {None, "zlmreport/job/1"}}
     assert len(jobs) > 140
-    assert [path for path, each in jobs.items() if not validator.is_valid(each)] == []
+    assert [path for path, each in jobs.items() if not make_editor(registry()).is_valid(each)] == []
 
 
 def test_a_misspelt_key_never_fits() -> None:
-    schema = make_job_schema(REGISTRY)
+    schema = make_editor().schema
     groups = {
         name: schema["$defs"].get(part.get("$ref", "").rpartition("/")[2], {}).get("properties", {})
         for name, part in schema["properties"].items()
     }
     misspelt: list[dict[str, Any]] = [{f"{name}x": 1} for name in groups]
     misspelt += [{name: {f"{key}x": 1}} for name, keys in groups.items() for key in keys]
-    validator = jsonschema.Draft202012Validator(schema)
     assert len(misspelt) > 60
-    assert [each for each in misspelt if validator.is_valid({"extends": "base.yaml", **each})] == []
+    assert [each for each in misspelt if make_editor().is_valid({"extends": "base.yaml", **each})] == []
 
 
 def test_a_part_may_leave_the_data_source_or_its_file_to_others() -> None:

@@ -11,8 +11,7 @@ from zlmreport.job.contradictions import list_markable_keys
 
 
 @pytest.mark.parametrize(
-    "key",
-    ["machine.serial", "machine", "axis.travel", "measurement.source", "evaluate.tolerances"],
+    "key", ["machine.serial", "machine", "axis.travel", "measurement.source", "evaluate.tolerances"]
 )
 def test_a_key_that_the_job_states_may_be_the_customers(key: str, tmp_path: Path) -> None:
     assert mistakes(with_lines(f"provided_by_customer: [{key}]"), tmp_path) == []

@@ -5,14 +5,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from machines.exact import exact_deviation
-from zlmreport.machines.kinematics import (
-    COMPONENTS,
-    ERRORS,
-    Chain,
-    ErrorLine,
-    deviation,
-    lever_arm,
-)
+from zlmreport.machines.kinematics import COMPONENTS, ERRORS, Chain, ErrorLine, deviation, lever_arm
 
 MICRO = 1e-6
 _ORDERS = tuple("".join(order) for order in permutations("XYZ"))

@@ -182,11 +182,7 @@ NONLINEAR = {
         lambda g, t: [g[0], g[1] / g[0], t[0], t[1]],
     ),
     "MGH10": Nonlinear(
-        Function(
-            lambda x, t: [np.exp(t[0] / (x + t[1]))],
-            1,
-            [_steps(2000, 20_000), _steps(100, 1000)],
-        ),
+        Function(lambda x, t: [np.exp(t[0] / (x + t[1]))], 1, [_steps(2000, 20_000), _steps(100, 1000)]),
         lambda g, t: [g[0], t[0], t[1]],
     ),
     "MGH17": Nonlinear(

@@ -6,13 +6,7 @@ import math
 
 import pytest
 
-from zlmreport.model.fitting.distributions import (
-    chi_square_tail,
-    f_tail,
-    gamma_tail,
-    normal_tail,
-    t_quantile,
-)
+from zlmreport.model.fitting.distributions import chi_square_tail, f_tail, gamma_tail, normal_tail, t_quantile
 
 
 @pytest.mark.parametrize("x", [0.1, 1.0, 5.0, 60.0, 600.0])

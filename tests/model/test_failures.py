@@ -9,16 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from model.axis_tests import (
-    SIGMA,
-    USUAL,
-    hidden,
-    known,
-    linear_test,
-    model_of,
-    noise,
-    pendulum_test,
-)
+from model.axis_tests import SIGMA, USUAL, hidden, known, linear_test, model_of, noise, pendulum_test
 from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest, find_residuals_of
 from zlmreport.model.effects.axis_model import AxisModel

@@ -11,15 +11,7 @@ import numpy as np
 import pytest
 
 from environments import ROOT
-from model.axis_tests import (
-    INSTALLED,
-    hidden,
-    known,
-    linear_test,
-    model_of,
-    noise,
-    observations,
-)
+from model.axis_tests import INSTALLED, hidden, known, linear_test, model_of, noise, observations
 from model.hidden_effect import study
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel
@@ -73,10 +65,7 @@ def test_the_example_has_something_to_lose() -> None:
 
 @pytest.mark.parametrize(
     "added",
-    [
-        40e-6 + 1e-4 * DESIGN.position,
-        5e-6 * DESIGN.direction + 30e-6 * (2 * DESIGN.position - 1) ** 3,
-    ],
+    [40e-6 + 1e-4 * DESIGN.position, 5e-6 * DESIGN.direction + 30e-6 * (2 * DESIGN.position - 1) ** 3],
     ids=["offset and slope", "backlash and cubic"],
 )
 def test_what_the_model_describes_changes_nothing(added: FloatArray) -> None:

@@ -10,14 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from model.axis_tests import (
-    SIGMA,
-    known,
-    linear_test,
-    model_of,
-    noise,
-    pendulum_test,
-)
+from model.axis_tests import SIGMA, known, linear_test, model_of, noise, pendulum_test
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.forms import list_unnamed_forms

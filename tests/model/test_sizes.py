@@ -133,8 +133,7 @@ def test_corrections_that_were_made_wrongly_have_names(
 
 def _rising(kelvin: float) -> Effect:
     return replace(
-        _DESIGN,
-        conditions={"axis_temperature": 293.15 + kelvin * _DESIGN.time / _DESIGN.duration},
+        _DESIGN, conditions={"axis_temperature": 293.15 + kelvin * _DESIGN.time / _DESIGN.duration}
     )
 
 

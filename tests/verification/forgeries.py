@@ -8,7 +8,8 @@ from __future__ import annotations
 import json
 import re
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from hashlib import md5
 from io import BytesIO
 
@@ -43,6 +44,9 @@ FORGERIES: list[Forgery] = []
 BOX = b"q 1 1 1 rg 100 600 200 100 re f 0 0 0 RG 2 w 150 620 m 150 680 l S Q"
 
 _Maker = Callable[[bytes], bytes]
+_Finder = Callable[[Pdf], Iterable[Dictionary]]
+_ChangeOfOne = Callable[[Pdf, Dictionary], None]
+_ChangeOfProgram = Callable[[TTFont, Dictionary], None]
 
 
 def forge_bytes(name: str, seen: str) -> Callable[[_Maker], _Maker]:
@@ -65,6 +69,51 @@ def forge(name: str, seen: str) -> Callable[[Change], Change]:
     return add
 
 
+def _forge_each(found: _Finder, name: str, seen: str) -> Callable[[_ChangeOfOne], _ChangeOfOne]:
+    def add(change: _ChangeOfOne) -> _ChangeOfOne:
+        @forge(name, seen)
+        def _(pdf: Pdf) -> None:
+            for each in found(pdf):
+                change(pdf, each)
+
+        return change
+
+    return add
+
+
+def list_pages(pdf: Pdf) -> list[Dictionary]:
+    return [page.obj for page in pdf.pages]
+
+
+#: Adds a forgery that changes each page; each font of the pages that has digits.
+forge_pages, forge_fonts = partial(_forge_each, list_pages), partial(_forge_each, every_font)
+
+
+def forge_contents(name: str, seen: str, change: Callable[[bytes], bytes]) -> None:
+    """Add a forgery that changes what is drawn on each page."""
+
+    @forge_pages(name, seen)
+    def _(pdf: Pdf, page: Dictionary) -> None:
+        page.Contents = pdf.make_stream(change(page.Contents.read_bytes()))
+
+
+def forge_programs(name: str, seen: str) -> Callable[[_ChangeOfProgram], _ChangeOfProgram]:
+    """Add a forgery that changes the program of each font."""
+
+    def add(change: _ChangeOfProgram) -> _ChangeOfProgram:
+        forge_fonts(name, seen)(lambda _, font: with_program(font, lambda program: change(program, font)))
+        return change
+
+    return add
+
+
+def _set_entries(found: _Finder, name: str, seen: str, **entries: object) -> None:
+    @partial(_forge_each, found)(name, seen)
+    def _(_: Pdf, each: Dictionary) -> None:
+        for key, value in entries.items():
+            each[f"/{key}"] = Array(value) if isinstance(value, tuple) else value
+
+
 # Fonts
 
 
@@ -73,80 +122,67 @@ def _swapped(font: Dictionary) -> dict[int, int]:
     return {own["1"]: own["9"], own["9"]: own["1"]}
 
 
-@forge("glyph map", "each 1 as a 9 and each 9 as a 1")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        swapped = _swapped(font)
-        table = b"".join(swapped.get(code, code).to_bytes(2, "big") for code in range(1000))
-        descendant(font).CIDToGIDMap = pdf.make_stream(table)
+@forge_fonts("glyph map", "each 1 as a 9 and each 9 as a 1")
+def _(pdf: Pdf, font: Dictionary) -> None:
+    swapped = _swapped(font)
+    table = b"".join(swapped.get(code, code).to_bytes(2, "big") for code in range(1000))
+    descendant(font).CIDToGIDMap = pdf.make_stream(table)
 
 
-@forge("encoding by a CMap", "each 1 as a 9 and each 9 as a 1")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        swapped = _swapped(font)
-        rows = "".join(f"<{code:04x}> {swapped.get(code, code)}\n" for code in range(100))
-        table = (
-            "/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CMapName /Swap def\n"
-            "/CMapType 1 def\n"
-            f"1 begincodespacerange <0000> <ffff> endcodespacerange\n100 begincidchar\n{rows}endcidchar\n"
-            "endcmap end end"
-        )
-        system = Dictionary(Registry=String("Adobe"), Ordering=String("Identity"), Supplement=0)
-        font.Encoding = Stream(pdf, table.encode(), Type=Name.CMap, CMapName=Name.Swap, CIDSystemInfo=system)
+@forge_fonts("encoding by a CMap", "each 1 as a 9 and each 9 as a 1")
+def _(pdf: Pdf, font: Dictionary) -> None:
+    swapped = _swapped(font)
+    rows = "".join(f"<{code:04x}> {swapped.get(code, code)}\n" for code in range(100))
+    table = (
+        "/CIDInit /ProcSet findresource begin 12 dict begin begincmap /CMapName /Swap def\n"
+        "/CMapType 1 def\n"
+        f"1 begincodespacerange <0000> <ffff> endcodespacerange\n100 begincidchar\n{rows}endcidchar\n"
+        "endcmap end end"
+    )
+    system = Dictionary(Registry=String("Adobe"), Ordering=String("Identity"), Supplement=0)
+    font.Encoding = Stream(pdf, table.encode(), Type=Name.CMap, CMapName=Name.Swap, CIDSystemInfo=system)
 
 
-@forge("vertical encoding", "numbers whose digits stand below one another")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        font.Encoding = Name("/Identity-V")
+@forge_fonts("vertical encoding", "numbers whose digits stand below one another")
+def _(_: Pdf, font: Dictionary) -> None:
+    font.Encoding = Name("/Identity-V")
 
 
-@forge("widths", "digits that are drawn over one another")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        descendant(font).W = Array([0, Array([0] * 1000)])
+@forge_fonts("widths", "digits that are drawn over one another")
+def _(_: Pdf, font: Dictionary) -> None:
+    descendant(font).W = Array([0, Array([0] * 1000)])
 
 
-@forge("default width", "digits that stand apart")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        descendant(font).DW = 3000
-        descendant(font).W = Array([])
+@forge_fonts("default width", "digits that stand apart")
+def _(_: Pdf, font: Dictionary) -> None:
+    descendant(font).DW = 3000
+    descendant(font).W = Array([])
 
 
-@forge("vertical widths", "digits that are shifted")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        descendant(font).DW2 = Array([0, 500])
+@forge_fonts("vertical widths", "digits that are shifted")
+def _(_: Pdf, font: Dictionary) -> None:
+    descendant(font).DW2 = Array([0, 500])
 
 
-@forge("text of glyphs", "as before; who copies or hears a 1 gets a 9")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        old = font.ToUnicode.read_bytes()
-        one = re.escape(b"<%04x>" % codes(font)["1"])
-        new = re.sub(one + rb"(\s*)<0031>", one + rb"\1<0039>", old, flags=re.IGNORECASE)
-        font.ToUnicode = pdf.make_stream(new)
+@forge_fonts("text of glyphs", "as before; who copies or hears a 1 gets a 9")
+def _(pdf: Pdf, font: Dictionary) -> None:
+    old = font.ToUnicode.read_bytes()
+    one = re.escape(b"<%04x>" % codes(font)["1"])
+    new = re.sub(one + rb"(\s*)<0031>", one + rb"\1<0039>", old, flags=re.IGNORECASE)
+    font.ToUnicode = pdf.make_stream(new)
 
 
-@forge("other characters of glyphs", "as before; who copies a 1 gets 19")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        own = codes(font)
-        more = b"1 beginbfchar\n<%04x> <00310039>\nendbfchar\nendcmap" % own["1"]
-        font.ToUnicode = pdf.make_stream(font.ToUnicode.read_bytes().replace(b"endcmap", more))
+@forge_fonts("other characters of glyphs", "as before; who copies a 1 gets 19")
+def _(pdf: Pdf, font: Dictionary) -> None:
+    own = codes(font)
+    more = b"1 beginbfchar\n<%04x> <00310039>\nendbfchar\nendcmap" % own["1"]
+    font.ToUnicode = pdf.make_stream(font.ToUnicode.read_bytes().replace(b"endcmap", more))
 
 
-@forge("outlines", "each 1 as a 9 and each 9 as a 1")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-
-        def swap(program: TTFont, font: Dictionary = font) -> None:
-            table, (one, nine) = program["glyf"], (glyph(program, font, each) for each in "19")
-            table[one], table[nine] = table[nine], table[one]
-
-        with_program(font, swap)
+@forge_programs("outlines", "each 1 as a 9 and each 9 as a 1")
+def _(program: TTFont, font: Dictionary) -> None:
+    table, (one, nine) = program["glyf"], (glyph(program, font, each) for each in "19")
+    table[one], table[nine] = table[nine], table[one]
 
 
 @forge("outlines of one font", "each 1 of the headings as a 9")
@@ -159,113 +195,89 @@ def _(pdf: Pdf) -> None:
     with_program(font, swap)
 
 
-@forge("outline of the decimal point", "numbers without a decimal point: 726 for 7.26")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        if "." not in codes(font):
-            continue
+@forge_fonts("outline of the decimal point", "numbers without a decimal point: 726 for 7.26")
+def _(_: Pdf, font: Dictionary) -> None:
+    def empty(program: TTFont) -> None:
+        program["glyf"][glyph(program, font, ".")] = TTGlyphPen(None).glyph()
 
-        def empty(program: TTFont, font: Dictionary = font) -> None:
-            program["glyf"][glyph(program, font, ".")] = TTGlyphPen(None).glyph()
-
+    if "." in codes(font):
         with_program(font, empty)
 
 
-@forge("units of the outlines", "letters and digits of half the size")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        with_program(font, lambda program: setattr(program["head"], "unitsPerEm", 2000))
+@forge_programs("units of the outlines", "letters and digits of half the size")
+def _(program: TTFont, _: Dictionary) -> None:
+    program["head"].unitsPerEm = 2000
 
 
-@forge("side bearings", "digits that are moved out of their places")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        if "." not in codes(font):
-            continue
+@forge_fonts("side bearings", "digits that are moved out of their places")
+def _(_: Pdf, font: Dictionary) -> None:
+    def move(program: TTFont) -> None:
+        name = glyph(program, font, ".")
+        width, _ = program["hmtx"][name]
+        program["hmtx"][name] = (width, -700)
 
-        def move(program: TTFont, font: Dictionary = font) -> None:
-            name = glyph(program, font, ".")
-            width, _ = program["hmtx"][name]
-            program["hmtx"][name] = (width, -700)
-
+    if "." in codes(font):
         with_program(font, move)
 
 
-@forge("program of a glyph", "what the instructions make of a 1, where outlines are fitted to pixels")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-
-        def instruct(program: TTFont, font: Dictionary = font) -> None:
-            each = program["glyf"][glyph(program, font, "1")]
-            each.expand(program["glyf"])
-            each.program = Program()
-            each.program.fromAssembly(["PUSHB[ ]", "0", "MDAP[1]"])
-
-        with_program(font, instruct)
+@forge_programs(
+    "program of a glyph", "what the instructions make of a 1, where outlines are fitted to pixels"
+)
+def _(program: TTFont, font: Dictionary) -> None:
+    each = program["glyf"][glyph(program, font, "1")]
+    each.expand(program["glyf"])
+    each.program = Program()
+    each.program.fromAssembly(["PUSHB[ ]", "0", "MDAP[1]"])
 
 
-@forge("program of a font", "what the instructions make of every glyph")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-
-        def instruct(program: TTFont) -> None:
-            program["prep"] = newTable("prep")
-            program["prep"].program = Program()
-            program["prep"].program.fromAssembly(["PUSHB[ ]", "1", "POP[ ]"])
-
-        with_program(font, instruct)
+@forge_programs("program of a font", "what the instructions make of every glyph")
+def _(program: TTFont, _: Dictionary) -> None:
+    program["prep"] = newTable("prep")
+    program["prep"].program = Program()
+    program["prep"].program.fromAssembly(["PUSHB[ ]", "1", "POP[ ]"])
 
 
-@forge("pictures of glyphs", "other digits, where a viewer prefers bitmaps or SVG to outlines")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-
-        def add(program: TTFont) -> None:
-            program["SVG "] = DefaultTable("SVG ")
-            program["SVG "].data = bytes(10)
-
-        with_program(font, add)
+@forge_programs("pictures of glyphs", "other digits, where a viewer prefers bitmaps or SVG to outlines")
+def _(program: TTFont, _: Dictionary) -> None:
+    program["SVG "] = DefaultTable("SVG ")
+    program["SVG "].data = bytes(10)
 
 
-@forge("second program", "other glyphs, where a viewer prefers FontFile3")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        holder = descendant(font).FontDescriptor
-        holder.FontFile3 = Stream(pdf, holder.FontFile2.read_bytes(), Subtype=Name.OpenType)
+@forge_fonts("second program", "other glyphs, where a viewer prefers FontFile3")
+def _(pdf: Pdf, font: Dictionary) -> None:
+    holder = descendant(font).FontDescriptor
+    holder.FontFile3 = Stream(pdf, holder.FontFile2.read_bytes(), Subtype=Name.OpenType)
 
 
-@forge("no program", "a font of the reader's machine in which the codes mean other characters")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        del descendant(font).FontDescriptor.FontFile2
+@forge_fonts("no program", "a font of the reader's machine in which the codes mean other characters")
+def _(_: Pdf, font: Dictionary) -> None:
+    del descendant(font).FontDescriptor.FontFile2
 
 
-@forge("no program, other name", "the characters of another collection")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        del descendant(font).FontDescriptor.FontFile2
-        descendant(font).CIDSystemInfo.Ordering = String("Japan1")
+@forge_fonts("no program, other name", "the characters of another collection")
+def _(_: Pdf, font: Dictionary) -> None:
+    del descendant(font).FontDescriptor.FontFile2
+    descendant(font).CIDSystemInfo.Ordering = String("Japan1")
 
 
-@forge("font of drawings", "a 9 that is drawn by the font for each 1")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        for name, font in list(page.obj.Resources.Font.items()):
-            drawn = pdf.make_stream(b"500 0 0 0 500 700 d1 0 0 500 700 re f")
-            page.obj.Resources.Font[name] = pdf.make_indirect(
-                Dictionary(
-                    Type=Name.Font,
-                    Subtype=Name.Type3,
-                    FontBBox=Array([0, 0, 1000, 1000]),
-                    FontMatrix=Array([0.001, 0, 0, 0.001, 0, 0]),
-                    CharProcs=Dictionary(a=drawn),
-                    Encoding=Dictionary(Differences=Array([0, *[Name.a] * 256])),
-                    FirstChar=0,
-                    LastChar=255,
-                    Widths=Array([500] * 256),
-                    ToUnicode=font.ToUnicode,
-                )
+@forge_pages("font of drawings", "a 9 that is drawn by the font for each 1")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    for name, font in list(page.Resources.Font.items()):
+        drawn = pdf.make_stream(b"500 0 0 0 500 700 d1 0 0 500 700 re f")
+        page.Resources.Font[name] = pdf.make_indirect(
+            Dictionary(
+                Type=Name.Font,
+                Subtype=Name.Type3,
+                FontBBox=Array([0, 0, 1000, 1000]),
+                FontMatrix=Array([0.001, 0, 0, 0.001, 0, 0]),
+                CharProcs=Dictionary(a=drawn),
+                Encoding=Dictionary(Differences=Array([0, *[Name.a] * 256])),
+                FirstChar=0,
+                LastChar=255,
+                Widths=Array([500] * 256),
+                ToUnicode=font.ToUnicode,
             )
+        )
 
 
 @forge("fonts exchanged", "letters and digits of the codes of another font")
@@ -282,33 +294,21 @@ def _(pdf: Pdf) -> None:
             table[name] = value
 
 
-@forge("a standard font", "Helvetica, in which the codes mean other characters")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        for name in list(page.obj.Resources.Font.keys()):
-            page.obj.Resources.Font[name] = Dictionary(
-                Type=Name.Font, Subtype=Name.Type1, BaseFont=Name.Helvetica
-            )
+@forge_pages("a standard font", "Helvetica, in which the codes mean other characters")
+def _(_: Pdf, page: Dictionary) -> None:
+    for name in list(page.Resources.Font.keys()):
+        page.Resources.Font[name] = Dictionary(Type=Name.Font, Subtype=Name.Type1, BaseFont=Name.Helvetica)
 
 
-@forge("bold by a flag", "strokes that are drawn thicker")
-def _(pdf: Pdf) -> None:
-    for font in every_font(pdf):
-        descendant(font).FontDescriptor.Flags = 1 << 18 | 4
+@forge_fonts("bold by a flag", "strokes that are drawn thicker")
+def _(_: Pdf, font: Dictionary) -> None:
+    descendant(font).FontDescriptor.Flags = 1 << 18 | 4
 
 
 # Boxes and rotations
 
 
-def _on_pages(name: str, seen: str, **entries: object) -> None:
-    def change(pdf: Pdf) -> None:
-        for page in pdf.pages:
-            for key, value in entries.items():
-                page.obj[f"/{key}"] = Array(value) if isinstance(value, tuple) else value
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
-
-
+_on_pages = partial(_set_entries, list_pages)
 _CORNER = (0, 400, 595, 842)
 _on_pages("crop box", "the upper half of each page alone", CropBox=_CORNER)
 _on_pages("media box", "the upper half of each page alone", MediaBox=_CORNER)
@@ -324,15 +324,7 @@ _on_pages("presentation", "pages that fade", Trans=Dictionary(S=Name.Fade))
 _on_pages("thumbnail", "a small picture of another page", Thumb=Dictionary())
 _on_pages("page's private data", "another page, in the program that knows the data", PieceInfo=Dictionary())
 
-
-def _on_tree(name: str, seen: str, **entries: object) -> None:
-    def change(pdf: Pdf) -> None:
-        for key, value in entries.items():
-            pdf.Root.Pages[f"/{key}"] = Array(value) if isinstance(value, tuple) else value
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
-
-
+_on_tree = partial(_set_entries, lambda pdf: [pdf.Root.Pages])
 _on_tree("inherited crop box", "the upper half of each page alone", CropBox=_CORNER)
 _on_tree("inherited rotation", "pages upside down", Rotate=180)
 
@@ -380,42 +372,38 @@ def _(pdf: Pdf) -> None:
     draw(pdf, page_of(pdf, 2), BOX)
 
 
-@forge("white box on every page", "a drawn 1 in a white box on every page")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        draw(pdf, page.obj, BOX)
+@forge_pages("white box on every page", "a drawn 1 in a white box on every page")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    draw(pdf, page, BOX)
 
 
-@forge("second content", "a drawn 1 in a white box on every page")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Contents = Array([page.obj.Contents, pdf.make_stream(b"\nQ Q " + BOX)])
+@forge_pages("second content", "a drawn 1 in a white box on every page")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    page.Contents = Array([page.Contents, pdf.make_stream(b"\nQ Q " + BOX)])
 
 
-@forge("content below", "a coloured page, and numbers that cannot be read on it")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        old = page.obj.Contents.read_bytes()
-        page.obj.Contents = pdf.make_stream(b"q 0.09 0.13 0.17 rg 0 0 600 850 re f Q\n" + old)
+forge_contents(
+    "content below",
+    "a coloured page, and numbers that cannot be read on it",
+    lambda old: b"q 0.09 0.13 0.17 rg 0 0 600 850 re f Q\n" + old,
+)
 
 
-@forge("words over words", "another number, written over the first")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        for name, font in page.obj.Resources.Font.items():
-            if font in fonts(page.obj):
-                code = codes(font)["9"]
-                draw(pdf, page.obj, b"BT %s 40 Tf 150 620 Td <%04x> Tj ET" % (name.encode(), code))
-                break
+@forge_pages("words over words", "another number, written over the first")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    for name, font in page.Resources.Font.items():
+        if font in fonts(page):
+            code = codes(font)["9"]
+            draw(pdf, page, b"BT %s 40 Tf 150 620 Td <%04x> Tj ET" % (name.encode(), code))
+            break
 
 
-@forge("form", "a drawn 1 in a white box")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        objects = page.obj.Resources.get("/XObject", Dictionary())
-        objects["/Over"] = form(pdf, BOX)
-        page.obj.Resources.XObject = objects
-        draw(pdf, page.obj, b"/Over Do")
+@forge_pages("form", "a drawn 1 in a white box")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    objects = page.Resources.get("/XObject", Dictionary())
+    objects["/Over"] = form(pdf, BOX)
+    page.Resources.XObject = objects
+    draw(pdf, page, b"/Over Do")
 
 
 @forge("picture", "a white picture instead of numbers")
@@ -437,11 +425,10 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"q 200 0 0 100 100 600 cm /Over Do Q")
 
 
-@forge("inline picture", "a white picture instead of numbers")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        inline = b"BI /W 1 /H 1 /BPC 8 /CS /G ID \xff\nEI"
-        draw(pdf, page.obj, b"q 200 0 0 100 100 600 cm " + inline + b" Q")
+@forge_pages("inline picture", "a white picture instead of numbers")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    inline = b"BI /W 1 /H 1 /BPC 8 /CS /G ID \xff\nEI"
+    draw(pdf, page, b"q 200 0 0 100 100 600 cm " + inline + b" Q")
 
 
 @forge("shading", "a white area instead of numbers")
@@ -478,88 +465,59 @@ def _(pdf: Pdf) -> None:
         draw(pdf, page.obj, b"/Pattern cs /Over scn 100 600 200 100 re f")
 
 
-@forge("curve moved", "a graph 3 points lower, on every page that has one")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Contents = pdf.make_stream(
-            re.sub(rb"([\d.]+) l\n", lambda y: b"%f l\n" % (float(y[1]) - 3), page.obj.Contents.read_bytes())
-        )
+forge_contents(
+    "curve moved",
+    "a graph 3 points lower, on every page that has one",
+    lambda old: re.sub(rb"([\d.]+) l\n", lambda y: b"%f l\n" % (float(y[1]) - 3), old),
+)
+forge_contents(
+    "line by line off",
+    "a page whose last drawing is missing",
+    lambda old: old[: old.rindex(b"BT")] + b"Q Q Q Q Q Q Q Q",
+)
+forge_contents("clip", "numbers that are cut off", lambda old: b"0 400 600 450 re W n\n" + old)
+forge_contents("magnified", "pages moved and magnified", lambda old: b"1.2 0 0 1.2 0 -100 cm\n" + old)
+forge_contents(
+    "invisible text",
+    "pages without words, and a drawn 1",
+    lambda old: b"3 Tr\n%s\n%s" % (old.replace(b" 0 Tr", b" 3 Tr").replace(b"0 Tr/", b"3 Tr/"), BOX),
+)
+forge_contents(
+    "white text",
+    "pages without words",
+    lambda old: re.sub(rb"[\d.]+ [\d.]+ [\d.]+ (rg|scn)", rb"1 1 1 \1", old),
+)
+forge_contents(
+    "lines of no width",
+    "graphs without curves",
+    lambda old: re.sub(rb"\n[\d.]+ w\n| [\d.]+ w ", b"\n99 w\n", old),
+)
 
 
-@forge("line by line off", "a page whose last drawing is missing")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        content = page.obj.Contents.read_bytes()
-        page.obj.Contents = pdf.make_stream(content[: content.rindex(b"BT")] + b"Q Q Q Q Q Q Q Q")
+@forge_pages("digits exchanged", "each 1 as a 9, in words too, on every page")
+def _(pdf: Pdf, page: Dictionary) -> None:
+    content = page.Contents.read_bytes()
+    for font in fonts(page):
+        own = codes(font)
+        content = content.replace(b"<%04x>" % own["1"], b"<%04x>" % own["9"])
+    page.Contents = pdf.make_stream(content.replace(b"(\000\001", b"(\000\002"))
 
 
-@forge("clip", "numbers that are cut off")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Contents = pdf.make_stream(b"0 400 600 450 re W n\n" + page.obj.Contents.read_bytes())
-
-
-@forge("magnified", "pages moved and magnified")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Contents = pdf.make_stream(b"1.2 0 0 1.2 0 -100 cm\n" + page.obj.Contents.read_bytes())
-
-
-@forge("invisible text", "pages without words, and a drawn 1")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        old = page.obj.Contents.read_bytes().replace(b" 0 Tr", b" 3 Tr").replace(b"0 Tr/", b"3 Tr/")
-        page.obj.Contents = pdf.make_stream(b"3 Tr\n" + old + b"\n" + BOX)
-
-
-@forge("white text", "pages without words")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        old = re.sub(rb"[\d.]+ [\d.]+ [\d.]+ (rg|scn)", rb"1 1 1 \1", page.obj.Contents.read_bytes())
-        page.obj.Contents = pdf.make_stream(old)
-
-
-@forge("lines of no width", "graphs without curves")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Contents = pdf.make_stream(
-            re.sub(rb"\n[\d.]+ w\n| [\d.]+ w ", b"\n99 w\n", page.obj.Contents.read_bytes())
-        )
-
-
-@forge("digits exchanged", "each 1 as a 9, in words too, on every page")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        content = page.obj.Contents.read_bytes()
-        for font in fonts(page.obj):
-            own = codes(font)
-            content = content.replace(b"<%04x>" % own["1"], b"<%04x>" % own["9"])
-        page.obj.Contents = pdf.make_stream(content.replace(b"(\000\001", b"(\000\002"))
-
-
-@forge("digits moved", "the words as they were, and one digit at another number")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        content = page.obj.Contents.read_bytes()
-        page.obj.Contents = pdf.make_stream(
-            re.sub(rb"1 0 0 -1 ([\d.]+) ([\d.]+) (cm|Tm)", rb"1 0 0 -1 \2 \1 \3", content)
-        )
-
-
+forge_contents(
+    "digits moved",
+    "the words as they were, and one digit at another number",
+    lambda old: re.sub(rb"1 0 0 -1 ([\d.]+) ([\d.]+) (cm|Tm)", rb"1 0 0 -1 \2 \1 \3", old),
+)
 # States, colours and layers
 
 
-def _in_states(name: str, seen: str, **entries: object) -> None:
-    def change(pdf: Pdf) -> None:
-        for page in pdf.pages:
-            states = page.obj.Resources.get("/ExtGState", Dictionary())
-            for key in list(states.keys()):
-                for entry, value in entries.items():
-                    states[key][f"/{entry}"] = value
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
+def _list_resources(kind: str, pdf: Pdf) -> list[Dictionary]:
+    """Return states of the pages, or their pictures and forms."""
+    return [each for page in list_pages(pdf) for each in page.Resources.get(kind, Dictionary()).values()]
 
 
+_list_states = partial(_list_resources, "/ExtGState")
+_in_states = partial(_set_entries, _list_states)
 _in_states("transparent fills", "pages without words", ca=0)
 _in_states("transparent strokes", "graphs without curves", CA=0)
 _in_states("blend mode", "what is drawn in white, and nothing in black", BM=Name.Difference)
@@ -572,10 +530,8 @@ _in_states("dash of a state", "curves in pieces", D=Array([Array([1, 50]), 0]))
 @forge("soft mask", "pages without words")
 def _(pdf: Pdf) -> None:
     mask = form(pdf, b"", Group=Dictionary(S=Name.Transparency, CS=Name.DeviceGray))
-    for page in pdf.pages:
-        states = page.obj.Resources.get("/ExtGState", Dictionary())
-        for key in list(states.keys()):
-            states[key].SMask = Dictionary(S=Name.Luminosity, G=mask)
+    for state in _list_states(pdf):
+        state.SMask = Dictionary(S=Name.Luminosity, G=mask)
 
 
 @forge("colour space", "black as white")
@@ -599,12 +555,11 @@ def _(pdf: Pdf) -> None:
         profile.write(bytes(reversed(profile.read_bytes())))
 
 
-@forge("default colour space", "black as white")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        page.obj.Resources.ColorSpace.DefaultRGB = Array(
-            [Name.CalRGB, Dictionary(WhitePoint=Array([0.95, 1, 1.09]), Gamma=Array([0.01, 0.01, 0.01]))]
-        )
+@forge_pages("default colour space", "black as white")
+def _(_: Pdf, page: Dictionary) -> None:
+    page.Resources.ColorSpace.DefaultRGB = Array(
+        [Name.CalRGB, Dictionary(WhitePoint=Array([0.95, 1, 1.09]), Gamma=Array([0.01, 0.01, 0.01]))]
+    )
 
 
 @forge("layer", "pages without words: they stand on a layer that is off")
@@ -621,51 +576,31 @@ def _(pdf: Pdf) -> None:
 def _(pdf: Pdf) -> None:
     group = pdf.make_indirect(Dictionary(Type=Name.OCG, Name=String("logo")))
     pdf.Root.OCProperties = Dictionary(OCGs=Array([group]), D=Dictionary(OFF=Array([group])))
-    for page in pdf.pages:
-        for picture in page.obj.Resources.get("/XObject", Dictionary()).values():
-            picture.OC = group
+    for picture in _list_pictures(pdf):
+        picture.OC = group
 
 
-def _on_pictures(name: str, seen: str, change: Callable[[Pdf, Stream], None]) -> None:
-    def on_each(pdf: Pdf) -> None:
-        for page in pdf.pages:
-            for picture in page.obj.Resources.get("/XObject", Dictionary()).values():
-                change(pdf, picture)
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, on_each)))
+_list_pictures = partial(_list_resources, "/XObject")
 
 
-def _repaint(_: Pdf, picture: Stream) -> None:
+@_forge_each(_list_pictures, "another logo", "the logo of another laboratory")
+def _(_: Pdf, picture: Stream) -> None:
     picture.write(bytes(len(picture.read_bytes())))
 
 
-_on_pictures("another logo", "the logo of another laboratory", _repaint)
-_on_pictures(
-    "decoding of a picture",
-    "a logo in other colours",
-    lambda _, picture: picture.__setitem__("/Decode", Array([1, 0] * 3)),
-)
-_on_pictures(
-    "alternate of a picture",
-    "another logo, on paper",
-    lambda _, picture: picture.__setitem__("/Alternates", Array([])),
-)
-_on_pictures(
-    "mask of a picture",
-    "no logo",
-    lambda _, picture: picture.__setitem__("/Mask", Array([0, 255] * 3)),
-)
+_on_pictures = partial(_set_entries, _list_pictures)
+_on_pictures("decoding of a picture", "a logo in other colours", Decode=(1, 0) * 3)
+_on_pictures("alternate of a picture", "another logo, on paper", Alternates=())
+_on_pictures("mask of a picture", "no logo", Mask=(0, 255) * 3)
 
 
 # Annotations, forms and actions
 
 
 def _annotation(name: str, seen: str, subtype: str, make: Callable[[Pdf], dict[str, object]]) -> None:
-    def change(pdf: Pdf) -> None:
-        page = page_of(pdf, 2)
-        annotate(pdf, page, Subtype=Name(f"/{subtype}"), **make(pdf))
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
+    @forge(name, seen)
+    def _(pdf: Pdf) -> None:
+        annotate(pdf, page_of(pdf, 2), Subtype=Name(f"/{subtype}"), **make(pdf))
 
 
 def _appearance(pdf: Pdf) -> Dictionary:
@@ -779,14 +714,7 @@ def _(pdf: Pdf) -> None:
     pdf.Root.AcroForm = Dictionary(Fields=Array([]), NeedAppearances=True)
 
 
-def _in_catalog(name: str, seen: str, **entries: object) -> None:
-    def change(pdf: Pdf) -> None:
-        for key, value in entries.items():
-            pdf.Root[f"/{key}"] = value
-
-    FORGERIES.append(Forgery(name, seen, lambda pdf: rewritten(pdf, change)))
-
-
+_in_catalog = partial(_set_entries, lambda pdf: [pdf.Root])
 _in_catalog("script on opening", "what the script writes", OpenAction=script())
 _in_catalog("scripts of the document", "what the script writes, on paper", AA=Dictionary(WP=script()))
 _in_catalog("portfolio", "an attached file, not the pages", Collection=Dictionary(View=Name.T, D="a.pdf"))
@@ -857,13 +785,11 @@ def _(pdf: Pdf) -> None:
     next(each for each in _elements(pdf) if each.S == Name.TD).ActualText = String("1.2")
 
 
-@forge("text of a cell in the page", "as before; who copies it gets another value")
-def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        old = page.obj.Contents.read_bytes()
-        page.obj.Contents = pdf.make_stream(
-            re.sub(rb"/MCID (\d+)", rb"/MCID \1/ActualText(1.2)", old, count=9)
-        )
+forge_contents(
+    "text of a cell in the page",
+    "as before; who copies it gets another value",
+    lambda old: re.sub(rb"/MCID (\d+)", rb"/MCID \1/ActualText(1.2)", old, count=9),
+)
 
 
 @forge("roles", "as before; who hears it hears tables as artefacts")

@@ -161,13 +161,7 @@ def with_packed_table(pdf: bytes, *, repeated: bool) -> bytes:
     entries = re.sub(rb"/Size \d+", b"", trailer[2:-2])
     head = (
         b"%d 0 obj\n<< /Type /XRef /Size %d /W [1 4 2] /Index [%s] /Filter /FlateDecode /Length %d %s >>\n"
-        % (
-            last,
-            last + 1,
-            b" ".join(b"%d" % each for each in index),
-            len(data),
-            entries,
-        )
+        % (last, last + 1, b" ".join(b"%d" % each for each in index), len(data), entries)
     )
     made = body + head + b"stream\n" + data + b"\nendstream\nendobj\n"
     return made + b"startxref\n%d\n%%%%EOF\n" % places[last]

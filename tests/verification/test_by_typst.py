@@ -6,12 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from installed import registry
-from verification.issued import (
-    READINGS,
-    page_with,
-    with_page_content,
-    with_source,
-)
+from verification.issued import READINGS, page_with, with_page_content, with_source
 from verification.test_verify import differing
 from zlmreport.plugin.protocols import is_made_by
 from zlmreport.plugin.registry import DISABLE, find_plugins

@@ -29,9 +29,7 @@ def drawn(content: str) -> list[DrawnMark]:
 def test_a_line_is_its_points_its_width_and_its_colour() -> None:
     (line,) = drawn("2 w 1 0 0 RG 10 20 m 30 40 l S")
     assert line == DrawnMark(
-        ("S", "ml", ((), ("rgb", (1.0, 0.0, 0.0))), "", ()),
-        (2.0, 0.0, 0.0, 2.0),
-        (10.0, 20.0, 30.0, 40.0),
+        ("S", "ml", ((), ("rgb", (1.0, 0.0, 0.0))), "", ()), (2.0, 0.0, 0.0, 2.0), (10.0, 20.0, 30.0, 40.0)
     )
 
 

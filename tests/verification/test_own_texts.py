@@ -97,8 +97,7 @@ def _texts_of(title: str, *symbols: str) -> list[QuotedText]:
     certificate = SimpleNamespace(
         evaluations=[
             SimpleNamespace(
-                parameters=parameters,
-                measurements=SimpleNamespace(provenance=SimpleNamespace(remarks=())),
+                parameters=parameters, measurements=SimpleNamespace(provenance=SimpleNamespace(remarks=()))
             )
         ],
         sources=(),

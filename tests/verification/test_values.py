@@ -67,10 +67,7 @@ def test_items_that_are_taken_out_or_put_in_are_named_by_what_they_are() -> None
 def test_an_item_that_is_there_twice_differs() -> None:
     more = results()
     more["evaluations"][0]["parameters"].append({"symbol": "A", "value": 1.0})
-    assert differing(more, results()) == {
-        f"{A} (3)/symbol": ("A", None),
-        f"{A} (3)/value": (1.0, None),
-    }
+    assert differing(more, results()) == {f"{A} (3)/symbol": ("A", None), f"{A} (3)/value": (1.0, None)}
 
 
 def test_an_item_without_a_name_is_named_by_its_number() -> None:

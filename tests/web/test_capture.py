@@ -147,8 +147,7 @@ class _Shown:
 
 
 @pytest.mark.parametrize(
-    ("message", "expected"),
-    [("", ["15.000 mm", "0.20 µm", 0.5]), ("the beam is broken", [None, None, 0.0])],
+    ("message", "expected"), [("", ["15.000 mm", "0.20 µm", 0.5]), ("the beam is broken", [None, None, 0.0])]
 )
 def test_beside_a_fault_no_way_to_go_and_no_standstill_is_shown(
     message: str, expected: list[object], tmp_path: Path

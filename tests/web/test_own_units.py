@@ -50,9 +50,7 @@ def test_of_the_standards_panel(straight: TestClient) -> None:
     assert not any(each["value"].endswith("m") for each in standard["rows"][:-1])
 
 
-def test_no_control_corrects_a_straightness_and_no_page_says_what_would_be_left(
-    straight: TestClient,
-) -> None:
+def test_no_control_corrects_a_straightness_and_no_page_says_what_would_be_left(straight: TestClient) -> None:
     (standard,) = straight.get("/api/results?lang=en").json()["standards"]
     assert {each["by_table"] for each in standard["rows"]} == {each["by_model"] for each in standard["rows"]}
     assert {each["by_model"] for each in standard["rows"]} == {None}

@@ -186,11 +186,7 @@ def test_the_job_states_the_rule_by_its_name_or_with_its_factor(tmp_path):
 def test_where_nothing_is_accepted_the_word_has_no_unit(evaluation):
     """A guard band that is wider than its limit, of a parameter whose unit stands beside its number."""
     parameters = tuple(
-        replace(
-            each,
-            quantity=replace(each.quantity, unit=MICROMETRE_PER_METRE),
-            expanded_uncertainty=200e-6,
-        )
+        replace(each, quantity=replace(each.quantity, unit=MICROMETRE_PER_METRE), expanded_uncertainty=200e-6)
         for each in evaluation.parameters
     )
     first = rows(replace(evaluation, parameters=parameters), "guard-band")[0].split(" | ")

@@ -37,13 +37,7 @@ def test_groups_keep_their_order() -> None:
 def test_facts_that_follow_each_other_are_gathered_and_others_are_not() -> None:
     before, between, after = Paragraph("before"), Notice("between", ()), Paragraph("after")
     blocks = (before, group(1), group(2), between, group(3), after)
-    assert tuple(gather_facts(blocks)) == (
-        before,
-        (group(1), group(2)),
-        between,
-        (group(3),),
-        after,
-    )
+    assert tuple(gather_facts(blocks)) == (before, (group(1), group(2)), between, (group(3),), after)
 
 
 def test_facts_at_the_end_are_not_lost() -> None:

@@ -19,7 +19,17 @@ from installed import registry
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Head, Party
 from zlmreport.plugin import Language
-from zlmreport.plugin.renderer import Block, Certificate, Facts, Graph, Letterhead, Notice, Paragraph, Table
+from zlmreport.plugin.renderer import (
+    Block,
+    Certificate,
+    Facts,
+    Graph,
+    Letterhead,
+    Notice,
+    Paragraph,
+    Section,
+    Table,
+)
 
 #: An axis that drifts by no more than is said, by an instrument whose calibration has a date.
 _NEGLECTED = {
@@ -40,6 +50,18 @@ OPINION = [{"statement": "The axis is worn.", "basis": "The reversal error grew.
 def pages(of: Certificate, renderer: str = "pdf-typst") -> list[str]:
     reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of)))
     return [page.extract_text() for page in reader.pages]
+
+
+def measure_graph(of: Certificate) -> float:
+    """Return the height of the only graph, mm."""
+    (figure,) = of.figures
+    assert figure.height is not None
+    return figure.height
+
+
+def said(*sections: Section) -> str:
+    """Return all that sections say, in a line."""
+    return " ".join(text for section in sections for block in section.blocks for text in lines_of(block))
 
 
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
@@ -84,26 +106,32 @@ def test_its_graph_has_the_brackets_and_is_at_least_90_mm_high_whatever_is_remar
 ) -> None:
     for remarks in ("None.", "Words of a remark. " * 20):
         keys = having("certificate.paper", paper, having("measurement.remarks", remarks, SHEET))
-        (figure,) = certificate(tmp_path, keys).figures
-        assert figure.panels[0].brackets
-        assert figure.height is not None
-        assert 90 <= figure.height <= 130
+        found = certificate(tmp_path, keys)
+        assert found.figures[0].panels[0].brackets
+        assert 90 <= measure_graph(found) <= 130
 
 
 def test_the_verdict_stands_before_the_graph_the_gravest_first(tmp_path: Path) -> None:
     blocks = certificate(tmp_path, SHEET).sections[0].blocks
     graph = next(at for at, block in enumerate(blocks) if isinstance(block, Graph))
-    said = [
+    verdicts = [
         (block.verdict.word, block.text)
         for block in blocks[:graph]
         if isinstance(block, Paragraph) and block.verdict
     ]
-    assert said == [("does not conform", "E"), ("conforms", "A")]
+    assert verdicts == [("does not conform", "E"), ("conforms", "A")]
 
 
 def test_no_verdict_is_told_where_nothing_is_limited(tmp_path: Path) -> None:
     blocks = certificate(tmp_path, having("evaluate", ["iso230-2:2014"], SHEET)).sections[0].blocks
     assert not any(isinstance(block, Paragraph) and block.verdict for block in blocks)
+
+
+def measuring(folder: Path, rows: Iterable[str], keys: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the keys of a job on a table of these rows, which is written."""
+    table = "\n".join(["target,direction,run,deviation", *rows])
+    (folder / "x.csv").write_text(table, encoding="utf-8")
+    return having("measurement.source", {"plugin": "laser-csv", "file": "x.csv"}, keys)
 
 
 def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) -> None:
@@ -113,11 +141,7 @@ def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) ->
         for sign in "+-"
         for target in (0, 9, 19)
     ]
-    (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
-    source = {"plugin": "laser-csv", "file": "x.csv"}
-    keys = having(
-        "evaluate", ["nmtba"], having("measurement.source", source, without("customer", keys=REPORT))
-    )
+    keys = having("evaluate", ["nmtba"], measuring(tmp_path, rows, without("customer", keys=REPORT)))
     section = certificate(tmp_path, having("location", "Hall 3", keys)).sections[0]
     tables = [block for block in section.blocks if isinstance(block, Table)]
     assert len(tables) == 2
@@ -127,10 +151,7 @@ def test_a_table_by_position_that_does_not_fit_is_left_out(tmp_path: Path) -> No
     rows = [
         f"{target},{sign},{run},{target % 7}" for run in (1, 2) for sign in "+-" for target in range(-20, 21)
     ]
-    (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
-    source = {"plugin": "laser-csv", "file": "x.csv"}
-    found = certificate(tmp_path, having("measurement.source", source, REPORT))
-    section = found.sections[0]
+    section = certificate(tmp_path, measuring(tmp_path, rows, REPORT)).sections[0]
     assert sum(isinstance(block, Table) for block in section.blocks) == 1
 
 
@@ -152,32 +173,36 @@ def test_opinions_have_a_page_of_their_own(tmp_path: Path) -> None:
     assert found.sections[-1].new_page
 
 
+#: Words that end a line anywhere, and words that leave much of it empty.
+_WORDS = ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandhaltung", "MWMW")
+_BY_LETTER = {each[0].lower(): each for each in _WORDS}
+#: Facts whose long words end a line after a hyphen and leave much of it empty; each word by its first letter.
+_HYPHENATED = {
+    "laboratory.name": "w",
+    "laboratory.address": "wwwip",
+    "laboratory.accreditation": "mma",
+    "certificate.authorised_by.name": "a",
+    "certificate.authorised_by.function": "iw",
+    "customer.name": "miiaaiwawmp",
+    "customer.address": "wmppp",
+    "machine.manufacturer": "pwp",
+    "machine.model": "wmp",
+    "machine.serial": "piwwwama",
+    "machine.condition": "m",
+    "instrument.name": "iw",
+    "instrument.manufacturer": "waa",
+    "measurement.warm_up": "pwmaapwp",
+    "measurement.compensation": "aw",
+    "measurement.line": "w",
+    "measurement.operator": "piwii",
+    "measurement.deviations_from_method": "i",
+    "measurement.remarks": "aaapwaap",
+    "environment.sensors": "i",
+    "environment.remarks": "pmapwi",
+    "procedure": "amaawmmapimp",
+}
 #: What a job states in words, by its keys.
-STATED = (
-    "laboratory.name",
-    "laboratory.address",
-    "laboratory.accreditation",
-    "certificate.title",
-    "certificate.authorised_by.name",
-    "certificate.authorised_by.function",
-    "customer.name",
-    "customer.address",
-    "machine.manufacturer",
-    "machine.model",
-    "machine.serial",
-    "machine.condition",
-    "instrument.name",
-    "instrument.manufacturer",
-    "measurement.warm_up",
-    "measurement.compensation",
-    "measurement.line",
-    "measurement.operator",
-    "measurement.deviations_from_method",
-    "measurement.remarks",
-    "environment.sensors",
-    "environment.remarks",
-    "procedure",
-)
+STATED = ("certificate.title", *_HYPHENATED)
 
 
 def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
@@ -205,8 +230,6 @@ def longest(letters: int) -> dict[str, str]:
 #: The longest text that a job may state in a line, letters; one as long as names are.
 LONGEST, LONG = 500, 110
 _LANGUAGES = [each.value for each in Language]
-#: Words that end a line anywhere, and words that leave much of it empty.
-_WORDS = ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandhaltung", "MWMW")
 
 
 def joined(words: Iterable[str]) -> str:
@@ -225,37 +248,7 @@ def test_the_graph_of_a_sheet_is_90_mm_high_whatever_the_length_of_what_is_state
     certified = {"certificate.language": language, "certificate.paper": paper}
     found = certificate(tmp_path, stating({**certified, **longest(letters)}))
     assert max(taken(found)) <= 1
-    (figure,) = found.figures
-    assert figure.height is not None
-    assert figure.height >= 90
-
-
-_BY_LETTER = {each[0].lower(): each for each in _WORDS}
-#: Facts whose long words end a line after a hyphen and leave much of it empty; each word by its first letter.
-_HYPHENATED = {
-    "laboratory.name": "w",
-    "laboratory.address": "wwwip",
-    "laboratory.accreditation": "mma",
-    "certificate.authorised_by.name": "a",
-    "certificate.authorised_by.function": "iw",
-    "customer.name": "miiaaiwawmp",
-    "customer.address": "wmppp",
-    "machine.manufacturer": "pwp",
-    "machine.model": "wmp",
-    "machine.serial": "piwwwama",
-    "machine.condition": "m",
-    "instrument.name": "iw",
-    "instrument.manufacturer": "waa",
-    "measurement.warm_up": "pwmaapwp",
-    "measurement.compensation": "aw",
-    "measurement.line": "w",
-    "measurement.operator": "piwii",
-    "measurement.deviations_from_method": "i",
-    "measurement.remarks": "aaapwaap",
-    "environment.sensors": "i",
-    "environment.remarks": "pmapwi",
-    "procedure": "amaawmmapimp",
-}
+    assert measure_graph(found) >= 90
 
 
 @pytest.mark.long
@@ -278,9 +271,7 @@ def test_a_sheet_is_a_page_and_one_of_details_at_most(
     keys = stating({"certificate.language": language, "certificate.paper": paper, **stated})
     with TemporaryDirectory() as folder:
         found = certificate(Path(folder), keys)
-    (figure,) = found.figures
-    assert figure.height is not None
-    assert figure.height >= 90
+    assert measure_graph(found) >= 90
     assert len(pages(found, renderer)) == len(found.sections) <= 2
 
 
@@ -312,9 +303,7 @@ def test_what_is_as_long_as_a_job_may_state_it_is_not_refused(tmp_path: Path, re
     found = certificate(tmp_path, stating(stated))
     assert [each.key for each in found.sections] == ["iso230-2-2014", "details"]
     assert taken(found)[0] <= 1
-    (figure,) = found.figures
-    assert figure.height is not None
-    assert figure.height >= 90
+    assert measure_graph(found) >= 90
     first, *_ = pages(found, renderer)
     assert found.sections[0].title in first
     assert found.digest in first
@@ -367,16 +356,14 @@ def test_the_graph_of_any_quantity_is_90_mm_high_below_the_longest_letterhead(
 def test_customer_and_machine_stand_on_every_page(tmp_path: Path) -> None:
     found = certificate(tmp_path, {**stating(longest(110)), "evaluate": ["vdi-dgq-3441", "nmtba"]})
     for section in found.sections[:2]:
-        said = " ".join(text for block in section.blocks for text in lines_of(block))
-        assert longest(110)["customer.name"] in said
-        assert longest(110)["machine.model"].strip() in said
+        assert longest(110)["customer.name"] in said(section)
+        assert longest(110)["machine.model"].strip() in said(section)
 
 
 def test_what_was_declared_negligible_is_listed_with_its_reason(tmp_path: Path) -> None:
-    found = certificate(tmp_path, SHEET)
-    said = " ".join(text for block in found.sections[0].blocks for text in lines_of(block))
-    assert "Declared negligible by the laboratory" in said
-    assert "40 mm at 20 °C" in said
+    sheet = said(certificate(tmp_path, SHEET).sections[0])
+    assert "Declared negligible by the laboratory" in sheet
+    assert "40 mm at 20 °C" in sheet
 
 
 def test_details_repeat_nothing_that_the_page_says(tmp_path: Path) -> None:
@@ -391,12 +378,9 @@ def test_readings_that_were_set_aside_are_all_named(tmp_path: Path) -> None:
     excluded = [
         {"target": target, "direction": "+", "run": 1, "reason": "chip"} for target in range(-20, 20, 5)
     ]
-    found = certificate(tmp_path, having("measurement.excluded", excluded, SHEET))
-    said = " ".join(
-        text for section in found.sections for block in section.blocks for text in lines_of(block)
-    )
-    assert said.count("chip") >= len(excluded)
-    assert "section on the readings" not in said
+    whole = said(*certificate(tmp_path, having("measurement.excluded", excluded, SHEET)).sections)
+    assert whole.count("chip") >= len(excluded)
+    assert "section on the readings" not in whole
 
 
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])

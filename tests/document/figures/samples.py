@@ -199,8 +199,7 @@ DEGENERATE = {
     ),
     "arrows at the first and last target": figure(
         replace(
-            _lone(1.0, 2.0, 3.0),
-            arrows=(Arrow("R_{i}", 0.0, 0.0, 2.0), Arrow("P_{s max}", 500.0, 2.0, 4.0)),
+            _lone(1.0, 2.0, 3.0), arrows=(Arrow("R_{i}", 0.0, 0.0, 2.0), Arrow("P_{s max}", 500.0, 2.0, 4.0))
         )
     ),
     "three levels close together": figure(

@@ -62,11 +62,7 @@ def test_ticks_are_doubles_nearest_to_round_decimals() -> None:
     assert (ticks, decimals) == ((0.1, 0.2, 0.3, 0.4), 1)
 
 
-@given(
-    st.floats(-1e6, 1e6),
-    st.floats(1e-6, 1e6),
-    st.integers(2, 12),
-)
+@given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6), st.integers(2, 12))
 def test_ticks_lie_between_the_limits_in_steps_of_1_2_or_5(start: float, span: float, most: int) -> None:
     ticks, _ = round_ticks(start, start + span, most)
     slack = 1e-6 * span

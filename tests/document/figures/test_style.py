@@ -16,11 +16,7 @@ roles = pytest.mark.parametrize("role", Role, ids=lambda role: role.name.lower()
 
 #: Simulation of deuteranopia in linear sRGB: Machado, Oliveira, Fernandes, IEEE TVCG 15 (2009), severity 1.
 DEUTERANOPIA = np.array(
-    [
-        [0.367322, 0.860646, -0.227968],
-        [0.280085, 0.672501, 0.047413],
-        [-0.011820, 0.042940, 0.968881],
-    ]
+    [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
 )
 
 

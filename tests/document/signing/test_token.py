@@ -87,16 +87,9 @@ NAMED = "pkcs11:token=Our%20Lab;object=signature?module-path=/usr/lib/token.so"
 def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
     unsigned: bytes, key: SimpleSigner
 ) -> None:
-    with (
-        token_of(key) as asked,
-        open_signer(NAMED, lambda of: {"token Our Lab": _PIN}[of], PLACE) as signer,
-    ):
+    with token_of(key) as asked, open_signer(NAMED, lambda of: {"token Our Lab": _PIN}[of], PLACE) as signer:
         signed = signer(unsigned, "Electronic signature")
-    assert asked == [
-        ("/usr/lib/token.so", "Our Lab", _PIN),
-        ("session", "signature", "signature"),
-        "closed",
-    ]
+    assert asked == [("/usr/lib/token.so", "Our Lab", _PIN), ("session", "signature", "signature"), "closed"]
     assert read_signature_state(signed).integrity is Integrity.INTACT
 
 

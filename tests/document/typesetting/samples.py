@@ -321,7 +321,7 @@ class _Writer:
                 (
                     (say("Customer", "Auftraggeber"), customer),
                     (say("Address", "Anschrift"), "Werkstraße 7\n70565 Stuttgart\nDeutschland"),
-                ),
+                )
             ),
             Facts(
                 (
@@ -336,10 +336,7 @@ class _Writer:
                 (
                     (say("Instrument", "Messgerät"), "ZLM 800 laser interferometer"),
                     (say("Certificate", "Kalibrierschein"), "PTB 5.21-2026-033"),
-                    (
-                        say("Expanded uncertainty", "Erweiterte Unsicherheit"),
-                        "0.4 µm + 0.8 µm/m · L (k = 2)",
-                    ),
+                    (say("Expanded uncertainty", "Erweiterte Unsicherheit"), "0.4 µm + 0.8 µm/m · L (k = 2)"),
                 ),
                 say("Traceability", "Rückführung"),
             ),
@@ -348,7 +345,7 @@ class _Writer:
                     (say("Date of measurement", "Datum der Messung"), "2026-11-18"),
                     (say("Date of issue", "Ausstellungsdatum"), "2026-11-20"),
                     (say("Authorised by", "Freigegeben durch"), "Dr. Erika Mustermann"),
-                ),
+                )
             ),
             Paragraph(
                 say(

@@ -114,12 +114,7 @@ WRONG = {
     "turned travel": (3, "axis: {name: X, travel: [9, 1], screw_pitch: 1}", "3:17", "must be less than"),
     "unknown effect": (10, "effects: [ofset: {offset: 1}]", "10:11", "did you mean 'offset'?"),
     "unknown parameter": (10, "effects: [offset: {ofset: 1}]", "10:20", "did you mean 'offset'?"),
-    "effect without a size": (
-        10,
-        "effects: [backlash]",
-        "10:11",
-        "backlash has no size; give lost_motion",
-    ),
+    "effect without a size": (10, "effects: [backlash]", "10:11", "backlash has no size; give lost_motion"),
     "harmonics without a size": (
         10,
         "effects: [{screw-pitch: {harmonics: [1]}}]",
@@ -144,12 +139,7 @@ WRONG = {
         "10:11",
         "eccentricity cannot act on this test: for rotary axes only",
     ),
-    "negative noise": (
-        11,
-        "noise: {reading: -1}",
-        "11:18",
-        "reading: '-1' is not a number of at least 0",
-    ),
+    "negative noise": (11, "noise: {reading: -1}", "11:18", "reading: '-1' is not a number of at least 0"),
     "all readings missing": (11, "noise: {missing_share: 1}", "11:24", "is not a number less than 1"),
     "condition without a start": (12, "conditions: {air_pressure: {}}", "12:14", "start is missing"),
     "folder in a file name": (12, "output: {readings: a/b.csv}", "12:20", "'a/b.csv' is no file's name; the"),
