@@ -2,11 +2,12 @@
 
 Positions along the gauge and distances from its reference face are in metres. Steps are the faces of the
 gauge in their order: i counts them from 1, so that odd steps are front faces, which are reached forward, and
-even steps back faces, which are reached backward. j counts cycles. Arrays have the step before the cycle;
-batch dimensions lead. What is not there is NaN, and stays so.
+even steps back faces, which are reached backward. Batch dimensions lead. What is not there is NaN, and stays
+so.
 
 Source: H. Pahk and J. Kim, "Development of computer aided calibration module for CMMs and machine tools
-using a compensated step gauge", sections 4.1 and 4.2.
+using a compensated step gauge", sections 4.1 and 4.2. Means and standard deviations of the cycles (Eq. 4 to
+7) are those of `PositionStatistics`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,6 @@ from __future__ import annotations
 import numpy as np
 
 from zlmreport.plugin import FloatArray
-from zlmreport.plugin.standard import position_statistics
 
 
 def effective_radius(measured_size: FloatArray, actual_size: FloatArray) -> FloatArray:
@@ -38,16 +38,6 @@ def error(
     """
     deviation: FloatArray = (position - reference) - (distance - reference_distance)
     return deviation
-
-
-def mean(errors: FloatArray) -> FloatArray:
-    """XF_i and XB_i = (1/cycle)·Σ_j X_{i,j}, m (Eq. 4 and 6); shape (..., step, cycle) to (..., step)."""
-    return position_statistics(errors).mean
-
-
-def standard_deviation(errors: FloatArray) -> FloatArray:
-    """SF_i and SB_i = √(Σ_j (X_i − X_{i,j})²/(cycle − 1)), m (Eq. 5 and 7); NaN of a single cycle."""
-    return position_statistics(errors).standard_deviation
 
 
 def interpolate(values: FloatArray) -> FloatArray:

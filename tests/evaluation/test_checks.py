@@ -56,7 +56,7 @@ def rotary(*targets: float) -> MeasurementSet:
 
 
 @pytest.mark.parametrize(("number", "met"), [(10, False), (11, True)])
-def test_positions_in_all(number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_positions_in_all(number: int, met: bool) -> None:
     found = positions_in_all(evenly(0, 300, number), 11, Basis.PUBLISHED)
 
     assert said(found) == ("At least 11 positions", f"{number} positions", met)
@@ -75,14 +75,14 @@ def test_positions_in_all(number: int, met: bool) -> None:  # noqa: FBT001 - a c
         (2000, 10, True),
     ],
 )
-def test_five_positions_per_metre_and_five_in_all(length: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_five_positions_per_metre_and_five_in_all(length: float, number: int, met: bool) -> None:
     found = positions_per_metre(evenly(0, length, number), 5, Basis.PUBLISHED, minimum=5)
 
     assert found.met is met
 
 
 @pytest.mark.parametrize(("length", "number", "met"), [(1000, 10, False), (1000, 11, True), (700, 8, True)])
-def test_ten_positions_per_metre_and_one_more(length: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_ten_positions_per_metre_and_one_more(length: float, number: int, met: bool) -> None:
     found = positions_per_metre(evenly(0, length, number), 10, Basis.PUBLISHED, further=1)
 
     assert found.met is met
@@ -124,9 +124,7 @@ def scale_of(element: float, travel: tuple[float, float] | None = None) -> Axis:
     ],
 )
 def test_each_scale_element_of_the_travel_holds_its_positions(
-    targets: list[float],
-    minimum: int,
-    met: bool,  # noqa: FBT001 - a column of a table
+    targets: list[float], minimum: int, met: bool
 ) -> None:
     axis = scale_of(0.1, travel=(0.0, 0.4))
     found = positions_per_scale_element(measured_at(*targets, axis=axis), minimum, Basis.PUBLISHED)
@@ -170,7 +168,7 @@ def test_a_scale_without_stated_elements_is_one_piece_and_says_so() -> None:
         (360, 8, True),
     ],
 )
-def test_positions_by_angle(angle: float, number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_positions_by_angle(angle: float, number: int, met: bool) -> None:
     measurements = rotary(*np.linspace(0, angle, number))
 
     assert positions_by_angle(measurements, BY_ANGLE, 8, Basis.APPLIED).met is met
@@ -187,11 +185,7 @@ def test_positions_by_angle(angle: float, number: int, met: bool) -> None:  # no
         ([0, 90, 180, 270, 330, 360.001], "they are", True),  # 360° is 0° again
     ],
 )
-def test_principal_angles_are_among_the_targets(
-    targets: list[float],
-    found: str,
-    met: bool,  # noqa: FBT001 - a column of a table
-) -> None:
+def test_principal_angles_are_among_the_targets(targets: list[float], found: str, met: bool) -> None:
     assert said(principal_angles(rotary(*targets), Basis.APPLIED))[1:] == (found, met)
 
 
@@ -200,8 +194,7 @@ def test_principal_angles_are_among_the_targets(
     [((-0.01, 0.11), True), ((0.11, -0.01), True), ((-0.05, 0.15), True), ((-0.06, 0.1), False)],
 )
 def test_targets_are_spread_when_no_more_is_left_at_an_end_than_between_two(
-    travel: tuple[float, float],
-    met: bool,  # noqa: FBT001 - a column of a table
+    travel: tuple[float, float], met: bool
 ) -> None:
     measurements = measured_at(0, 50, 100, axis=Axis("X", travel=travel))
 
@@ -256,7 +249,7 @@ def test_a_direction_that_is_named_without_a_reading_was_not_measured() -> None:
 
 
 @pytest.mark.parametrize(("runs", "met"), [(4, False), (5, True), (10, True)])
-def test_runs_are_counted(runs: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_runs_are_counted(runs: int, met: bool) -> None:
     found = number_of_runs(simulated_test(runs=runs), 5, Basis.APPLIED)
 
     assert said(found) == ("At least 5 runs in each direction", f"{runs} runs", met)
@@ -319,7 +312,7 @@ def taken_at(*targets: float, pitch: float | None = None, signal: float | None =
         ([0, 50.3, 100.1, 149.6], True),
     ],
 )
-def test_spacing_of_whole_pitches_hides_the_deviation_of_the_pitch(targets: list[float], met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_spacing_of_whole_pitches_hides_the_deviation_of_the_pitch(targets: list[float], met: bool) -> None:
     (found,) = spacing_against_periods(taken_at(*targets, pitch=0.01), Basis.APPLIED)
 
     assert said(found)[0] == "Spacing no integer multiple of the pitch (10 mm)"
@@ -398,19 +391,22 @@ def test_one_interval_of_three_times_the_others_is_no_interval_with_fractions() 
     )
 
 
-def test_two_positions_do_not_tell_whether_there_is_a_random_fraction() -> None:
-    assert random_fractions(taken_at(0, 10), FORMULA, Basis.PUBLISHED).met is None
+@pytest.mark.parametrize(("targets", "met"), [([0, 10], None), ([0, 10, 20.3], True)])
+def test_two_positions_do_not_tell_whether_there_is_a_random_fraction_and_three_do(
+    targets: list[float], met: bool | None
+) -> None:
+    assert random_fractions(taken_at(*targets), FORMULA, Basis.PUBLISHED).met is met
 
 
 @pytest.mark.parametrize(("number", "met"), [(13, True), (12, False)])
-def test_mean_interval(number: int, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_mean_interval(number: int, met: bool) -> None:
     measurements = taken_at(*np.linspace(0, 3000, number))
 
     assert mean_interval(measurements, 0.25, Basis.APPLIED).met is met
 
 
 @pytest.mark.parametrize(("length", "met"), [(0.25, True), (0.4, False)])
-def test_two_targets_have_one_interval(length: float, met: bool) -> None:  # noqa: FBT001 - a column of a table
+def test_two_targets_have_one_interval(length: float, met: bool) -> None:
     assert mean_interval(taken_at(0.0, 1000 * length), 0.25, Basis.APPLIED).met is met
 
 

@@ -75,7 +75,7 @@ def test_number_is_decimal_however_it_is_written(written: str, value: float, tmp
 
 
 @pytest.mark.parametrize(("written", "value"), [("yes", True), ("no", False), ("true", True), ("Off", False)])
-def test_truth_is_read_where_truth_is_asked_for(written: str, value: bool, tmp_path: Path) -> None:  # noqa: FBT001 - it is what the test is about
+def test_truth_is_read_where_truth_is_asked_for(written: str, value: bool, tmp_path: Path) -> None:
     keys = loaded(with_line(5, f"  readings_on_graphs: {written}"), tmp_path).keys
     assert keys.certificate.readings_on_graphs is value
 

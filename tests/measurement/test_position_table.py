@@ -61,7 +61,6 @@ def test_a_table_may_have_a_column_for_each_direction(tmp_path: Path) -> None:
 
 def test_the_file_is_known_by_its_digest(tmp_path: Path) -> None:
     source = _read(tmp_path, "position,deviation\n0,0\n1,1\n").source
-    assert source is not None
     assert (source.name, source.size) == ("table.csv", 27)
 
 

@@ -91,7 +91,7 @@ def test_values_that_alone_make_sense_are_all_that_is_tried() -> None:
 
 
 @pytest.mark.parametrize(("name", "is_refined"), [("gear-mesh", False), ("screw-pitch", True)])
-def test_between_two_numbers_of_teeth_there_is_none(name: str, is_refined: bool) -> None:  # noqa: FBT001
+def test_between_two_numbers_of_teeth_there_is_none(name: str, is_refined: bool) -> None:
     other = EFFECTS[name].forms()[-1]
     assert other.searched[0].is_refined is is_refined
 

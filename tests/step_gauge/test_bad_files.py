@@ -88,6 +88,14 @@ def test_a_section_that_ends_before_it_begins(folder: Path, capsys: pytest.Captu
     assert "the section ends with block 1 and begins with block 2" in refused(folder, capsys)
 
 
+@pytest.mark.parametrize(("stated", "block"), [("last_block: 1", 1), ("first_block: 16", 16)])
+def test_a_section_of_which_the_end_of_the_gauge_leaves_one_block(
+    stated: str, block: int, folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    changed(folder / "job.yaml", "first_block: 2\n  last_block: 13", stated)
+    assert f"from block {block} to block {block} has no two blocks" in refused(folder, capsys)
+
+
 def test_a_missed_face(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     points = folder / "probed.csv"
     lines = points.read_text(encoding="utf-8").splitlines()

@@ -9,7 +9,7 @@ import pytest
 
 from environments import ROOT
 from refusals import refusal
-from zlmreport.plugin import InputError, Place
+from zlmreport.plugin import Place
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import Side
 
@@ -54,11 +54,6 @@ def test_a_yaml_file_has_identity_and_material() -> None:
 def test_a_section_holds_its_blocks_whole() -> None:
     part = cut_section(read_calibration(TABLE).gauge, 2, 4, Place("job.yaml"))
     assert [face.number for face in part.faces] == [3, 4, 5, 6, 7, 8]
-
-
-def test_a_section_beyond_the_gauge_is_refused_with_the_blocks_there_are() -> None:
-    with pytest.raises(InputError, match=r"job\.yaml:4:3: .*block 9, and .* has the blocks 1 to 5"):
-        cut_section(read_calibration(TABLE).gauge, 2, 9, Place("job.yaml", 4, 3))
 
 
 @pytest.mark.parametrize(

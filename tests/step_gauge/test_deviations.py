@@ -10,12 +10,9 @@ import pytest
 from refusals import refusal
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
-from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.plugin import InputError
 from zlmreport_step_gauge.deviations import RadiusSource, compute_deviations_of, compute_radius_uncertainty
 from zlmreport_step_gauge.gauge import Side
-from zlmreport_step_gauge.initial_points import InitialPoints
-from zlmreport_step_gauge.location import locate
 from zlmreport_step_gauge.probed import ProbedPoint
 from zlmreport_step_gauge.set_up import Expansion, StatedRadius
 
@@ -146,14 +143,6 @@ def test_a_machine_with_errors_does_not_turn_the_gauge_round() -> None:
     deviations(touched(GAUGE, lambda x, side: 8e-6 * np.sin(x / 0.01) + side * 1e-6), set_up(GAUGE))
 
 
-def test_faces_that_are_numbered_from_the_end_are_told() -> None:
-    along_x = SimulatedTest(GAUGE, (0.1, 0.2, 0.3), (1.0, 0.0, 0.0), point_uncertainty=0.0)
-    points = simulate(along_x, MachineErrors(), np.random.default_rng(1)).initial_points
-    located = locate(InitialPoints(points, FILE), GAUGE, 2e-3, 1e-6)
-    turned = [replace(each, face=11 - each.face) for each in touched(GAUGE)]
-    assert "numbered from the wrong end" in told(turned, located=located)
-
-
 def test_a_missed_face_that_shifts_the_others_is_told_with_its_line() -> None:
     shifted = [
         replace(each, coordinates=(each.coordinates[0] + 20e-3 * (each.face > 4), 0.2, 0.3))
@@ -162,12 +151,6 @@ def test_a_missed_face_that_shifts_the_others_is_told_with_its_line() -> None:
     message = told(shifted)
     assert message.startswith("probed.csv:6:1: face 5 lies")
     assert "is this the section that was probed" in message
-
-
-def test_a_face_without_a_point_is_named_with_its_block() -> None:
-    missed = [each for each in touched(GAUGE) if each.face != 6]
-    with pytest.raises(InputError, match=r"face 6 \(block 3, back\) was missed"):
-        probed(missed, GAUGE)
 
 
 def test_a_face_off_the_section_is_named_with_its_line() -> None:

@@ -6,11 +6,11 @@ import itertools
 from collections.abc import Callable
 from typing import Any
 
-import pytest
 from pydantic import Field
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
 from step_gauge.exemplary_program import ExemplaryProbing, read_words
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import InputError, Options, Place, Words
 from zlmreport_step_gauge import testing as probing_programs
 from zlmreport_step_gauge.paths.path import ProbingPath
@@ -97,24 +97,12 @@ SINS = [
 ]
 
 
-@pytest.mark.parametrize("check", PROBING_PROGRAM_CHECKS)
-def test_exemplary_probing_program_passes(check: Callable[..., None]) -> None:
-    check(ExemplaryProbing(), read_words, {})
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    PROBING_PROGRAM_CHECKS, ExemplaryProbing, SINS, lambda *_: (read_words, {})
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    sinner = type("Sinner", (ExemplaryProbing,), sin)()
-    assert sentence in failure(check, sinner, read_words, {})
-
-
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} == set(PROBING_PROGRAM_CHECKS)
 
 
 def test_all_failures_are_reported_at_once() -> None:
-    sinner = type("Sinner", (ExemplaryProbing,), {"write": on_paper(lambda text: inwards(text).rstrip())})()
+    sinner = make_sinner(ExemplaryProbing, {"write": on_paper(lambda text: inwards(text).rstrip())})
     checks = failed_checks(check_probing_program, sinner, read_words)
     assert checks == ["leads_along_the_path", "is_plain_text"]

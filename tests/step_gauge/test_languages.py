@@ -15,7 +15,7 @@ from step_gauge.paths import PLACE, planned
 from zlmreport.plugin import InputError
 from zlmreport.plugin.program import PartProgram
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
+from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, sample_path
 
 REGISTRY = find_plugins()
@@ -114,13 +114,6 @@ def test_ippdme_numbers_a_long_path_one_by_one_and_refuses_one_that_is_too_long(
 
 def test_mv_ms_has_the_digits_that_are_asked_for() -> None:
     assert "MS    300.0000    195.0000    200.0000 ;" in written("mv-ms", {"decimals": 4})
-
-
-@pytest.mark.parametrize("identifier", sorted(LANGUAGES))
-def test_horizontal_paths_are_written_too(identifier: str) -> None:
-    path = planned(kind=PathKind.HORIZONTAL).path
-    program = REGISTRY.part_program(identifier, takes=ProbingPath)
-    assert len(LANGUAGES[identifier](program.write(path, program.options()))) == len(path.moves)
 
 
 PROGRAMS = find_plugins().list_programs_for(ProbingPath)

@@ -35,10 +35,6 @@ def test_points_come_by_block_and_number_in_metres_whatever_their_order(tmp_path
     assert found[1, 6].tolist() == pytest.approx([7e-3, 2e-3, 3e-3])
 
 
-def test_a_point_that_is_missing_is_named(tmp_path: Path) -> None:
-    assert "points.csv: point 5 of block begin is missing" in told(tmp_path, ROWS[:4] + ROWS[5:])
-
-
 def test_a_point_that_is_there_twice_is_named_with_its_line(tmp_path: Path) -> None:
     assert "points.csv:18:7: point 1 of block begin is there twice" in told(
         tmp_path, [*ROWS, "begin,1,0,0,0"]
@@ -149,12 +145,6 @@ def test_a_face_that_is_tilted_is_reported_as_misaligned() -> None:
     found = located(coordinates).begin_misalignment
     assert found.angle == pytest.approx(20e-6 / 9e-3, rel=0.02)  # the direction turns a little with it
     assert found.is_significant
-
-
-def test_points_on_a_line_define_no_plane() -> None:
-    coordinates = points()
-    coordinates[0, 1] = (coordinates[0, 0] + coordinates[0, 2]) / 2
-    assert "block begin: P1, P2 and P3 lie on a line and define no plane" in refusal(located, coordinates)
 
 
 def test_exchanged_ends_are_refused() -> None:

@@ -172,11 +172,6 @@ def test_front_faces_alone_make_a_test_in_one_direction() -> None:
     assert len(found.target_positions) == 5
 
 
-def test_a_job_without_a_gauge_is_told_what_to_state() -> None:
-    with pytest.raises(InputError, match=r"job\.yaml:12:5: this source needs the gauge; state step_gauge"):
-        SOURCE.read(SOURCE.options(file=RAW), SourceContext(Axis("Y"), HERE))
-
-
 def test_a_normal_that_looks_the_other_way_is_refused_with_its_line(tmp_path: Path) -> None:
     turned = tmp_path / "turned.csv"
     turned.write_text(

@@ -64,3 +64,10 @@ def test_bandwidth_and_repeatability_are_of_measured_values_only() -> None:
     measured = np.array([1.0, 1.0, 5.0, 4.0])
     assert parameters["W"] == pytest.approx(np.ptp(measured))
     assert np.nanmax(columns["XF"]) <= measured.max()
+
+
+def test_a_step_beside_a_missing_one_is_not_interpolated() -> None:
+    forward = np.array([[1.0], [NAN], [NAN], [NAN], [5.0]])
+    readings = position_statistics(np.array([forward, NAN * forward]))
+    found = STANDARD.arithmetic(readings, STANDARD.options()).positions["XF"]
+    assert np.isnan(found).tolist() == [False, True, True, True, False]

@@ -12,6 +12,7 @@ import pytest
 from pydantic import Field
 
 from refusals import failure
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import InputError, Options, Place, Words, read_only_floats
 from zlmreport.plugin.controller import CompensationTable, CrossTable
 from zlmreport.testing import (
@@ -280,20 +281,9 @@ SINS = [
 ]
 
 
-def sinner(sin: dict[str, Any]) -> Any:
-    return type("Sinner", (ExemplaryController,), sin)()
-
-
-@pytest.mark.parametrize("check", CONTROLLER_CHECKS)
-def test_the_exemplary_controller_passes(check: Callable[..., None]) -> None:
-    check(EXEMPLARY, {}, EXAMPLE)
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    CONTROLLER_CHECKS, ExemplaryController, SINS, lambda *_: ({}, EXAMPLE)
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    assert sentence in failure(check, sinner(sin), {}, EXAMPLE)
 
 
 def test_a_control_of_a_sign_that_is_stated_passes_without_an_example_of_it() -> None:
@@ -310,14 +300,9 @@ def test_nothing_is_asked_of_a_control_without_such_tables() -> None:
     ACROSS(plain, {}, EXAMPLE)
 
 
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} == set(CONTROLLER_CHECKS)
-
-
 def test_all_failures_are_reported_at_once() -> None:
-    lines = failure(
-        check_controller, sinner({"confidence": "sure", "read": lambda *_: {}["x"]}), example=EXAMPLE
-    ).splitlines()
+    sinner = make_sinner(ExemplaryController, {"confidence": "sure", "read": lambda *_: {}["x"]})
+    lines = failure(check_controller, sinner, example=EXAMPLE).splitlines()
     assert [line.split(": ")[:2] for line in lines] == [
         ["is_named", "exemplary-control"],
         ["reads_what_it_writes", "exemplary-control"],

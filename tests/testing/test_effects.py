@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
+from testing.sinning import make_sinner, make_tests
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.formula_parts import Formula
 from zlmreport.plugin import AxisKind, Options, Words, same_in_all_languages as same
@@ -169,19 +170,13 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
 ]
 
 
-@pytest.mark.parametrize("check", EFFECT_CHECKS)
-def test_the_exemplary_effect_passes(check: Callable[..., None]) -> None:
-    check(ExemplaryEffect(), DESIGNS)
-
-
-@pytest.mark.parametrize(("name", "sin", "sentence"), SINS)
-def test_check_finds_its_sin(name: str, sin: dict[str, Any], sentence: str) -> None:
-    sinner = type("Sinner", (ExemplaryEffect,), dict(sin))()
-    assert sentence in failure(getattr(effects, name), sinner, DESIGNS)
-
-
-def test_every_check_has_a_sin_that_it_finds() -> None:
-    assert {check.__name__ for check in EFFECT_CHECKS} == {name for name, *_ in SINS} | {"is_complete"}
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    EFFECT_CHECKS,
+    ExemplaryEffect,
+    [(getattr(effects, name), sin, sentence) for name, sin, sentence in SINS],
+    lambda *_: (DESIGNS,),
+    beside=[effects.is_complete],
+)
 
 
 def test_what_is_no_effect_is_told_what_it_lacks() -> None:
@@ -197,7 +192,7 @@ def test_what_installation_would_refuse_the_kit_refuses() -> None:
 
 
 def test_all_sins_are_told_at_once() -> None:
-    sinner = type("Sinner", (ExemplaryEffect,), {"identifier": "Wave!", "confusions": (None,)})()
+    sinner = make_sinner(ExemplaryEffect, {"identifier": "Wave!", "confusions": (None,)})
     checks = failed_checks(check_effect, sinner)
     assert checks == ["is_described", "names_what_it_is_taken_for"]
 

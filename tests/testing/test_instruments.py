@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import nullcontext
 from dataclasses import replace
 from itertools import islice
 from types import SimpleNamespace
@@ -107,6 +108,10 @@ def _careless(_self: object, _options: PortOptions) -> Any:
     raise InputError.at(Place("somewhere"), "no")
 
 
+def _quiet(_self: object, _options: PortOptions) -> Any:
+    return nullcontext(SimpleNamespace(readings=lambda: iter(())))
+
+
 @pytest.mark.parametrize(
     "check",
     [
@@ -136,6 +141,15 @@ def test_a_sound_instrument_passes(check: Any) -> None:
         (instruments.tells_of_a_lost_beam, _sin(fault=Fault.UNREADABLE), "no reading says so"),
         (instruments.refuses_silence, _sin(open=lambda *_: sys.exit(0)), "raised SystemExit: 0"),
         (instruments.refuses_silence, _sin(open=_careless), "an AccessError is expected"),
+        *(
+            (check, _sin(open=_quiet), "the readings end without a word; an AccessError")
+            for check in (
+                instruments.notices_the_cable,
+                instruments.refuses_silence,
+                instruments.refuses_another_device,
+                instruments.refuses_a_port_that_is_not_there,
+            )
+        ),
     ],
 )
 def test_a_sin_is_found(check: Any, sinful: Any, sentence: str) -> None:

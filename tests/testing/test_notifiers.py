@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import AccessError, Options, Place, Words
 from zlmreport.plugin.protocols import Message
 from zlmreport.testing import NOTIFIER_CHECKS, NotifierTrial, check_notifier, notifiers
@@ -133,26 +134,9 @@ SINS: list[tuple[Any, dict[str, Any], str]] = [
 ]
 
 
-def sinner(sin: dict[str, Any]) -> Any:
-    return type("Sinner", (ExemplaryNotifier,), sin)()
-
-
-@pytest.mark.parametrize("check", NOTIFIER_CHECKS)
-def test_the_exemplary_notifier_passes(check: Callable[..., None]) -> None:
-    notifier = ExemplaryNotifier()
-    check(notifier, trial(notifier))
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    NOTIFIER_CHECKS, ExemplaryNotifier, SINS, lambda notifier, _: (trial(notifier),)
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    notifier = sinner(sin)
-    assert sentence in failure(check, notifier, trial(notifier))
-
-
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} == set(NOTIFIER_CHECKS)
 
 
 def test_a_trial_names_somebody_else() -> None:
@@ -162,7 +146,7 @@ def test_a_trial_names_somebody_else() -> None:
 
 
 def test_all_failures_are_reported_at_once() -> None:
-    notifier = sinner({"title": "", "receiver": lambda *_: ""})
+    notifier = make_sinner(ExemplaryNotifier, {"title": "", "receiver": lambda *_: ""})
     assert failed_checks(check_notifier, notifier, trial(notifier)) == [
         "is_named",
         "names_who_is_told",

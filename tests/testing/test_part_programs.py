@@ -11,8 +11,9 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
 from testing.exemplary_program import ExemplaryProgram, run_steps
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import AxisKind, Options, Words
 from zlmreport.plugin.program import Motion, ProgramOptions
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
@@ -117,17 +118,9 @@ SINS = [
 ]
 
 
-@pytest.mark.parametrize("check", PART_PROGRAM_CHECKS)
-def test_exemplary_part_program_passes(check: Callable[..., None]) -> None:
-    check(ExemplaryProgram(), run_steps, {})
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    PART_PROGRAM_CHECKS, ExemplaryProgram, SINS, lambda *_: (run_steps, {})
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    sinner = type("Sinner", (ExemplaryProgram,), sin)()
-    assert sentence in failure(check, sinner, run_steps, {})
 
 
 def test_an_interpreter_tells_the_feed() -> None:
@@ -137,12 +130,8 @@ def test_an_interpreter_tells_the_feed() -> None:
         )
 
 
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} == set(PART_PROGRAM_CHECKS)
-
-
 def test_all_failures_are_reported_at_once() -> None:
     quiet = on_paper(lambda text: text.replace("KIT-7", "").replace("REST", "SAY"))
-    sinner = type("Sinner", (ExemplaryProgram,), {"write": quiet})()
+    sinner = make_sinner(ExemplaryProgram, {"write": quiet})
     checks = failed_checks(check_part_program, sinner, run_steps)
     assert checks == ["leads_to_every_reading_from_its_side", "names_the_job"]

@@ -10,12 +10,12 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from datetime import datetime
-from typing import Any
 
 import pytest
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
 from testing.exemplary import ExemplaryPage, ExemplaryRenderer
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import Language, Words
 from zlmreport.plugin.renderer import Block, Cell, Certificate, Formulas, Notice, Table
 from zlmreport.testing import RENDERER_CHECKS, check_renderer, renderers, sample_certificate
@@ -161,29 +161,20 @@ SINS = [
 ]
 
 
-@pytest.mark.parametrize("check", RENDERER_CHECKS)
-@pytest.mark.parametrize("renderer", [ExemplaryRenderer(), ExemplaryPage()], ids=lambda each: each.suffix)
-def test_exemplary_renderers_pass(check: Callable[..., None], renderer: ExemplaryRenderer) -> None:
-    check(renderer)
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    RENDERER_CHECKS, ExemplaryPage, SINS, lambda *_: ()
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    sinner = type("Sinner", (ExemplaryPage,), sin)()
-    assert sentence in failure(check, sinner)
 
 
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} == set(RENDERER_CHECKS)
+def test_an_exemplary_format_of_data_passes() -> None:
+    check_renderer(ExemplaryRenderer())
 
 
 def test_all_failures_are_reported_at_once() -> None:
-    sinner = type("Sinner", (ExemplaryPage,), {"suffix": "html", "render": lambda *_: b""})()
+    sinner = make_sinner(ExemplaryPage, {"suffix": "html", "render": lambda *_: b""})
     with pytest.raises(AssertionError, match="suffix"):
         check_renderer(sinner)
-    sinner = type("Sinner", (ExemplaryPage,), {"render": lambda *_: b"nothing"})()
+    sinner = make_sinner(ExemplaryPage, {"render": lambda *_: b"nothing"})
     checks = failed_checks(check_renderer, sinner)
     assert checks == [
         "names_the_certificate",

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from refusals import failed_checks, failure
+from refusals import failed_checks
 from testing.exemplary import ExemplarySource, ExemplarySourceOptions
+from testing.sinning import make_sinner, make_tests
 from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.plugin import (
     Axis,
@@ -237,29 +238,27 @@ SINS = [
 ]
 
 
-@pytest.fixture
-def keys(tmp_path: Path) -> dict[str, Any]:
-    file = tmp_path / "six.txt"
+def keys_in(folder: Path) -> dict[str, Any]:
+    file = folder / "six.txt"
     file.write_text("1.5 2.5 3.5 0.5 1.5 2.5\n", encoding="ascii")
     return {"file": file}
+
+
+@pytest.fixture
+def keys(tmp_path: Path) -> dict[str, Any]:
+    return keys_in(tmp_path)
 
 
 HOLDS = FileContents(6, ((0.0, "+", 1, 1.5), (200.0, "+", 1, 3.5), (0.0, "-", 1, 0.5)))
 
 
-@pytest.mark.parametrize("check", SOURCE_CHECKS)
-def test_the_exemplary_source_passes(check: Callable[..., None], keys: dict[str, Any]) -> None:
-    check(ExemplarySource(), keys, Axis("X"), HOLDS)
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    SOURCE_CHECKS,
+    ExemplarySource,
+    SINS,
+    lambda _, folder: (keys_in(folder), Axis("X"), HOLDS),
+    beside=[sources.reads_the_same_again],
 )
-def test_a_check_finds_its_sin(
-    check: Callable[..., None], sin: dict[str, Any], sentence: str, keys: dict[str, Any]
-) -> None:
-    sinner = type("Sinner", (ExemplarySource,), sin)()
-    assert sentence in failure(check, sinner, keys, Axis("X"), HOLDS)
 
 
 def test_a_source_that_reads_something_else_the_second_time_is_found(keys: dict[str, Any]) -> None:
@@ -267,13 +266,9 @@ def test_a_source_that_reads_something_else_the_second_time_is_found(keys: dict[
         sources.reads_the_same_again(Fickle(), keys, Axis("X"), HOLDS)
 
 
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} | {sources.reads_the_same_again} == set(SOURCE_CHECKS)
-
-
 def test_all_failures_are_reported_at_once(keys: dict[str, Any]) -> None:
     sin = reading(lambda m: replace(m, axis=Axis("W"), approach=read_only_integers(m.approach * 2)))
-    sinner = type("Sinner", (ExemplarySource,), sin)()
+    sinner = make_sinner(ExemplarySource, sin)
     checks = failed_checks(check_source, sinner, keys, holds=HOLDS)
     assert checks == [
         "reads_a_measurement_set",
@@ -291,9 +286,7 @@ def test_a_missing_reading_that_is_filled_in_is_found(keys: dict[str, Any]) -> N
     sources.reads_what_the_file_holds(ExemplarySource(), keys, Axis("X"), ZEROED)
     filled = reading(lambda m: replace(m, deviation=read_only_floats(np.nan_to_num(m.deviation))))
     with pytest.raises(AssertionError, match="6 readings; the file holds 5"):
-        sources.reads_what_the_file_holds(
-            type("Sinner", (ExemplarySource,), filled)(), keys, Axis("X"), ZEROED
-        )
+        sources.reads_what_the_file_holds(make_sinner(ExemplarySource, filled), keys, Axis("X"), ZEROED)
 
 
 @pytest.mark.parametrize(

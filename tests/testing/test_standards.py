@@ -13,6 +13,7 @@ from pydantic import Field
 
 from refusals import failure
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
+from testing.sinning import make_sinner, make_tests
 from zlmreport.plugin import Evaluation, Figure, Options, Words, same_in_all_languages as same
 from zlmreport.plugin.standard import (
     Arithmetic,
@@ -403,20 +404,13 @@ SINS = [
 ]
 
 
-def sinner(sin: dict[str, Any]) -> Any:
-    return type("Sinner", (ExemplaryStandard,), sin)()
-
-
-@pytest.mark.parametrize("check", STANDARD_CHECKS)
-def test_the_exemplary_standard_passes(check: Callable[..., None]) -> None:
-    check(EXEMPLARY, ExemplaryOptions(), EXAMPLES)
-
-
-@pytest.mark.parametrize(
-    ("check", "sin", "sentence"), SINS, ids=lambda value: getattr(value, "__name__", None)
+test_exemplary_passes, test_a_check_finds_its_sin, test_every_check_has_a_sin = make_tests(
+    STANDARD_CHECKS,
+    ExemplaryStandard,
+    SINS,
+    lambda *_: (ExemplaryOptions(), EXAMPLES),
+    beside=[standards.has_all_members],
 )
-def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
-    assert sentence in failure(check, sinner(sin), ExemplaryOptions(), EXAMPLES)
 
 
 def test_an_incomplete_protocol_is_named_member_by_member() -> None:
@@ -424,13 +418,11 @@ def test_an_incomplete_protocol_is_named_member_by_member() -> None:
         check_standard(type("Stub", (), {"identifier": "stub:1"})())
 
 
-def test_every_check_has_a_sin() -> None:
-    assert {check for check, *_ in SINS} | {standards.has_all_members} == set(STANDARD_CHECKS)
-
-
 def test_all_failures_are_reported_at_once_with_the_standard_s_name() -> None:
     lines = failure(
-        check_standard, sinner({"designation": "", "figures": lambda *_: ()}), examples=EXAMPLES
+        check_standard,
+        make_sinner(ExemplaryStandard, {"designation": "", "figures": lambda *_: ()}),
+        examples=EXAMPLES,
     ).splitlines()
     assert [line.split(": ")[:2] for line in lines] == [
         ["is_named", "exemplary:1"],
@@ -465,7 +457,7 @@ class _Worded(ExemplaryOptions):
 
 
 def test_the_author_states_another_value_where_the_type_tells_none() -> None:
-    standard = sinner({"options": _Worded})
+    standard = make_sinner(ExemplaryStandard, {"options": _Worded})
     with pytest.raises(AssertionError, match="job key 'word': the kit finds no other value for it"):
         every_key_matters(standard, _Worded(), EXAMPLES)
     with pytest.raises(AssertionError, match="job key 'word' is ignored: 'x' gives what '' gives"):

@@ -42,7 +42,7 @@ def carried(content: bytes) -> dict[str, Carried]:
 )
 def test_what_is_made_of_the_readings_is_made_again(
     content: bytes,
-    same_processor: bool,  # noqa: FBT001 - a column
+    same_processor: bool,
     verdict: VerificationVerdict,
 ) -> None:
     """Another processor rounds the last digit otherwise; the same one does not."""

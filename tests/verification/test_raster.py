@@ -83,8 +83,8 @@ def test_a_page_that_is_not_there_is_told() -> None:
 )
 def test_a_mark_may_be_off_by_a_pixel_where_other_libraries_drew(
     points: float,
-    is_alike: bool,  # noqa: FBT001
-    holds: bool,  # noqa: FBT001
+    is_alike: bool,
+    holds: bool,
 ) -> None:
     told = seen(page(BOX.format(x=20 + points)), page(BOX.format(x=20)), is_alike=is_alike)
     assert (told == "") is holds

@@ -243,6 +243,11 @@ def _expect_end(instrument: Instrument, port: str, why: str) -> None:
     except Exception as error:
         message = f"{where}: {error!r}; an AccessError with the port as its place is expected"
         raise AssertionError(message) from error
+    else:
+        message = (
+            f"{where}: the readings end without a word; an AccessError with the port as its place is expected"
+        )
+        raise AssertionError(message)
 
 
 class _Stage:

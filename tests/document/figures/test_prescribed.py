@@ -91,7 +91,7 @@ def evaluation(*, one_sided: bool) -> Evaluation:
 
 
 @pytest.mark.parametrize(("one_sided", "positions"), [(True, [0.0, 20.0]), (False, [0.0, 10.0, 20.0])])
-def test_a_line_has_a_gap_only_where_a_reading_is_missing(one_sided: bool, positions: list[float]) -> None:  # noqa: FBT001 - a parameter
+def test_a_line_has_a_gap_only_where_a_reading_is_missing(one_sided: bool, positions: list[float]) -> None:
     found = evaluation(one_sided=one_sided)
     curve = Diagram(found).curve("x̄", Role.MEAN_POSITIVE, found.statistics.mean_positive)
     assert curve is not None

@@ -403,7 +403,7 @@ class _Writer:
             ),
         )
 
-    def verdict(self, met: bool | None) -> Verdict:  # noqa: FBT001 (a finding's own three values)
+    def verdict(self, met: bool | None) -> Verdict:
         if met is None:
             return Verdict(Mark.OPEN, self.say("not stated", "nicht angegeben"))
         if met:

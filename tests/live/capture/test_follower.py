@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from itertools import chain, pairwise, takewhile
 from math import exp
@@ -56,9 +56,6 @@ def test_a_whole_test_is_taken_in_the_order_of_its_visits() -> None:
 
 @pytest.mark.parametrize("method", [Method.PENDULUM, Method.QUASI_PILGRIM, Method.UNIDIRECTIONAL])
 def test_every_method_is_taken_whole(method: Method) -> None:
-
-    from zlmreport.model.planning.methods import plan_path
-
     plan, axis = planned(method, runs=2), Axis()
     stops = plan_path(method, plan.targets.tolist(), plan.runs, plan.overrun)
     moves = (
@@ -79,10 +76,47 @@ def test_a_reading_is_the_mean_over_half_the_dwell_and_its_deviation_that_of_the
     assert taken.mean.count == pytest.approx(51, abs=1)
 
 
-def test_a_target_passed_without_standstill_takes_nothing() -> None:
+#: Ways of an axis that stood at its start, over targets at 0, 100 and 200 mm, and what is said of them.
+WAYS: dict[str, tuple[Callable[[Axis], Iterable[Iterator[LiveReading]]], list[str]]] = {
+    "a target passed without standstill takes nothing": (lambda at: [at.go(60)], ["Passed", "Elsewhere"]),
+    "the same standstill is not read twice": (lambda at: [at.go(0, stay=5)], ["visit 1"]),
+    "a display that shows the same for too long": (lambda at: [at.go(0, stay=8)], ["visit 1", "Frozen"]),
+    "a later reading takes the place of the earlier": (
+        lambda at: [at.go(0), at.turn(-5), at.go(0)],
+        ["visit 1", "visit 1"],
+    ),
+    "a stop after the target": (lambda at: [at.go(0, 0.6, 100)], ["visit 1", "Repeated", "visit 2"]),
+    "a pause between targets": (lambda at: [at.go(0, 40, 100)], ["visit 1", "Elsewhere", "visit 2"]),
+    "a missed visit renumbers nothing": (
+        lambda at: [at.go(0), at.go(100, stay=0.5), at.go(200)],
+        ["visit 1", "Passed", "Missed", "visit 3"],
+    ),
+    "the first visit can be missed": (lambda at: [at.go(100)], ["Passed", "Missed", "visit 2"]),
+    "a visit that was passed is taken when the axis comes back": (
+        lambda at: [at.go(0), at.go(120, stay=0.5), at.turn(95), at.go(100)],
+        ["visit 1", "Passed", "visit 2"],
+    ),
+    "from the wrong side": (
+        lambda at: [at.go(0), at.turn(105), at.go(100)],
+        ["visit 1", "Passed", "WrongDirection"],
+    ),
+    "an overshoot of less than ten times the stability range turns no direction": (
+        lambda at: [at.go(0.008, stay=0.05), at.go(0)],
+        ["visit 1"],
+    ),
+    "a larger overshoot is an approach from the other side": (
+        lambda at: [at.go(0.05, stay=0.05), at.go(0)],
+        ["WrongDirection"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("ways", "said"), WAYS.values(), ids=WAYS)
+def test_what_an_axis_does_is_a_visit_or_has_its_name(
+    ways: Callable[[Axis], Iterable[Iterator[LiveReading]]], said: list[str]
+) -> None:
     axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(60)), following(listed()))
-    assert kinds(events) == ["Passed", "Elsewhere"]
+    assert kinds(happened(chain(axis.stand(), *ways(axis)), following(listed()))) == said
 
 
 def test_a_standstill_shorter_than_the_dwell_takes_nothing() -> None:
@@ -123,11 +157,6 @@ def test_a_standstill_of_which_one_reading_is_outside_the_tolerance_takes_nothin
     )
     narrow = replace(SETTINGS, tolerance=0.1 * MM)
     assert kinds(happened(beyond, following(listed(), settings=narrow))) == ["visit 1"]
-
-
-def test_the_same_standstill_is_not_read_twice() -> None:
-    axis = Axis()
-    assert kinds(happened(chain(axis.stand(), axis.go(0, stay=5)), following(listed()))) == ["visit 1"]
 
 
 def test_motion_of_less_than_ten_times_the_stability_range_is_no_new_visit() -> None:
@@ -178,12 +207,6 @@ def test_only_a_standstill_as_long_as_it_must_settle_is_a_reading(settle: float,
     stops = chain(axis.go(100, stay=2.5), axis.go(100.0001, stay=1.2), axis.go(100.002, stay=0.3))
     happened(chain(axis.stand(), axis.go(0), stops, axis.go(200)), follower)
     assert follower.progress.read[2, Approach.POSITIVE].deviation == pytest.approx(filed * MM, abs=0.15 * UM)
-
-
-def test_a_later_reading_of_a_visit_takes_the_place_of_the_earlier() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0), axis.turn(-5), axis.go(0)), following(listed()))
-    assert kinds(events) == ["visit 1", "visit 1"]
 
 
 def test_a_stop_short_of_its_target_gives_way_to_the_one_that_follows() -> None:
@@ -246,12 +269,6 @@ def test_a_display_that_reads_wrong_by_a_factor_is_known_by_it(factor: float) ->
     assert event.factor == factor
 
 
-def test_a_display_that_shows_the_same_for_too_long_is_named() -> None:
-    axis, follower = Axis(), following(listed())
-    events = happened(chain(axis.stand(), axis.go(0, stay=8)), follower)
-    assert kinds(events) == ["visit 1", "Frozen"]
-
-
 def test_readings_that_drift_at_a_target_are_named_with_their_rate() -> None:
     axis, follower = Axis(), following(listed())
     drifting = (
@@ -260,12 +277,6 @@ def test_readings_that_drift_at_a_target_are_named_with_their_rate() -> None:
     )
     event = next(event for event in happened(drifting, follower) if isinstance(event, Passed))
     assert event.drift == pytest.approx(3 * UM, rel=0.05)
-
-
-def test_a_stop_after_the_target_takes_no_place() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0, 0.6, 100)), following(listed()))
-    assert kinds(events) == ["visit 1", "Repeated", "visit 2"]
 
 
 def test_a_pendulum_that_comes_back_to_its_last_visit_has_missed_none() -> None:
@@ -277,26 +288,12 @@ def test_a_pendulum_that_comes_back_to_its_last_visit_has_missed_none() -> None:
     assert kinds(events) == ["visit 1", "visit 2", "visit 2"]
 
 
-def test_a_missed_visit_is_named_at_the_next_stop_and_nothing_is_renumbered() -> None:
-    axis = Axis()
-    events = happened(
-        chain(axis.stand(), axis.go(0), axis.go(100, stay=0.5), axis.go(200)), following(listed())
-    )
-    assert kinds(events) == ["visit 1", "Passed", "Missed", "visit 3"]
-
-
 def test_several_visits_that_were_passed_are_all_missed() -> None:
     axis = Axis()
     targets = (0, 50, 100, 150, 200)
     events = happened(chain(axis.stand(), axis.go(0), axis.go(200)), following(listed(targets=targets)))
     assert [event.visit.number for event in events if isinstance(event, Missed)] == [2, 3, 4]
     assert kinds(events)[-1] == "visit 5"
-
-
-def test_the_first_visit_can_be_missed() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(100)), following(listed()))
-    assert kinds(events) == ["Passed", "Missed", "visit 2"]
 
 
 def test_two_missed_visits_of_a_pendulum_shift_no_run() -> None:
@@ -320,21 +317,6 @@ def test_two_missed_visits_of_a_pendulum_shift_no_run() -> None:
     assert visits[4].run == 3
 
 
-def test_a_visit_that_was_passed_is_taken_when_the_axis_comes_back() -> None:
-    axis = Axis()
-    events = happened(
-        chain(axis.stand(), axis.go(0), axis.go(120, stay=0.5), axis.turn(95), axis.go(100)),
-        following(listed()),
-    )
-    assert kinds(events) == ["visit 1", "Passed", "visit 2"]
-
-
-def test_a_target_that_is_approached_from_the_wrong_side_is_not_taken() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0), axis.turn(105), axis.go(100)), following(listed()))
-    assert kinds(events) == ["visit 1", "Passed", "WrongDirection"]
-
-
 def test_after_a_wrong_direction_the_right_one_is_taken() -> None:
     axis = Axis(position=5.0)
     events = happened(chain(axis.stand(), axis.go(0), axis.turn(-5), axis.go(0)), following(listed()))
@@ -342,18 +324,6 @@ def test_after_a_wrong_direction_the_right_one_is_taken() -> None:
     assert isinstance(wrong, WrongDirection)
     assert wrong.approach is Approach.NEGATIVE
     assert kinds([taken]) == ["visit 1"]
-
-
-def test_an_overshoot_of_less_than_ten_times_the_stability_range_turns_no_direction() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0.008, stay=0.05), axis.go(0)), following(listed()))
-    assert kinds(events) == ["visit 1"]
-
-
-def test_a_larger_overshoot_is_an_approach_from_the_other_side() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0.05, stay=0.05), axis.go(0)), following(listed()))
-    assert kinds(events) == ["WrongDirection"]
 
 
 def test_an_axis_that_stands_at_the_target_from_the_beginning_has_no_direction() -> None:
@@ -366,12 +336,6 @@ def test_a_stop_far_from_what_is_next_is_named_and_not_taken() -> None:
     axis = Axis(position=205.0)
     events = happened(chain(axis.stand(), axis.go(200)), following(listed()))
     assert kinds(events) == ["NotNext"]
-
-
-def test_a_pause_between_targets_is_no_visit() -> None:
-    axis = Axis()
-    events = happened(chain(axis.stand(), axis.go(0, 40, 100)), following(listed()))
-    assert kinds(events) == ["visit 1", "Elsewhere", "visit 2"]
 
 
 def test_an_axis_that_moves_before_its_datum_is_taken_ends_it() -> None:
@@ -720,7 +684,6 @@ def test_a_program_that_begins_after_a_visit_that_is_left_out_repeats_none(
     (asked,) = happened(chain(axis.turn(corner), axis.go(target)), follower)
     assert isinstance(asked, Unclear)
     (visit, share), *_ = asked.candidates
-    assert visit is not None
     assert visit.number == 4
     assert share == pytest.approx(1 / (1 + exp(-4.0)), abs=1e-3)
 

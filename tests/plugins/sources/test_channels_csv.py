@@ -133,7 +133,6 @@ def test_many_readings_are_averaged_and_what_that_leaves_out_is_told(file: File)
     found = file.read("time,X1\n" + rows, X1)
     assert len(found.deviation) == 1440
     assert found.target_positions[0] == pytest.approx(5.0)  # of the first ten seconds
-    assert found.provenance.averaging is not None
     assert found.provenance.averaging.readings == 4 * 3600
     assert found.provenance.averaging.left_out == pytest.approx(1 * UM, rel=1e-3)
     np.testing.assert_allclose(found.deviation, found.target_positions / 3600 * UM, atol=2e-10)
@@ -162,6 +161,7 @@ def test_the_job_states_intervals(file: File) -> None:
         ),
         ("time,X1\n0,1\n60,2\n30,3\n", "drift.csv:4:1: the time is before"),
         (LONG + "0,X1,1\n,X1,2\n", "drift.csv:3:1: there is no time"),
+        (LONG + "0,X1,1\n1e9,X1,2\n", "no test takes 1e+09 s; is the unit of its time right?"),
         (LONG + "0,X1,1\n60,,2\n", "drift.csv:3:4: there is no channel"),
         (LONG + "0,X1,1\n60,X1,two\n", "drift.csv:3:7: 'two' stands where a number belongs"),
         (LONG + "0,X1 (°C),20\n60,X1 (°C),21\n", "drift.csv:2:3: channel 'X1': '°C' is no unit"),
