@@ -178,7 +178,7 @@ def test_a_temperature_that_moves_is_taken_reading_by_reading(tmp_path: Path) ->
 
 @pytest.mark.parametrize("is_corrected", [True, False])
 def test_a_wrong_coefficient_of_a_machine_that_warms_up_is_in_r_too(
-    is_corrected: bool,  # noqa: FBT001 - a case
+    is_corrected: bool,
     tmp_path: Path,
 ) -> None:
     """α is 11.95 µm/(m·K), and 11.5 ± 0.5 is stated: from 20 to 24 °C that opens R by some 1.5 µm."""
