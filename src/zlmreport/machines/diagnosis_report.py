@@ -30,28 +30,26 @@ def collect_diagnosis(
     `tests`: The tests beside the model as it is.
     `complete`: The same beside the model with all that was found.
     """
-    noise, of_readings = diagnosis.noise, _MICRO * diagnosis.noise_of_readings
+    noise, of_readings = diagnosis.noise, diagnosis.noise_of_readings
     return {
         "schema": SCHEMA,
-        "model": collect_model(diagnosis.study),
-        "error": collect_study(diagnosis.study, noise),
+        **_collect_fit(diagnosis.study, noise),
         "verdict": diagnosis.verdict.value,
         "statement": say_verdict(diagnosis).in_language(language),
         "p_value": diagnosis.p_value.value,
         "set": list(diagnosis.found),
-        "candidates": [collect_candidate(each, diagnosis, language) for each in diagnosis.candidates],
-        "remainder": collect_remainder(diagnosis, language),
-        "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in tests],
+        "candidates": [_collect_candidate(each, diagnosis, language) for each in diagnosis.candidates],
+        "remainder": _collect_remainder(diagnosis, language),
+        "tests": _collect_tests(tests, of_readings),
         "complete": {
-            "model": collect_model(diagnosis.complete),
-            "error": collect_study(diagnosis.complete, noise),
-            "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in complete],
+            **_collect_fit(diagnosis.complete, noise),
+            "tests": _collect_tests(complete, of_readings),
         },
         "findings": [each.in_language(language) for each in list_findings(diagnosis.complete)],
         "beside": [
             {
                 "effect": each.effect,
-                "parameters": [collect_parameter(one) for one in each.estimates],
+                "parameters": [_collect_parameter(one) for one in each.estimates],
                 "statements": [sentence.in_language(language) for sentence in each.sentences],
             }
             for each in list_absent(diagnosis.complete, diagnosis.catalogue)
@@ -86,9 +84,8 @@ def build_values(diagnosis: MachineDiagnosis, language: Language = Language.ENGL
             for each in diagnosis.steps
         ],
         "verdict": find_verdict_after_build(diagnosis).value,
-        "remainder": collect_remainder(diagnosis, language),
-        "model": collect_model(diagnosis.complete),
-        "error": collect_study(diagnosis.complete, diagnosis.noise),
+        "remainder": _collect_remainder(diagnosis, language),
+        **_collect_fit(diagnosis.complete, diagnosis.noise),
     }
 
 
@@ -96,21 +93,43 @@ def change_values(
     before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[ComparedTest], Sequence[ComparedTest]]
 ) -> dict[str, Any]:
     """Return what a change of the model did; `tests` are those beside the model before and after it."""
-    noise, of_readings = after.noise.rms, _MICRO * after.noise_of_readings
     return {
         "schema": CHANGE,
         **{
             name: {
-                "model": collect_model(study),
-                "error": collect_study(study, noise),
-                "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in compared],
+                **_collect_fit(study, after.noise.rms),
+                "tests": _collect_tests(compared, after.noise_of_readings),
             }
             for name, study, compared in zip(("before", "after"), (before, after), tests, strict=True)
         },
     }
 
 
-def collect_remainder(diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any] | None:
+def _collect_fit(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
+    """Return the effects of a model with their parameters, and how far circles and model are apart.
+
+    `noise_rms`: Of the model that describes them, m.
+    """
+    left = study.rms
+    return {
+        "model": {
+            "effects": list(study.names),
+            "parameters": [_collect_parameter(each) for each in study.estimates],
+        },
+        "error": {
+            "rms": _MICRO * left,
+            "noise_rms": _MICRO * noise_rms,
+            "chi2_per_dof": (left / noise_rms) ** 2 if noise_rms else None,
+            "unit": "um",
+        },
+    }
+
+
+def _collect_tests(tests: Sequence[ComparedTest], noise_of_readings: float) -> list[dict[str, Any]]:
+    return [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise_of_readings} for each in tests]
+
+
+def _collect_remainder(diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any] | None:
     """Return what is left without a name."""
     left = diagnosis.remainder
     if left is None:
@@ -124,15 +143,7 @@ def collect_remainder(diagnosis: MachineDiagnosis, language: Language) -> dict[s
     }
 
 
-def collect_model(study: CircleStudy) -> dict[str, Any]:
-    """Return the effects of a model with their parameters."""
-    return {
-        "effects": list(study.names),
-        "parameters": [collect_parameter(each) for each in study.estimates],
-    }
-
-
-def collect_parameter(found: EstimatedTerm) -> dict[str, Any]:
+def _collect_parameter(found: EstimatedTerm) -> dict[str, Any]:
     """Return a parameter; without U where it was only tried at some values."""
     unit, u = found.unit, found.expanded_uncertainty
     values = {
@@ -146,18 +157,7 @@ def collect_parameter(found: EstimatedTerm) -> dict[str, Any]:
     )
 
 
-def collect_study(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
-    """Return how far circles and model are apart; `noise_rms`, m, of the model that describes them."""
-    left = study.rms
-    return {
-        "rms": _MICRO * left,
-        "noise_rms": _MICRO * noise_rms,
-        "chi2_per_dof": (left / noise_rms) ** 2 if noise_rms else None,
-        "unit": "um",
-    }
-
-
-def collect_candidate(
+def _collect_candidate(
     candidate: CircleCandidate, diagnosis: MachineDiagnosis, language: Language
 ) -> dict[str, Any]:
     """Return an effect that might be missing."""
@@ -171,7 +171,7 @@ def collect_candidate(
         "rms_after": _MICRO * candidate.rms_after,
         "plausible": candidate.is_plausible,
         "explains": candidate.effect.explains.in_language(language),
-        "parameters": [collect_parameter(each) for each in candidate.estimates],
+        "parameters": [_collect_parameter(each) for each in candidate.estimates],
         "indistinguishable_from": list(equals),
         "discriminate_by": say_how_told(candidate, diagnosis).in_language(language) if equals else "",
         "unit": "um",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from bisect import bisect_right
 
-from zlmreport.model.planning.methods import plan_path
 from zlmreport.model.simulation.description import Description
 from zlmreport.model.simulation.simulate import make_emulated_machine
 
@@ -25,7 +24,7 @@ class OperatedAxis:
         plan = description.plan
         self.deviation = make_emulated_machine(description, 0.0).truth.deviation.tolist()
         self._feed = plan.feed
-        self._stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+        self._stops = plan.stops
         self._visits = [index for index, stop in enumerate(self._stops) if stop.target is not None]
         self._block = 0
         self._corners = [(0.0, self._stops[0].position)]

@@ -30,7 +30,7 @@ from zlmreport.live.capture.events import (
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.visits import visit_list
-from zlmreport.model.planning.methods import Method, plan_path
+from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import Approach
 from zlmreport.plugin.instrument import DatumMoved, DatumTaken, Fault, LiveReading, ZeroLost
@@ -56,8 +56,7 @@ def test_a_whole_test_is_taken_in_the_order_of_its_visits() -> None:
 
 @pytest.mark.parametrize("method", [Method.PENDULUM, Method.QUASI_PILGRIM, Method.UNIDIRECTIONAL])
 def test_every_method_is_taken_whole(method: Method) -> None:
-    plan, axis = planned(method, runs=2), Axis()
-    stops = plan_path(method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops, axis = planned(method, runs=2).stops, Axis()
     moves = (
         axis.turn(stop.position / MM) if stop.target is None else axis.go(stop.position / MM)
         for stop in stops
@@ -567,7 +566,7 @@ def _read_with_lost_motion(
 ) -> Iterator[LiveReading]:
     """Yield the readings of a test at a speed, mm/s, of an axis that stays 2 µm behind the way it came."""
     plan = plan or planned()
-    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan.stops
     rests = [0.0 if stop.target is None else 3.0 for stop in stops[1:]]
     corners = np.repeat([stop.position / MM for stop in stops], 2)
     ways = np.diff(corners)

@@ -12,7 +12,7 @@ from live.capture.moves import MM, SETTINGS, listed, planned
 from zlmreport.live.capture.events import Event, Missed, Recorded
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.model.planning.methods import Method, plan_path
+from zlmreport.model.planning.methods import Method
 from zlmreport.plugin.instrument import LiveReading
 
 TARGETS = (0, 12, 20, 34, 40)
@@ -60,7 +60,7 @@ class Machine:
 
     def _course(self) -> Iterator[LiveReading]:
         plan = planned(self.method, TARGETS, RUNS)
-        stops = plan_path(self.method, plan.targets.tolist(), RUNS, plan.overrun)
+        stops = plan.stops
         visited = [index for index, stop in enumerate(stops) if stop.target is not None]
         numbers = {stop: number for number, stop in enumerate(visited)}
         yield from self._stand(2.0)

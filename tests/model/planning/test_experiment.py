@@ -28,7 +28,7 @@ from zlmreport.model.planning.methods import Method, find_half_way
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause, propose
 from zlmreport.model.planning.planned_test import choose_model_of
 from zlmreport.model.planning.programs import plan_motion_of
-from zlmreport.model.planning.visibility import expect_design, list_planned_visits
+from zlmreport.model.planning.visibility import expect_design
 from zlmreport.plugin import InputError, Language
 
 ON_WHOLE_PITCHES = ("plan: {}", WHOLE_PITCHES)
@@ -156,7 +156,7 @@ def test_experiment_stays_within_the_travel() -> None:
     for names in ("scale-error,scale-expansion", "backlash,reversal-relaxation"):
         plan = _experiment(names, COOL).plan
         assert plan is not None
-        assert 0 <= min(plan.stops) <= max(plan.stops) <= 0.6
+        assert all(0 <= stop.position <= 0.6 for stop in plan.stops)
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_names_that_make_no_question_are_refused(names: str, message: str) -> No
 
 def test_pause_lies_between_the_halves_of_the_runs() -> None:
     plan = AxisPlan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
-    visits = list_planned_visits(plan)
+    visits = plan.visits
     assert [visit.run for visit in visits[find_half_way(visits) :]] == [2] * 4 + [3] * 4
     design = expect_design(planned_job().axis, plan, ExpectedTest(1e-6, 0.0))
     without = expect_design(planned_job().axis, AxisPlan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))

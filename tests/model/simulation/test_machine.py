@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from model.simulation.describing import described, hidden
-from zlmreport.model.planning.methods import Method, list_visits, plan_path
+from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import (
     EmulatedMachine,
@@ -62,7 +62,7 @@ def test_what_the_description_says_of_an_instrument_is_left_to_the_instrument() 
 def test_it_comes_to_each_target_from_the_side_of_the_visit(method: Method) -> None:
     description = _erring(method)
     machine = make_emulated_machine(description, LEAD)
-    listed = list_visits(plan_path(method, description.plan.targets.tolist(), 2, description.plan.overrun))
+    listed = description.plan.visits
     before = _at(machine, machine.arrives - 0.05)
     assert [visit.target for visit in listed] == machine.truth.target.tolist()
     np.testing.assert_array_equal(

@@ -113,10 +113,7 @@ def compute_mean_rounding_variance(
 ) -> tuple[FloatArray, FloatArray]:
     """Return E(e²) of what rounding does to x̄_i↑ and x̄_i↓, and to x̄_i, m² or rad².
 
-    Returns
-    -------
-    by_approach : (approach, position) array
-    bidirectional : (position,) array
+    By (approach, position), and by position.
     """
     generator = np.random.Generator(np.random.PCG64(_SEED))
     before, shown = sample_rounding(resolution, readings, _DRAWS, generator)

@@ -22,7 +22,6 @@ from zlmreport.live.capture.visits import (
     SHARE_OF_OVERRUN,
     ListedVisit,
     Settings,
-    start_of,
     visit_list,
 )
 from zlmreport.measurement.axis import Axis, refuse_other_than_positions
@@ -240,5 +239,5 @@ def _find_datum(options: CaptureOptions, plan: AxisPlan, axis: Axis) -> float | 
     if options.datum == "instrument":
         return None
     if options.datum == "start":
-        return start_of(plan)
+        return plan.stops[0].position
     return axis.position_unit.to_si(float(options.datum))

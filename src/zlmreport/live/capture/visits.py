@@ -1,11 +1,11 @@
-"""The visits of a plan in order, where the axis begins; settings of a stop: standstill, motion, gaps."""
+"""The visits of a plan in order; settings of a stop: standstill, motion, gaps."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.planning.methods import RUN_BY_RUN, list_visits, plan_path
+from zlmreport.model.planning.methods import RUN_BY_RUN
 from zlmreport.model.planning.plan import AxisPlan
 
 
@@ -26,7 +26,6 @@ class ListedVisit:
 
 def visit_list(plan: AxisPlan) -> tuple[ListedVisit, ...]:
     """Return the visits of a plan in their order."""
-    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     return tuple(
         ListedVisit(
             number=number,
@@ -37,13 +36,8 @@ def visit_list(plan: AxisPlan) -> tuple[ListedVisit, ...]:
             part=visit.run if plan.method in RUN_BY_RUN else 1,
             travelled=visit.travelled,
         )
-        for number, visit in enumerate(list_visits(stops), start=1)
+        for number, visit in enumerate(plan.visits, start=1)
     )
-
-
-def start_of(plan: AxisPlan) -> float:
-    """Return where the axis stands before the test: the start of the path, m or rad."""
-    return plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)[0].position
 
 
 #: What an operator may make of the feed, by the override of the control.

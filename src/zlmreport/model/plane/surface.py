@@ -28,7 +28,7 @@ from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError, ParameterEstimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
-from zlmreport.model.fitting.observations import Observations, select_readings
+from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.repeats import estimate_noise_floor
 
 #: The condition under which a design holds the position of the second axis, m.
@@ -112,13 +112,7 @@ def _make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArra
 
 def _select_one_way(line: SurfaceLine, approach: Approach) -> Observations:
     kept = line.observed.without(line.list_aside())
-    chosen = np.flatnonzero(kept.design.direction == float(approach))
-    return Observations(
-        select_readings(kept.design, chosen),
-        read_only_floats(kept.deviation[chosen]),
-        read_only_integers(kept.reading[chosen]),
-        kept.remarks,
-    )
+    return kept.without(np.flatnonzero(kept.design.direction != approach))
 
 
 def _number_pairs(one: FloatArray, other: FloatArray | IntArray) -> IntArray:

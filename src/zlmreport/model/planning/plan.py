@@ -25,7 +25,7 @@ from zlmreport.measurement.axis import Axis, AxisKind, find_usual_overrun
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.measurement.units import REFERENCE_TEMPERATURE
-from zlmreport.model.planning.methods import RUN_BY_RUN, Method, plan_path
+from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, Visit, list_visits, plan_path
 from zlmreport.model.planning.targets import makes_whole_turns, sample_targets
 
 if TYPE_CHECKING:
@@ -178,16 +178,19 @@ class AxisPlan:
     after: Pause | None = None
 
     @property
-    def stops(self) -> list[float]:
-        """Where the axis stops one after another, m or rad."""
-        return [
-            stop.position for stop in plan_path(self.method, self.targets.tolist(), self.runs, self.overrun)
-        ]
+    def stops(self) -> tuple[Stop, ...]:
+        """Where the axis stops one after another."""
+        return plan_path(self.method, self.targets.tolist(), self.runs, self.overrun)
+
+    @property
+    def visits(self) -> tuple[Visit, ...]:
+        """The readings in their order."""
+        return list_visits(self.stops)
 
     @property
     def travelled(self) -> float:
         """The whole way of the axis, loops included, m or rad."""
-        return sum(abs(later - earlier) for earlier, later in pairwise(self.stops))
+        return sum(abs(later.position - earlier.position) for earlier, later in pairwise(self.stops))
 
     @property
     def readings(self) -> int:
@@ -215,7 +218,8 @@ def find_beyond_stated_travel(axis: Axis, plan: AxisPlan) -> tuple[float, float]
         return None
     first, last = axis.travel
     slack = _ROUNDING * (last - first)
-    lowest, highest = min(plan.stops), max(plan.stops)
+    stops = [stop.position for stop in plan.stops]
+    lowest, highest = min(stops), max(stops)
     return (lowest, highest) if lowest < first - slack or highest > last + slack else None
 
 

@@ -28,7 +28,6 @@ from zlmreport.model.planning.visibility import (
     find_determined,
     find_remedies,
     judge_effects_seen,
-    list_planned_visits,
 )
 
 #: Readings beyond the number of parameters that a diagnosis needs.
@@ -77,7 +76,6 @@ def describe_planned_test(
     """
     proposal = propose(job, standards)
     plan = proposal.plan
-    listed = list_planned_visits(plan)
     design = expect_design(job.axis, plan, proposal.expected)
     model = choose_model_of(job, effects)
     base = find_determined(model, design)
@@ -86,7 +84,7 @@ def describe_planned_test(
     test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     return PlannedTest(
         proposal=proposal,
-        visits=listed,
+        visits=plan.visits,
         design=design,
         travelled=plan.travelled,
         duration=plan.duration,

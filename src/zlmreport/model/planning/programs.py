@@ -14,7 +14,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, list_visits, plan_path
+from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.targets import convert_to_users_unit
 
@@ -198,14 +198,14 @@ def plan_motion_of(number: str, axis: Axis, plan: AxisPlan, place: Place) -> Mot
         if value < _LEAST_RATE:
             message = f"{key}: {value:.6g} is less than can be programmed; state {_LEAST_RATE:g} or more"
             raise InputError.at(place, message)
-    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan.stops
     if stops[-1].position != stops[0].position:
         stops = (*stops, Stop(stops[0].position))  # where the datum was taken it is looked at once more
     positions = convert_to_users_unit(axis, np.array([stop.position for stop in stops]))
     targets = convert_to_users_unit(axis, plan.targets)
     readings = (
         PlannedReading(count, visit.target + 1, visit.approach, visit.run)
-        for count, visit in enumerate(list_visits(stops), start=1)
+        for count, visit in enumerate(plan.visits, start=1)
     )
     return Motion(
         number=number,

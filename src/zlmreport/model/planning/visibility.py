@@ -21,7 +21,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, needs_linear_axis, needs_rotary_axis
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.planning.changes import list_changes
-from zlmreport.model.planning.methods import Visit, find_half_way, list_visits, make_planned_design, plan_path
+from zlmreport.model.planning.methods import find_half_way, make_planned_design
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Proposal, expect_conditions
 
 _LIVELIER = Words("measure while there are larger changes of {logs}")
@@ -52,14 +52,9 @@ class SeenEffect:
     logs: tuple[str, ...]  #: Columns that must be logged beside the readings for it to be tried.
 
 
-def list_planned_visits(plan: AxisPlan) -> tuple[Visit, ...]:
-    """Return the readings of a plan in their order."""
-    return list_visits(plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
-
-
 def expect_design(axis: Axis, plan: AxisPlan, expected: ExpectedTest) -> Design:
     """Return a planned test with the conditions that are expected, all of them logged."""
-    listed, pause = list_planned_visits(plan), plan.pause
+    listed, pause = plan.visits, plan.pause
     design, second_half = (
         make_planned_design(axis, plan.targets, listed, plan.feed, plan.dwell),
         find_half_way(listed),

@@ -18,7 +18,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.planning.methods import list_visits, make_planned_design, plan_path
+from zlmreport.model.planning.methods import make_planned_design
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.description import (
     Description,
@@ -54,8 +54,7 @@ def simulate(description: Description) -> Simulation:
 def make_design_of(description: Description) -> Design:
     """Return the test that is described with its true conditions; whatever its effects."""
     plan = description.plan
-    listed = list_visits(plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
-    design = make_planned_design(description.axis, plan.targets, listed, plan.feed, plan.dwell)
+    design = make_planned_design(description.axis, plan.targets, plan.visits, plan.feed, plan.dwell)
     conditions = {
         name: read_only_floats(compute_true_course(course, design.time))
         for name, course in description.conditions.items()
@@ -247,7 +246,7 @@ def _make_course(plan: AxisPlan, lead: float) -> tuple[FloatArray, FloatArray, F
 
 def _find_corners(plan: AxisPlan, lead: float) -> Iterator[tuple[float, float, bool]]:
     """Yield each corner of the motion: when, where, and whether the axis arrives at a target there."""
-    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan.stops
     yield 0.0, stops[0].position, False
     if stops[-1].position != stops[0].position:
         stops = (*stops, stops[0])
