@@ -58,12 +58,7 @@ def find_stray_target(positions: FloatArray, readings: FloatArray, step: float) 
 def _measure_misfits(positions: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how far each value lies from the line through the two nearest others, for the noise of that.
 
-    Returns
-    -------
-    misfits : (position,) array
-        The distances, divided by the factors.
-    factors : (position,) array
-        What the noise of a single value becomes in such a distance.
+    A misfit is a distance divided by its factor: what the noise of a single value becomes in that distance.
     """
     left = np.concatenate(([1], np.arange(len(values) - 2), [len(values) - 3]))
     right = np.concatenate(([2], np.arange(2, len(values)), [len(values) - 2]))

@@ -193,18 +193,11 @@ def fit_line_through(series: Series) -> TrendLine:
 def forecast(line: TrendLine, limit: float, last: date) -> LimitCrossing | None:
     """Return when the amount of a parameter meets its limit, by Fieller's theorem.
 
-    Of the line, and so of values as the next calibrations of the same kind will state them.
+    Of the line, and so of values as the next calibrations of the same kind will state them. None where the
+    amount does not grow, where the slope is not known well enough for an interval, and where the limit is
+    more than `MOST_YEARS_AHEAD` away.
 
-    Parameters
-    ----------
-    limit
-        |y| ≤ TL, in the unit of the line.
-
-    Returns
-    -------
-    Forecast or None
-        None where the amount does not grow, where the slope is not known well enough for an interval, and
-        where the limit is more than `MOST_YEARS_AHEAD` away.
+    `limit`: |y| ≤ TL, in the unit of the line.
     """
     rising = math.copysign(1.0, line.slope)
     squared_quantile = t_quantile(CONFIDENCE, line.degrees) ** 2

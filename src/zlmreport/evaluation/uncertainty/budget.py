@@ -129,19 +129,11 @@ class KnownError:
     """An error of known size that nobody took out of the readings (JCGM 100, F.2.4.5).
 
     It is no distribution: U holds it whole, beside what is spread about it.
-
-    Attributes
-    ----------
-    name
-        What it comes from.
-    correction : (N,) array
-        What would have to be added to each reading, m.
-    stated, source
-        As in `Contribution`.
     """
 
-    name: Words
-    correction: FloatArray
+    name: Words  #: What it comes from.
+    correction: FloatArray  #: (N,): What would have to be added to each reading, m.
+    #: stated and source: As in `Contribution`.
     stated: Words
     source: Words
 

@@ -90,14 +90,10 @@ def compute_mean_drift_variance(
 ) -> tuple[FloatArray, FloatArray]:
     """Return E(d²) of what a drift of full range 1 adds to x̄_i↑ or x̄_i↓, and to x̄_i, of the worst kind.
 
+    Both have the shape (position,); the first is of the direction that it disturbs more.
+
     `times`: Of the readings, (approach, position, run), NaN where there is none.
     `kinds`: That may occur.
-
-    Returns
-    -------
-    by_approach : (position,) array
-        Of the direction that it disturbs more.
-    bidirectional : (position,) array
     """
     generator = np.random.Generator(np.random.PCG64(_SEED))
     there = np.isfinite(times)

@@ -111,13 +111,7 @@ def sample_axes(
 def compute_mean_rounding_variance(
     resolution: Contribution, readings: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return E(e²) of what rounding does to x̄_i↑ and x̄_i↓, and to x̄_i, m² or rad².
-
-    Returns
-    -------
-    by_approach : (approach, position) array
-    bidirectional : (position,) array
-    """
+    """Return E(e²) of what rounding does to x̄_i↑ and x̄_i↓, (approach, position), and to x̄_i, m² or rad²."""
     generator = np.random.Generator(np.random.PCG64(_SEED))
     before, shown = sample_rounding(resolution, readings, _DRAWS, generator)
     errors = np.nan_to_num(shown - before)

@@ -57,14 +57,9 @@ def find_roots_of_blocks(among: FloatArray, active: IntArray, ratios: FloatArray
 
     A product under V is a·b − (R·Zᵀa)·(R·Zᵀb).
 
-    Parameters
-    ----------
-    among : (m, p, p) array
-        ZᵀZ of each block, between which nothing is shared.
-    active : (a,) integer array
-        The columns of Z that have a share in V.
-    ratios : (a,) array
-        φ of these.
+    `among`, (m, p, p): ZᵀZ of each block, between which nothing is shared.
+    `active`, (a,): The columns of Z that have a share in V.
+    `ratios`, (a,): φ of these.
     """
     roots = np.sqrt(ratios)
     inner = roots[:, np.newaxis] * among[:, active[:, np.newaxis], active] * roots
