@@ -11,7 +11,6 @@ from markdown import code, table
 from zlmreport.live.emulation.emulator import Emulator
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.model.planning.programs import Motion, PlannedReading, ProgramStop
-from zlmreport.plugin import hooks
 from zlmreport.plugin.extending import Command, CommandHost, CommandOption, ExtensionPlan, Happening, LiveRun
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
@@ -41,8 +40,7 @@ _PROTOCOLS = (
 def hooks_text() -> str:
     """Return the hooks with their signatures."""
     rows = [
-        (code(f"{kind.hook}() -> Iterable[{kind.interface}]"), inspect.getdoc(getattr(hooks, kind.hook)))
-        for kind in KINDS
+        (code(f"{kind.hook}() -> Iterable[{kind.interface}]"), f"Return {kind.offers}.") for kind in KINDS
     ]
     return table(("Hook", "What it does"), rows)
 

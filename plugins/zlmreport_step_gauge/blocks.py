@@ -50,15 +50,9 @@ def fit_block(points: FloatArray, radius: float) -> Block:
 def fit_block_along(points: FloatArray, radius: float, normal: FloatArray) -> Block:
     """Return the block that eight points lie on, its front face square to a direction that is known.
 
-    Parameters
-    ----------
-    points, radius
-        As of `fit_block`.
-    normal : (..., 3) array
-        Outward normal of the front face.
+    `points`, `radius`: As of `fit_block`.
+    `normal`, (..., 3): Outward normal of the front face.
 
-    Notes
-    -----
     The centre lies midway between front and back and between the sides, where the radius cancels. P6 and P7
     are both touched from above, so that it cancels in the height, and the centre lies below their middle by
     the radius.

@@ -267,13 +267,8 @@ def _from_blocks(probed: Probed, along: FloatArray, actual: FloatArray) -> Effec
 def compute_radius_uncertainty(by_block: FloatArray, faces: Sequence[Face]) -> float:
     """Return the standard uncertainty of the mean of the radii of single blocks, m.
 
-    Parameters
-    ----------
-    by_block : (block,) array
-        R_eff of each block, or what it differs by from the mean of all, m.
+    `by_block`, (block,): R_eff of each block, or what it differs by from the mean of all, m.
 
-    Notes
-    -----
     It is s/√n of the blocks, in which their calibration shows too; or what follows from the calibration
     alone, where so few blocks happen to scatter less.
     """

@@ -10,7 +10,6 @@ import numpy as np
 
 from zlmreport.plugin import (
     MILLIMETRE,
-    BoolArray,
     FloatArray,
     InputError,
     Place,
@@ -48,11 +47,6 @@ class Probed:
     #: points.
     coordinates: FloatArray
     points: tuple[ProbedPoint, ...]  #: As they were taken.
-
-    @property
-    def is_front(self) -> BoolArray:
-        """Whether a face is a front face, shape (face,)."""
-        return np.array([face.side is Side.FRONT for face in self.faces])
 
     @property
     def sides(self) -> FloatArray:

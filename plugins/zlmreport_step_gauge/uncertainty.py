@@ -67,15 +67,9 @@ def list_gauge_contributions(
 def part_uncertainty(distance: FloatArray, uncertainty: FloatArray) -> tuple[float, float]:
     """Return u at each face by itself, and u along the length, that together are nowhere less than stated.
 
-    Parameters
-    ----------
-    distance : (face,) array
-        From the first face, as a part of the whole length: 0 to 1.
-    uncertainty : (face,) array
-        Standard uncertainty of each face, m.
+    `distance`, (face,): From the first face, as a part of the whole length: 0 to 1.
+    `uncertainty`, (face,): Standard uncertainty of each face, m.
 
-    Notes
-    -----
     With u_L along the length and u_P at each position, u² = u_P² + u_L²·l². It is the stated one at the last
     face, and u_L is as large as leaves u at every other face no smaller than the stated one there.
     """

@@ -33,7 +33,7 @@ def steered(
 ) -> Callable[[str], Run]:
     """Return a capture of four visits to which lines are sent before it begins."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("zlmreport.cli.capture_steered.Thread", AtOnce)
+    monkeypatch.setattr("zlmreport.cli.capture_display.Thread", AtOnce)
     Path("job.yaml").write_text(JOB.replace("MOVES", WHOLE), encoding="utf-8")
 
     def run(lines: str) -> Run:

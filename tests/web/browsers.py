@@ -9,7 +9,7 @@ with warnings.catch_warnings():
     from starlette.testclient import TestClient
 
 from zlmreport.web.answers import PageAnswers
-from zlmreport.web.folder_app import FolderWorkbench
+from zlmreport.web.folder import FolderWorkbench
 from zlmreport.web.guard import Door
 
 DOOR = Door.at(8420)

@@ -16,8 +16,7 @@ from installed import registry
 from processes import awaited
 from web.browsers import enter, pass_by
 from zlmreport.plugin import InputError
-from zlmreport.web.folder import JobFolder
-from zlmreport.web.folder_app import FolderWorkbench
+from zlmreport.web.folder import FolderWorkbench, JobFolder
 
 TODAY = dt.date(2026, 11, 26)
 

@@ -13,7 +13,7 @@ from processes import awaited
 from zlmreport.job.loading import load
 from zlmreport.plugin import Language
 from zlmreport.web.naming import Naming
-from zlmreport.web.stairs import add_stairs, make_stairs
+from zlmreport.web.view import add_stairs, make_stairs
 
 STEP: dict[str, Any] = {
     "effect": "backlash",

@@ -25,43 +25,45 @@ from zlmreport_plugins.circle_effects.shared import write_pair
 _LARGEST_LOST_MOTION = 5e-4  # m
 #: Whether both ends of the travel lose alike, or each has its own.
 _ALIKE, _EACH_END = 0.0, 1.0
-_ENDS = SearchedParameter("each end", ONE, title=Words("both ends alike: 0, each its own: 1"))
 
 
-def _make_lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> Iterator[CircleTerm]:
-    """Yield −½B·d·cosθ of each axis, sinθ of the second; between two ends B goes over from one to other."""
-    for axis in design.axes:
-        wave = design.wave(axis)
-        column = -0.5 * design.travel(axis) * wave
-        shares: tuple[tuple[str, FloatArray], ...] = ((AXES[axis], np.ones(design.count)),)
-        if ends == _EACH_END:
-            shares = ((f"{AXES[axis]}+", (1.0 + wave) / 2.0), (f"{AXES[axis]}−", (1.0 - wave) / 2.0))
-        for name, share in shares:
-            yield CircleTerm(name, MICROMETRE, share * column, AXES[axis], low=low, high=high, usual=5e-6)
+class _LostMotion(CircleEffect):
+    """−½B·d·cosθ of the first axis, −½B·d·sinθ of the second; both ends alike, or each its own."""
+
+    law = Law(Parity.ODD)
+    searched = (SearchedParameter("each end", ONE, title=Words("both ends alike: 0, each its own: 1")),)
+    bounds: tuple[float, float]  #: Of B, m.
+
+    def grid(self, _: CircleDesign) -> list[Searched]:
+        """Return both ends alike, and each its own."""
+        return [(_ALIKE,), (_EACH_END,)]
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return the lost motion of each axis, or of each of its ends: B goes over from one to the other."""
+        terms = []
+        for axis in design.axes:
+            wave = design.wave(axis)
+            column = -0.5 * design.travel(axis) * wave
+            shares: tuple[tuple[str, FloatArray], ...] = ((AXES[axis], np.ones(design.count)),)
+            if searched[0] == _EACH_END:
+                shares = ((f"{AXES[axis]}+", (1.0 + wave) / 2.0), (f"{AXES[axis]}−", (1.0 - wave) / 2.0))
+            low, high = self.bounds
+            terms += [
+                CircleTerm(name, MICROMETRE, share * column, AXES[axis], low=low, high=high, usual=5e-6)
+                for name, share in shares
+            ]
+        return terms
 
 
-def _search_ends(_: CircleDesign) -> list[Searched]:
-    return [(_ALIKE,), (_EACH_END,)]
-
-
-class CircleBacklash(CircleEffect):
+class CircleBacklash(_LostMotion):
     """−½B·d·cosθ of the first axis, −½B·d·sinθ of the second; lost motion B > 0."""
 
     identifier = "circle-backlash"
     title = Words("Backlash")
     equation = "−½·B₁·d₁·cosθ − ½·B₂·d₂·sinθ, B > 0; both ends alike, or each its own"
     explains = Words("an axis loses motion where it turns")
-    law = Law(Parity.ODD)
-    searched = (_ENDS,)
+    bounds = (0.0, _LARGEST_LOST_MOTION)
     is_asked_for = True
-
-    def grid(self, design: CircleDesign) -> list[Searched]:
-        """Return both ends alike, and each its own."""
-        return _search_ends(design)
-
-    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
-        """Return the lost motion of each axis, or of each of its ends."""
-        return list(_make_lost_motion(design, 0.0, _LARGEST_LOST_MOTION, searched[0]))
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say which axis loses how much where it turns, at which end of the circle, and what to do."""
@@ -95,23 +97,14 @@ def _has_unlike_ends(estimates: Sequence[Estimate]) -> bool:
     )
 
 
-class OverCompensation(CircleEffect):
+class OverCompensation(_LostMotion):
     """As lost motion, with B < 0: the control takes off more than there is."""
 
     identifier = "over-compensation"
     title = Words("Over-compensated backlash")
     equation = "as backlash, B < 0"
     explains = Words("the control's backlash compensation takes off more than there is")
-    law = Law(Parity.ODD)
-    searched = (_ENDS,)
-
-    def grid(self, design: CircleDesign) -> list[Searched]:
-        """Return both ends alike, and each its own."""
-        return _search_ends(design)
-
-    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
-        """Return the lost motion of each axis, or of each of its ends."""
-        return list(_make_lost_motion(design, -_LARGEST_LOST_MOTION, 0.0, searched[0]))
+    bounds = (-_LARGEST_LOST_MOTION, 0.0)
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say which axis is over-compensated."""

@@ -172,17 +172,9 @@ class Obstacles:
         return (*(f"block {number}" for number in self.blocks), "the base of the gauge")
 
     def measure_distances(self, starts: FloatArray, ends: FloatArray) -> FloatArray:
-        """Return how near straight moves come to each box.
+        """Return how near points that move straight come to each box, m, shape (m, b + 1); 0 inside.
 
-        Parameters
-        ----------
-        starts, ends : (m, 3) arrays
-            In the gauge's own coordinates, m.
-
-        Returns
-        -------
-        (m, b + 1) array
-            Least distance of the point that moves from the box, m; 0 inside it.
+        `starts`, `ends`, (m, 3): In the gauge's own coordinates, m.
         """
         shape = (len(starts), len(self.lower))
         low, high = np.zeros(shape), np.ones(shape)

@@ -13,8 +13,14 @@ from itertools import chain
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.cli.capture_display import JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
-from zlmreport.cli.capture_steered import SteeredLines
+from zlmreport.cli.capture_display import (
+    JsonLines,
+    LiveDisplay,
+    PlainLines,
+    SteeredLines,
+    is_watched,
+    visit_named,
+)
 from zlmreport.cli.jobs import tell_requirements
 from zlmreport.cli.terminal import Colour, make_visible, show_path
 from zlmreport.document.certificate.clauses import demand_mandatory_items

@@ -13,7 +13,7 @@ from zlmreport.document.blocks import Section
 from zlmreport.errors import NOT_MET, InputError, Place, Problem
 from zlmreport.files import Document, write, write_new
 from zlmreport.language import Language
-from zlmreport.machines.comparison import compare_circles, compare_line
+from zlmreport.machines.comparison import compare_circles, compare_tests
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
 from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
 from zlmreport.machines.cross_report import (
@@ -64,10 +64,7 @@ def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: st
 
 
 def _predict(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
-    compared = (
-        *compare_circles(machine.machine, machine.measured, registry),
-        *(compare_line(machine.machine, each) for each in machine.lines),
-    )
+    compared = compare_tests(machine, registry)
     sections = [
         lay_out_errors(machine.machine, _SAY, is_full=False),
         lay_out_space(machine.machine, _SAY),
@@ -93,10 +90,7 @@ def _check(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Ite
 
 def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
     found = diagnose(machine.make_study(), machine.catalogue)
-    before, after = (
-        compare_circles(machine.machine, machine.measured, registry, study)
-        for study in (found.study, found.complete)
-    )
+    before, after = (compare_circles(machine, registry, study) for study in (found.study, found.complete))
     sections = findings.lay_out_diagnosis(found, before, _SAY)
     path = show_path(machine.path)
     further = ["", f"next: zlmreport machine add {path} {found.found[0]}"] if found.found else []
@@ -194,9 +188,7 @@ def _change_effects(
     machine: MachineFile, registry: Registry, effects: Sequence[CircleEffect]
 ) -> tuple[Iterable[str], Any]:
     before, after = machine.make_study(), machine.make_study(effects)
-    compared = [
-        compare_circles(machine.machine, machine.measured, registry, study) for study in (before, after)
-    ]
+    compared = [compare_circles(machine, registry, study) for study in (before, after)]
     edit_effects(machine, tuple(each.identifier for each in effects))
     sections = [
         findings.lay_out_change(before, after, _SAY),

@@ -11,14 +11,13 @@ from typing import Any
 import numpy as np
 
 from zlmreport.document.subjects.forecast import StandardForecast
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import Place
 from zlmreport.job.edit import Edit
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.report import report_error, report_model, report_noise, report_precision
 from zlmreport.model.diagnosis.study import Fitted, list_one_way
-from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions
 from zlmreport.model.effects.effect import Shape
 from zlmreport.model.fitting.fit import Fit, Prediction
 
@@ -53,16 +52,10 @@ def find_points_of(fit: Fit, positions: Sequence[float]) -> PredictedPoints | No
     """Return what a model gives at positions in mm or degrees; None if none is asked for."""
     if not positions:
         return None
-    design = fit.design
-    unit = design.axis.position_unit
-    places = unit.to_si(np.array(positions, dtype=np.float64))
-    sentences = list_outside_of_measured(design.axis.name, unit, places, design.span)
-    if sentences:
-        raise InputError(Problem(Place("--at"), sentence) for sentence in sentences)
-    measured = [approach for approach in Approach if np.any(design.direction == approach)]
+    places = fit.design.axis.position_unit.to_si(np.array(positions, dtype=np.float64))
     return PredictedPoints(
         places,
-        {approach: fit.predict(place_at_positions(design, places, approach)) for approach in measured},
+        fit.predict_at(places, Place("--at")),
         any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms),
     )
 

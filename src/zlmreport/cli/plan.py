@@ -18,10 +18,10 @@ from zlmreport.document.subjects.plan import (
     collect_circle_plan,
     lay_out_circle_plan,
     plan_sections,
+    plan_values,
     say_size_of_circle,
     say_size_of_plan,
 )
-from zlmreport.document.subjects.plan_values import plan_values
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import Document, write_new
 from zlmreport.job.choices import Choice, ExtensionChoice, Find, choose_programs_by_name

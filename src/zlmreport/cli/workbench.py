@@ -19,7 +19,7 @@ from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
     from zlmreport.web.answers import PageAnswers
-    from zlmreport.web.folder_app import FolderWorkbench
+    from zlmreport.web.folder import FolderWorkbench
 
 _PLACE = Place("zlmreport workbench")
 #: Suffixes of jobs; any other file holds readings.
@@ -49,8 +49,7 @@ def _open_workbench(options: Namespace) -> PageAnswers | FolderWorkbench:
     Raises `InputError` if a folder or a machine stands beside other files, or a folder holds none.
     """
     from zlmreport.web.app import Workbench  # noqa: PLC0415 - the extra is there
-    from zlmreport.web.folder import JobFolder, find_jobs_in, is_machine  # noqa: PLC0415
-    from zlmreport.web.folder_app import FolderWorkbench  # noqa: PLC0415
+    from zlmreport.web.folder import FolderWorkbench, JobFolder, find_jobs_in, is_machine  # noqa: PLC0415
     from zlmreport.web.machine_app import MachineWorkbench  # noqa: PLC0415
 
     registry, plugins = find_plugins(files=options.plugin), tuple(options.plugin)

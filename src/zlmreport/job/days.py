@@ -50,10 +50,7 @@ def demand_days_past(job: Job, today: dt.date | None = None) -> None:
 
     `today`: By the clock of this computer if it is left out.
 
-    Raises
-    ------
-    InputError
-        With every such day, at the key that states it.
+    Raises `InputError` with every such day, at the key that states it.
     """
     today = today or read_clock()
     if today < RELEASED:

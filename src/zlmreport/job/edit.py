@@ -30,7 +30,7 @@ from zlmreport.job.list_edits import (
 )
 from zlmreport.job.loading import load
 from zlmreport.job.parse import LARGEST, decode, parse
-from zlmreport.job.tree import Items, Node, Scalar, walk
+from zlmreport.job.tree import Items, Node, Scalar, find_at
 from zlmreport.job.yaml_text import write_as_text
 
 if TYPE_CHECKING:
@@ -163,8 +163,7 @@ def edit_list(
 
 def list_items_written(job: Job, where: ListKey) -> tuple[Node, ...]:
     """Return the items of a list as they are written, in the job itself or in a file that it extends."""
-    found = list(walk(job.tree, where.path))
-    listed = found[-1][2] if len(found) == len(where.path) else None
+    listed = find_at(job.tree, where.path)
     return listed.items if isinstance(listed, Items) else ()
 
 

@@ -41,19 +41,10 @@ class CatalogueKeys(JobPart):
 def read_catalogue(content: bytes, file: str, beside: Callable[[str], bytes]) -> tuple[FormulaKeys, ...]:
     """Return the entries of a catalogue.
 
-    Parameters
-    ----------
-    content
-        Of the file.
-    file
-        As messages name it.
-    beside
-        Returns what a file holds that lies beside this one, by its name.
+    `file`: As messages name it.
+    `beside`: Returns what a file holds that lies beside this one, by its name.
 
-    Raises
-    ------
-    InputError
-        With every mistake, each at its line and column.
+    Raises `InputError` with every mistake, each at its line and column.
     """
     problems: list[Problem] = []
     tree = parse(content, file, strictly=False)

@@ -143,21 +143,10 @@ class Formula:
     ) -> Formula:
         """Return the formula of a file on one kind of axis.
 
-        Parameters
-        ----------
-        keys
-            The formula as the file says it.
-        kind
-            Of the axis.
-        orders
-            The harmonics of its wave; without them the usual ones.
-        choices
-            The values of its keys; of one that is not among them the first.
+        `orders`: The harmonics of its wave; without them the usual ones.
+        `choices`: The values of its keys; of one that is not among them the first.
 
-        Raises
-        ------
-        FormulaError
-            With what is wrong with it.
+        Raises `FormulaError` with what is wrong with it.
         """
         if orders is None:
             orders = keys.harmonics.usual if keys.harmonics else (1,)

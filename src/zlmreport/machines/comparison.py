@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -24,6 +25,9 @@ from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
+
+if TYPE_CHECKING:
+    from zlmreport.machines.reading import MachineFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,15 +73,22 @@ class ComparedTest:
         return self.test.name
 
 
+def compare_tests(
+    file: MachineFile, registry: Registry, study: CircleStudy | None = None
+) -> tuple[ComparedTest, ...]:
+    """Return all tests against their prediction, circles against the effects of a study, too; lines last."""
+    lines = (_compare_line(file.machine, each) for each in file.lines)
+    return (*compare_circles(file, registry, study), *lines)
+
+
 def compare_circles(
-    machine: MachineModel,
-    circles: Sequence[MeasuredCircle],
-    registry: Registry,
-    study: CircleStudy | None = None,
+    file: MachineFile, registry: Registry, study: CircleStudy | None = None
 ) -> tuple[ComparedTest, ...]:
     """Return all circles against their prediction, and against the effects of a model if there is a study."""
-    made = _compute_made_by_effects([each.circle for each in circles], study)
-    return tuple(_compare_circle(machine, each, index, registry, made) for index, each in enumerate(circles))
+    made = _compute_made_by_effects(file.circles, study)
+    return tuple(
+        _compare_circle(file.machine, each, index, registry, made) for index, each in enumerate(file.measured)
+    )
 
 
 def _compare_circle(
@@ -142,7 +153,7 @@ def _compute_made_by_effects(
     return found
 
 
-def compare_line(machine: MachineModel, line: StraightTest) -> ComparedTest:
+def _compare_line(machine: MachineModel, line: StraightTest) -> ComparedTest:
     """Return a line against its prediction."""
     prediction = predict(machine, line.course)
     left = line.deviation - prediction.values

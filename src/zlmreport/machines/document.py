@@ -28,7 +28,7 @@ from zlmreport.document.certificate.own_look import read_logo
 from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.certificate.statements import write_person
 from zlmreport.language import Words, named
-from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
+from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_tests
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import collect_diagnosis
@@ -114,16 +114,14 @@ def make_machine_document(
 
 
 def _gather_material(machine: MachineFile, registry: Registry) -> _Material:
-    circles = compare_circles(machine.machine, machine.measured, registry)
-    lines = tuple(compare_line(machine.machine, each) for each in machine.lines)
+    compared = compare_tests(machine, registry)
     if not machine.measured:
-        return _Material(machine, None, lines, (), ())
+        return _Material(machine, None, compared, (), ())
     diagnosis = diagnose(machine.make_study(), machine.catalogue)
     by_model, complete = (
-        compare_circles(machine.machine, machine.measured, registry, study)
-        for study in (diagnosis.study, diagnosis.complete)
+        compare_circles(machine, registry, study) for study in (diagnosis.study, diagnosis.complete)
     )
-    return _Material(machine, diagnosis, (*circles, *lines), by_model, complete)
+    return _Material(machine, diagnosis, compared, by_model, complete)
 
 
 def _make_empty_measurement() -> MeasurementSet:

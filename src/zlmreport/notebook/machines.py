@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import write_new
 from zlmreport.language import Language
 from zlmreport.machines.choosing import add_effect
-from zlmreport.machines.comparison import compare_circles, compare_line
+from zlmreport.machines.comparison import compare_circles, compare_tests
 from zlmreport.machines.cross_confirmation import confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
@@ -184,19 +184,13 @@ class Machine:
 
     def predict(self) -> dict[str, Any]:
         """Return what the axes predict of tests, work space and diagonals, as ``--json`` has it."""
-        machine = self.file.machine
-        compared = (
-            *compare_circles(machine, self.file.measured, self.registry),
-            *(compare_line(machine, each) for each in self.file.lines),
-        )
-        return collect_prediction(machine, compared)
+        return collect_prediction(self.file.machine, compare_tests(self.file, self.registry))
 
     def diagnose(self) -> DiagnosisOfMachine:
         """Say which effect is missing."""
         found = self._diagnose()
         before, after = (
-            compare_circles(self.file.machine, self.file.measured, self.registry, study)
-            for study in (found.study, found.complete)
+            compare_circles(self.file, self.registry, study) for study in (found.study, found.complete)
         )
         sections = tuple(lay_out_diagnosis(found, before, _SAY))
         return DiagnosisOfMachine(collect_diagnosis(found, before, after), sections)

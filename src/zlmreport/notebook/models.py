@@ -33,7 +33,6 @@ from zlmreport.model.diagnosis.report import (
 )
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, choose_terms
-from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions
 from zlmreport.model.effects.effect import find_unit_of
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
@@ -380,18 +379,12 @@ class Model:
         InputError
             If a position lies outside of what was measured, or is no number.
         """
-        design = self.fit.design
-        unit = design.axis.position_unit
+        unit = self.fit.design.axis.position_unit
         places = unit.to_si(_read_positions(positions))
-        sentences = list_outside_of_measured(design.axis.name, unit, places, design.span)
-        if sentences:
-            raise InputError(Problem(Place("at"), sentence) for sentence in sentences)
         columns: dict[str, FloatArray] = {"position": unit.from_si(places)}
-        for approach in Approach:
-            if np.any(design.direction == approach):
-                found = self.fit.predict(place_at_positions(design, places, approach))
-                columns[_SIDES[approach]] = self._convert_to_printed(found.deviation)
-                columns[f"U_{_SIDES[approach]}"] = self._convert_to_printed(found.expanded_uncertainty)
+        for approach, found in self.fit.predict_at(places, Place("at")).items():
+            columns[_SIDES[approach]] = self._convert_to_printed(found.deviation)
+            columns[f"U_{_SIDES[approach]}"] = self._convert_to_printed(found.expanded_uncertainty)
         return frame_of(columns, self.data.library)
 
     def diagnose(self) -> Diagnosis:

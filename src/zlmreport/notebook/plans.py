@@ -12,8 +12,7 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.document.figures.sequence import draw_sequence
-from zlmreport.document.subjects.plan import plan_sections
-from zlmreport.document.subjects.plan_values import plan_values
+from zlmreport.document.subjects.plan import plan_sections, plan_values
 from zlmreport.errors import InputError, Place, Problem, count_in_words
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load

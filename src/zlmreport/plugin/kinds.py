@@ -37,6 +37,7 @@ class Kind(Generic[Offered_co]):
     """What a plugin may offer."""
 
     name: str  #: In hooks, and where a distribution declares what it offers.
+    offers: str  #: What its hook returns.
     label: str  #: In messages and listings.
     door: str  #: The module of `zlmreport.plugin` that its authors import.
     interface: str  #: The name there of what each must be.
@@ -85,22 +86,40 @@ def _say_meaning_two_things(effect: Any) -> str:
 
 STANDARD: Kind[Standard] = Kind(
     name="standard",
+    offers="the standards that this plugin evaluates by",
     label="standard",
     door="standard",
     interface="Standard",
     reserved=frozenset({"standard", "tolerances"}),
 )
 SOURCE: Kind[DataSource] = Kind(
-    name="source", label="data source", door="source", interface="DataSource", reserved=frozenset({"plugin"})
+    name="source",
+    offers="the data sources that this plugin reads",
+    label="data source",
+    door="source",
+    interface="DataSource",
+    reserved=frozenset({"plugin"}),
 )
 RENDERER: Kind[Renderer] = Kind(
-    name="renderer", label="format", door="renderer", interface="Renderer", suffix=".pdf", has_keys=False
+    name="renderer",
+    offers="the file formats that this plugin writes",
+    label="format",
+    door="renderer",
+    interface="Renderer",
+    suffix=".pdf",
+    has_keys=False,
 )
 EFFECT: Kind[Effect] = Kind(
-    name="effect", label="effect", door="effect", interface="Effect", lacks=_say_meaning_two_things
+    name="effect",
+    offers="the effects that this plugin adds to the error model",
+    label="effect",
+    door="effect",
+    interface="Effect",
+    lacks=_say_meaning_two_things,
 )
 CIRCLE_EFFECT: Kind[CircleEffect] = Kind(
     name="circle_effect",
+    offers="the effects of drives and structure that this plugin adds to the model of a machine",
     label="circle effect",
     door="circle_effect",
     interface="CircleEffect",
@@ -108,6 +127,7 @@ CIRCLE_EFFECT: Kind[CircleEffect] = Kind(
 )
 PART_PROGRAM: Kind[PartProgram] = Kind(
     name="part_program",
+    offers="the languages in which this plugin writes part programs",
     label="part program",
     door="program",
     interface="PartProgram",
@@ -116,16 +136,22 @@ PART_PROGRAM: Kind[PartProgram] = Kind(
 )
 CONTROLLER: Kind[Controller] = Kind(
     name="controller",
+    offers="the controls for which this plugin writes compensation tables",
     label="controller",
     door="controller",
     interface="Controller",
     reserved=frozenset({"controller"}),
 )
 EXTENSION: Kind[Extension] = Kind(
-    name="extension", label="extension", door="extension", interface="Extension"
+    name="extension",
+    offers="the groups of job keys that this plugin adds, with all that a job gets by them",
+    label="extension",
+    door="extension",
+    interface="Extension",
 )
 INSTRUMENT: Kind[Instrument] = Kind(
     name="instrument",
+    offers="the live instruments that this plugin reads",
     label="instrument",
     door="instrument",
     interface="Instrument",
@@ -133,6 +159,7 @@ INSTRUMENT: Kind[Instrument] = Kind(
 )
 NOTIFIER: Kind[Notifier] = Kind(
     name="notifier",
+    offers="the ways in which this plugin tells people what a fleet came to",
     label="notifier",
     door="notifier",
     interface="Notifier",

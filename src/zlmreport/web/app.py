@@ -29,11 +29,10 @@ from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.effect_page import make_effect_page
 from zlmreport.web.folded import fold
 from zlmreport.web.guard import HOST, Door
-from zlmreport.web.stairs import add_stairs
-from zlmreport.web.view import collect_before_and_after, collect_closer, make_results, make_view
+from zlmreport.web.view import add_stairs, collect_before_and_after, collect_closer, make_results, make_view
 
 if TYPE_CHECKING:
-    from zlmreport.web.folder_app import FolderWorkbench
+    from zlmreport.web.folder import FolderWorkbench
 
 
 @dataclass(frozen=True, slots=True)

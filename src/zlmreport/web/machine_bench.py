@@ -10,7 +10,6 @@ from functools import partial
 from pathlib import Path
 
 from zlmreport.language import Language
-from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -83,14 +82,6 @@ class MachineBench(WatchedFile[LoadedMachine]):
                     self._studies.popitem(last=False)
             self._studies.move_to_end(key)
             return self._studies[key]
-
-    def compare(self, loaded: LoadedMachine, study: CircleStudy | None) -> tuple[ComparedTest, ...]:
-        """Return all tests beside the prediction of the axes, circles beside the effects of a study, too."""
-        machine = loaded.machine
-        return (
-            *compare_circles(machine.machine, machine.measured, self.registry, study),
-            *(compare_line(machine.machine, each) for each in machine.lines),
-        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from zlmreport.document.writer import NOTHING
 from zlmreport.errors import InputError
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair
-from zlmreport.machines.comparison import ComparedTest
+from zlmreport.machines.comparison import ComparedTest, compare_tests
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.editing import list_effects_with
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
@@ -72,7 +72,7 @@ class MachineView:
         """Return what is shown at once: tests with their graphs, effects, what was done."""
         loaded, machine, names = self.loaded, self.loaded.machine, self.names
         study = self.study
-        compared = self.bench.compare(loaded, study)
+        compared = compare_tests(machine, self.bench.registry, study)
         keys = machine.file.keys
         return {
             "stamp": loaded.stamp,
@@ -112,7 +112,7 @@ class MachineView:
     def list_results(self) -> dict[str, Any]:
         """Return what takes longer: the fall of the error, each test in numbers, errors and work space."""
         machine, names, study = self.loaded.machine, self.names, self.study
-        compared = self.bench.compare(self.loaded, study)
+        compared = compare_tests(machine, self.bench.registry, study)
         sizes = lay_out_sizes(compared, self.say)
         return {
             "stamp": self.loaded.stamp,
@@ -140,7 +140,7 @@ class MachineView:
         circle = next((each for each in machine.measured if each.circle.name == test), None)
         if circle is None:
             raise InputError.at(PLACE, f"there is no circle {test[:60]!r}")
-        drawn = (self.bench.compare(self.loaded, each) for each in self._study_around(wanted))
+        drawn = (compare_tests(machine, self.bench.registry, each) for each in self._study_around(wanted))
         return {
             "stamp": self.loaded.stamp,
             **{

@@ -1,24 +1,27 @@
-"""All values that the page of a job shows, collected."""
+"""All values that the page of a job shows, collected; a built model as a staircase."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from zlmreport.document.figures.model_diagram import ModelDiagram
 from zlmreport.document.subjects.diagnosis import CandidateRow, DiagnosisRows, list_hidden, list_not_tested
-from zlmreport.document.subjects.fit import say_no_table_takes_away
+from zlmreport.document.subjects.fit import say_no_table_takes_away, write_deviation
 from zlmreport.document.subjects.linked import collect_failure, collect_graphs, collect_model_curves
-from zlmreport.errors import InputError
+from zlmreport.errors import InputError, ZlmreportError
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Said, Words, same
+from zlmreport.language import Language, Said, Words, list_alternatives, same
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.asking import list_lengths_asked
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
 from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin.registry import Registry
 from zlmreport.web.asked import collect_field, list_what_is_lacking, name_key
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import list_offered
@@ -239,3 +242,60 @@ def _make_candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) 
         "tell": names.name_in(row.tell_apart_by),
         "remedy": names.name_in(row.remedy),
     }
+
+
+def make_stairs(
+    steps: Sequence[Mapping[str, Any]], job: Job, registry: Registry, names: Naming
+) -> list[dict[str, Any]]:
+    """Return the steps of a build as a page shows them.
+
+    `steps`: As ``zlmreport model build --json`` has them, errors in the unit of the job's deviations.
+    """
+    unit, language = job.axis.deviation_unit, names.language
+    largest = max((each["rms_before"] for each in steps), default=0.0) or 1.0
+
+    def written(value: float | None) -> str:
+        number = write_deviation(None if value is None else unit.to_si(value), job.axis, language)
+        return with_unit(number, unit.symbol)
+
+    def stair(each: Mapping[str, Any]) -> dict[str, Any]:
+        removed = bool(each.get("removed"))
+        noise = each["noise_rms"]
+        return {
+            "effect": each["effect"],
+            "argument": _write_argument(each["effect"], each["settings"], job, registry),
+            "removed": removed,
+            "name": f"{'−' if removed else '+'} {_name_one_of(each, names)}",
+            "before": written(each["rms_before"]),
+            "after": written(each["rms_after"]),
+            "share": each["rms_after"] / largest,
+            "floor": None if noise is None else min(1.0, noise / largest),
+        }
+
+    return [stair(each) for each in steps]
+
+
+def _name_one_of(step: Mapping[str, Any], names: Naming) -> str:
+    """Return the effect of a step, with those that the readings do not tell from it."""
+    titles = [names.name_in(each) for each in (step["effect"], *step.get("indistinguishable_from", ()))]
+    return list_alternatives(titles).in_language(names.language)
+
+
+def _write_argument(effect: str, settings: Mapping[str, Any], job: Job, registry: Registry) -> str:
+    """Return an effect as a job names it: a formula of its candidates by name, else with unusual keys."""
+    if effect in {each.identifier for each in job.candidates}:
+        return effect
+    try:
+        usual = registry.effect(effect).settings.model_dump(mode="json")
+    except ZlmreportError:  # one that stands there several times has a number that no plugin knows
+        usual = {}
+    unusual = {key: value for key, value in settings.items() if key not in usual or usual[key] != value}
+    return f"{effect}: {json.dumps(unusual)}" if unusual else effect
+
+
+def add_stairs(state: dict[str, Any], job: Job, registry: Registry, language: Language) -> dict[str, Any]:
+    """Return the state of a build with its staircase; any other state as it is."""
+    steps = state.get("values", {}).get("steps")
+    if steps is None:
+        return state
+    return {**state, "stairs": make_stairs(steps, job, registry, Naming.of(registry.effects, language))}

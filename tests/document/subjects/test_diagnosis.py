@@ -13,7 +13,7 @@ from zlmreport.document.subjects.diagnosis import (
     list_not_tested,
     make_failure_row,
 )
-from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
+from zlmreport.document.subjects.fit import list_error_facts, make_parameter_rows, make_wave_rows
 from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.plugin import STRAIGHTNESS, Language, Words
@@ -96,4 +96,4 @@ def test_the_number_of_a_parameter_is_the_value_that_is_printed() -> None:
 
 
 def test_a_model_without_waves_has_no_rows_of_waves() -> None:
-    assert make_all_wave_rows(example_history()[-1].fit, ENGLISH) == ()
+    assert make_wave_rows(example_history()[-1].fit, ENGLISH) == ()

@@ -136,14 +136,6 @@ class ParameterRow:
         )
 
 
-@dataclass(frozen=True, slots=True)
-class WaveRows:
-    """A wave by amplitude and phase, which follow from its sine and cosine."""
-
-    amplitude: ParameterRow
-    phase: ParameterRow
-
-
 def make_parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
     """Return the parameters of a model, effect by effect."""
     return tuple(
@@ -154,9 +146,9 @@ def make_parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...
     )
 
 
-def make_all_wave_rows(fit: Fit, language: Language) -> tuple[WaveRows, ...]:
-    """Return the waves of a model; one with a given parameter is left out."""
-    return tuple(_make_wave_rows(each, fit.design.axis, language) for each in list_waves(fit))
+def make_wave_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
+    """Return the waves of a model by amplitude and phase; one with a given parameter is left out."""
+    return tuple(row for each in list_waves(fit) for row in _lay_out_wave(each, fit.design.axis, language))
 
 
 def fit_sections(fitted: Fitted, language: Language) -> tuple[Section, ...]:
@@ -205,10 +197,7 @@ def lay_out_parameters(fit: Fit, language: Language) -> Table:
     Its columns are ``name``, ``symbol``, ``parameter``, ``value``, ``uncertainty``, ``unit``, ``plausible``
     and ``expected``.
     """
-    rows = [
-        *make_parameter_rows(fit, language),
-        *(row for each in make_all_wave_rows(fit, language) for row in (each.amplitude, each.phase)),
-    ]
+    rows = [*make_parameter_rows(fit, language), *make_wave_rows(fit, language)]
 
     def say(heading: Words) -> str:
         return heading.in_language(language)
@@ -330,7 +319,8 @@ def say_no_table_takes_away(fit: Fit, language: Language) -> str:
     return " ".join(words.in_language(language) for words in said)
 
 
-def _make_wave_rows(wave: Wave, axis: Axis, language: Language) -> WaveRows:
+def _lay_out_wave(wave: Wave, axis: Axis, language: Language) -> tuple[ParameterRow, ParameterRow]:
+    """Return a wave by amplitude and phase, which follow from its sine and cosine."""
     harmonic, k = wave.harmonic, wave.coverage_factor
 
     def row(
@@ -353,9 +343,7 @@ def _make_wave_rows(wave: Wave, axis: Axis, language: Language) -> WaveRows:
         harmonic.amplitude, k * harmonic.amplitude_uncertainty, unit, language
     )
     phase = _round_with_uncertainty(harmonic.phase, k * harmonic.phase_uncertainty, DEGREE, language)
-    return WaveRows(
-        row("amplitude", "A", _AMPLITUDE, amplitude, unit), row("phase", "φ", _PHASE, phase, DEGREE)
-    )
+    return (row("amplitude", "A", _AMPLITUDE, amplitude, unit), row("phase", "φ", _PHASE, phase, DEGREE))
 
 
 def _round_with_uncertainty(

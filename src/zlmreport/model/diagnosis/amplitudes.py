@@ -30,12 +30,8 @@ class AmplitudeSearch:
     def find_near(self, start: Amplitudes, columns: Sequence[IntArray], levels: Amplitudes) -> Amplitudes:
         """Return the best amplitudes of all parts near others.
 
-        Parameters
-        ----------
-        columns
-            The places of the columns of each member of the set.
-        levels
-            How many levels of each part are thought of.
+        `columns`: The places of the columns of each member of the set.
+        `levels`: How many levels of each part are thought of.
         """
         key = levels, start, frozenset(each.tobytes() for each in columns)
         if key not in self._known:

@@ -84,13 +84,7 @@ class _Eliminated:
 
 
 class Columns:
-    """A table of columns that grows.
-
-    Attributes
-    ----------
-    space
-        The contrasts of the job's model.
-    """
+    """A table of columns that grows; `space` has the contrasts of the job's model."""
 
     def __init__(self, space: Contrasts, irregular: Sequence[FloatArray]) -> None:
         """Begin a table.

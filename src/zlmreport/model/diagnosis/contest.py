@@ -103,28 +103,16 @@ class Contest(Likelihood):
     ) -> Contest:
         """Prepare a contest.
 
-        Parameters
-        ----------
-        base : (N, q) array
-            Columns of the job's model, tangents of its searched parameters included.
-        effects
-            Forms of installed effects that can be tested on the design.
-        deviation : (N,) array or None
-            x, m or rad; None where only simulated readings are asked about.
-        weights : (N,) array or None
-            w, the variance of each reading over the mean one.
-        memory
-            Time over which a reading is forgotten, in the unit of the design's time; 0 for none.
-        forms
-            Forms without a name.
-        known
-            Standard deviation of a noise of known size that stands beside σ, m or rad.
-        least_visible
-            Share of an effect's length below which the model imitates it entirely.
-        expected
-            What earlier tests say, sizes in units of σ.
-        with_nameless
-            Whether parts without a name are thought of.
+        `base`, (N, q): Columns of the job's model, tangents of its searched parameters included.
+        `effects`: Forms of installed effects that can be tested on the design.
+        `deviation`, (N,): x, m or rad; None where only simulated readings are asked about.
+        `weights`, (N,): w, the variance of each reading over the mean one.
+        `memory`: Time over which a reading is forgotten, in the unit of the design's time; 0 for none.
+        `forms`: Forms without a name.
+        `known`: Standard deviation of a noise of known size that stands beside σ, m or rad.
+        `least_visible`: Share of an effect's length below which the model imitates it entirely.
+        `expected`: What earlier tests say, sizes in units of σ.
+        `with_nameless`: Whether parts without a name are thought of.
         """
         readings, sources = len(design.position), list_noise_parts(design)
         expected = expected or PriorExpectation()

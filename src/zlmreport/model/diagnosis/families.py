@@ -105,14 +105,8 @@ def make_orthonormal(
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Return what of an effect is seen beside the model, for each of some values of its parameters.
 
-    Returns
-    -------
-    (N, g, k) array
-        Orthonormal contrasts, the last of them zero where columns depend on each other.
-    (g,) integer array
-        Columns that are not zero.
-    (g,) integer array
-        Which of the values are seen at all.
+    Orthonormal contrasts, (N, g, k), the last of them zero where columns depend on each other; how many are
+    not zero, (g,); which of the values are seen at all, (g,).
     """
     blocks = np.stack([effect.columns(design, theta) for theta in thetas])
     with np.errstate(over="ignore", invalid="ignore"):  # what has no finite value is not seen

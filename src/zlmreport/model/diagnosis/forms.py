@@ -128,14 +128,8 @@ _SEARCHED = frozenset("cewL")
 class UnnamedForm(FormulaEffect):
     """A form with a carrier on a design.
 
-    Attributes
-    ----------
-    form, carrier
-        What it is.
-    along : (n,) array
-        The places or moments along which it is laid, rising, SI.
-    starts : (g, s) array
-        Values of its searched parameters that are tried, SI, in their order.
+    `along`, (n,): The places or moments along which it is laid, rising, SI. `starts`, (g, s): Values of its
+    searched parameters that are tried, SI, in their order.
     """
 
     def __init__(self, form: Form, carrier: str, design: Design, starts: FloatArray, end: float) -> None:

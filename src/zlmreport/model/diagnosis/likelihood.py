@@ -244,21 +244,12 @@ class Likelihood:
     ) -> tuple[FloatArray, FloatArray]:
         """Return what parts beside a set take away of the squares of B sets of deviations, at every level.
 
-        Parameters
-        ----------
-        numbers
-            Of parts of one width and as many levels, that are at nothing in the set; not of irregular ones.
-        response : (k, B) array
-            Products of their columns with the deviations, V of the set eliminated in none of them.
-        taken : (p, B) array
-            The deviations in the coordinates of the set.
+        What each takes away, (parts, levels, B), and by how much it raises ln|V|, (parts, levels).
 
-        Returns
-        -------
-        (parts, levels, B) array
-            What each takes away.
-        (parts, levels) array
-            By how much each raises ln|V|.
+        `numbers`: Of parts of one width and as many levels, that are at nothing in the set; not of irregular
+            ones.
+        `response`, (k, B): Products of their columns with the deviations, V of the set eliminated in none.
+        `taken`, (p, B): The deviations in the coordinates of the set.
         """
         blocks = np.stack([self.parts[number].columns for number in numbers])
         products = self.columns.multiply(reduced.ratios, reduced.places, blocks.ravel())

@@ -19,13 +19,8 @@ from zlmreport.model.diagnosis.set_costs import SetCosts
 class ScoredSets:
     """The sets of a contest that were looked at.
 
-    Attributes
-    ----------
-    contest
-        The contest.
-    best
-        Of all sets that were scored the best ones, by the effects, as they are installed, and the forms that
-        are in it.
+    `best`: Of all sets that were scored the best ones, by the effects, as they are installed, and the forms
+        that are in it.
     """
 
     def __init__(self, contest: Contest) -> None:

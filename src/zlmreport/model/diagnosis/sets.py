@@ -344,12 +344,8 @@ class SetSearch:
     ) -> tuple[EffectSet, float] | None:
         """Return the set in which fewest names more do all that forms and curves do, and what it lacks.
 
-        Parameters
-        ----------
-        names
-            How many more at most: with enough names any curve is described.
-        within
-            What evidence it may lack of the best set that has something without a name.
+        `names`: How many more at most: with enough names any curve is described.
+        `within`: What evidence it may lack of the best set that has something without a name.
         """
         own, known = list_names(found.named), self._sets.best.values()
         best = min((each.score for each in known if self.has_nameless(each)), default=np.inf)

@@ -279,13 +279,7 @@ def _are_finite(columns: FloatArray) -> bool:
 
 
 def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
-    """Refuse a model whose columns depend on each other.
-
-    Raises
-    ------
-    ModelError
-        Naming, for each dependence, the effects that take part.
-    """
+    """Raise `ModelError` if columns of a model depend on each other, with the effects of each dependence."""
     if not columns:
         return
     names = model.identifiers

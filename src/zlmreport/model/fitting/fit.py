@@ -12,9 +12,11 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
-from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.design import Design, list_outside_of_measured, place_at_positions
 from zlmreport.model.effects.effect import Parameter
 from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_root
 from zlmreport.model.fitting.estimate import (
@@ -159,6 +161,21 @@ class Fit:
         rows = _compute_jacobian(self.model, design, self.solution, self.places)
         standard, degrees = self.uncertainties.of(rows, self.assumptions.instrument.at_each_position)
         return Prediction(self.compute_value_at(design), standard, compute_coverage_factors(degrees))
+
+    def predict_at(self, positions: FloatArray, place: Place) -> dict[Approach, Prediction]:
+        """Return what the model gives at positions, m or rad, in each direction that was measured.
+
+        Raises `InputError` at the place with each position that lies outside of what was measured.
+        """
+        design, axis = self.design, self.design.axis
+        outside = list_outside_of_measured(axis.name, axis.position_unit, positions, design.span)
+        if outside:
+            raise InputError(Problem(place, each) for each in outside)
+        return {
+            approach: self.predict(place_at_positions(design, positions, approach))
+            for approach in Approach
+            if np.any(design.direction == approach)
+        }
 
 
 def fit(

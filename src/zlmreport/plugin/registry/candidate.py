@@ -13,7 +13,6 @@ from typing import Any, TypeAlias
 import pluggy
 
 from zlmreport.errors import Place, Problem, ZlmreportError, did_you_mean
-from zlmreport.plugin import hooks
 from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.hooks import PROJECT
 from zlmreport.plugin.kinds import KINDS, Kind
@@ -128,7 +127,7 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
     whose objects have an entry point each can be registered for each.
     """
     manager = pluggy.PluginManager(PROJECT)
-    manager.add_hookspecs(hooks)
+    manager.add_hookspecs(_HOOK_SPECS)
     manager.register(module, plugin.name)
     found: dict[Key, Any] = {}
     for kind in (named[0],) if named else KINDS:
@@ -159,6 +158,9 @@ def _list_answers(manager: pluggy.PluginManager, kind: Kind[Any]) -> Iterator[An
 _IDENTIFIER = re.compile(r"[A-Za-z0-9][A-Za-z0-9:._-]*")
 _SUFFIX = re.compile(r"(\.[A-Za-z0-9]+)+")
 _HOOKS = tuple(kind.hook for kind in KINDS)
+_specified = pluggy.HookspecMarker(PROJECT)
+#: What every plugin can be asked, whether or not it answers.
+_HOOK_SPECS = type("HookSpecs", (), {hook: _specified(lambda: ()) for hook in _HOOKS})
 
 
 def check(kind: Kind[Any], offered: Any) -> None:

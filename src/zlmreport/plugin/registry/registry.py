@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, Self, TypeVar, cast
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.language import Words
@@ -42,11 +42,6 @@ class _Doubtful(Guarded):
     def forms(self) -> tuple[Self, ...]:
         """Return itself: no form of it is tried."""
         return (self,)
-
-
-def make_doubtful(effect: Any) -> Any:
-    """Return an effect as one that cannot be tested."""
-    return effect.guard_as(_Doubtful)
 
 
 Wanted = TypeVar("Wanted")
@@ -114,7 +109,7 @@ class Registry:
             if len(offering) == 1:
                 found.extend(offered)
             elif kind is kinds.EFFECT and offered:
-                found.append(cast("Wanted", make_doubtful(offered[0])))
+                found.append(offered[0].guard_as(_Doubtful))
         return tuple(found)
 
     def list_identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
