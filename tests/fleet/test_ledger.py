@@ -28,7 +28,7 @@ from zlmreport.fleet.records import (
     State,
     Subject,
 )
-from zlmreport.plugin import AccessError, InputError, Words
+from zlmreport.plugin import AccessError, InputError, Language, Words
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
 BASIS = CertificateBasis(
@@ -197,9 +197,10 @@ def test_a_ledger_of_another_format_is_refused(address: str) -> None:
     Ledger.open(address, "north").__exit__(None, None, None)
     engine = create_engine(address if "://" in address else f"sqlite:///{address}")
     with engine.begin() as connection:
-        connection.execute(text("UPDATE ledger_format SET format = 7"))
+        connection.execute(text(f"UPDATE ledger_format SET format = {FORMAT + 1}"))
     engine.dispose()
-    with pytest.raises(InputError, match=f"is a ledger of format 7, and this program writes format {FORMAT}"):
+    said = f"is a ledger of format {FORMAT + 1}, and this program writes format {FORMAT}"
+    with pytest.raises(InputError, match=said):
         Ledger.open(address, "north")
 
 
@@ -229,6 +230,7 @@ ADDED = {
     4: ("entries type",),
     5: ("entries lesson",),
     6: ("nights untried",),
+    7: ("entries doubts",),
 }
 
 
@@ -253,6 +255,14 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
         assert last is not None
         assert last.notices == (NightNotice(About.CLOCK, _SET_BACK),)
         assert last.untried == ("x.yaml",)
+
+
+def test_what_is_doubtful_is_kept_in_every_language(address: str) -> None:
+    doubt = Words("Run {run} mirrors the others: the sign of its deviations seems to be turned").given(run=3)
+    with night(address) as (ledger, at_work):
+        at_work.issue(replace(ENTRY, doubts=(doubt,)), FILES, BASIS)
+        ((kept,),) = (each.doubts for each in ledger.list_entries())
+    assert [kept.in_language(each) for each in Language] == [doubt.in_language(each) for each in Language]
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:

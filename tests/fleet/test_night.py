@@ -20,7 +20,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
 from zlmreport.job import days
-from zlmreport.plugin import AccessError, InputError
+from zlmreport.plugin import AccessError, InputError, Language
 from zlmreport.plugin.extension import Job
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
@@ -277,6 +277,13 @@ def test_a_copied_number_is_refused_and_the_certificate_that_has_it_stays(fleet:
     fleet.spend()
     fleet.job("z", ("CAL-Z", "CAL-X"))
     assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED, "z": What.FAILED}
+
+
+def test_what_a_certificate_leaves_doubtful_is_in_the_ledger(fleet: Fleet) -> None:
+    fleet.readings("x", "0.001 0.002 0.003 0.004 0.005 0.006")
+    (doubt, *_) = fleet.spend().of("x").doubts
+    kept = next(each.doubts for each in fleet.entries() if each.number == "CAL-X")
+    assert kept[0].in_language(Language.GERMAN) == doubt.in_language(Language.GERMAN)
 
 
 def test_two_new_numbers_that_differ_in_case_alone_are_both_refused(fleet: Fleet) -> None:

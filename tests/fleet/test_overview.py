@@ -110,6 +110,28 @@ def test_a_limit_that_is_not_met_is_told_with_value_uncertainty_and_limit() -> N
     assert "20 µm" in said
 
 
+def test_what_the_latest_certificate_of_an_axis_leaves_doubtful_is_told_with_what_to_do() -> None:
+    first, second = quarters(2)
+    doubts = (same("Run 3 mirrors the others"), same("All readings are equal"))
+    said = needs(entry(first, parameter(8.0)), entry(second, parameter(8.0), doubts=doubts))
+    assert "Doubtful 1 Axes whose latest certificate has readings or units that look wrong: " in said
+    assert "correct the job or its readings and issue an amendment" in said
+    axis = f"X Example Works MT 500, serial 1 CAL-{second} JSON"
+    assert f"{axis} Run 3 mirrors the others All readings are equal" in said
+
+
+def test_what_was_doubtful_of_an_earlier_certificate_is_history() -> None:
+    first, second = quarters(2)
+    before = entry(first, parameter(8.0), doubts=(same("Run 3 mirrors the others"),))
+    assert "Nothing" in needs(before, entry(second, parameter(8.0)))
+
+
+def test_a_tile_and_the_table_that_it_leads_to_count_the_same() -> None:
+    html = page(entry(LATEST, parameter(21.0, conforms=False), parameter(30.0, symbol="E", conforms=False)))
+    assert '<span class="number">1</span> <span class="label">Limit not met</span>' in html
+    assert 'Limit not met <span class="count">1</span>' in html
+
+
 def test_a_limit_that_was_not_met_before_an_adjustment_is_history() -> None:
     first, second = quarters(2)
     before = entry(first, parameter(21.0, conforms=False))

@@ -107,6 +107,16 @@ def test_a_small_graph_has_a_scale_of_values_and_of_time() -> None:
     assert words == ["0", "20", "2025-01", "2026-10"]
 
 
+def test_the_date_of_a_first_night_is_on_the_drawing() -> None:
+    (only,) = quarters(1)
+    (trend,) = judged([entry(only, parameter(8.0))])
+    image = ET.fromstring(draw_trend(trend, Period(only, only), "words", DecimalSign.POINT))
+    date = list(image.iter("{http://www.w3.org/2000/svg}text"))[-1]
+    assert "".join(date.itertext()) == "2025-01"
+    starts = [float(each.attrib["x"]) for each in date.iter() if "x" in each.attrib]
+    assert min(starts) > SMALL.left
+
+
 def test_a_large_graph_has_its_unit_and_a_line_for_each_year() -> None:
     words = lettering(history([0.8, 0.82, 0.81], limit=1.2), LARGE, DecimalSign.COMMA)
     assert words == ["0,0", "0,5", "1,0", "1,5 µm", "2026", "2027"]

@@ -43,7 +43,7 @@ from sqlalchemy.pool import StaticPool
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 
 #: Of these tables; a program that knows another refuses the ledger.
-FORMAT = 6
+FORMAT = 7
 
 METADATA = MetaData()
 
@@ -86,6 +86,7 @@ ENTRIES = Table(
     Column("instrument", String),
     Column("type", String),
     Column("lesson", JSON(none_as_null=True)),
+    Column("doubts", JSON(none_as_null=True)),
     Index("entries_of_jobs", "fleet", "job", "id"),
 )
 
@@ -262,6 +263,7 @@ _SINCE = {
     3: ("ALTER TABLE entries ADD COLUMN type VARCHAR",),
     4: ("ALTER TABLE entries ADD COLUMN lesson JSON",),
     5: ("ALTER TABLE nights ADD COLUMN untried JSON",),
+    6: ("ALTER TABLE entries ADD COLUMN doubts JSON",),
 }
 
 

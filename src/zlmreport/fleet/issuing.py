@@ -230,6 +230,7 @@ class Desk:
             message=message,
             files=tuple(file.path for file in made.files) if made else (),
             parameters=made.parameters if made else (),
+            doubts=made.doubts if made else (),
             seconds=made.seconds if made else None,
         )
 

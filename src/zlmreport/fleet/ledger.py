@@ -117,7 +117,7 @@ class Night:
 
     def notice(self, notices: Sequence[NightNotice]) -> None:
         """Note what concerns the whole night."""
-        self._note(notices=[[each.about.value, *map(each.text.in_language, Language)] for each in notices])
+        self._note(notices=[[each.about.value, *_write_words(each.text)] for each in notices])
 
     def leave(self, jobs: Sequence[str]) -> None:
         """Note the jobs that the night had no time for."""
@@ -207,6 +207,7 @@ class Night:
                 files=[file.as_json() for file in files],
                 basis=basis.as_json() if basis else None,
                 lesson=lesson,
+                doubts=[_write_words(each) for each in entry.doubts] or None,
                 **{name: getattr(entry, name) for name in _OWN},
             ),
         )
@@ -464,6 +465,7 @@ def _make_entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Led
         message=row.message,
         files=tuple(file.path for file in _read_files(row.files)),
         parameters=parameters,
+        doubts=tuple(_read_words(*texts) for texts in row.doubts or ()),
         seconds=row.seconds,
     )
 
@@ -480,8 +482,13 @@ def _read_parameter(row: Row[Any]) -> RecordedParameter:
     )
 
 
+def _write_words(text: Words) -> list[str]:
+    """Return a sentence as it is kept: in each language."""
+    return [text.in_language(language) for language in Language]
+
+
 def _read_words(*texts: str) -> Words:
-    """Return the text of a notice as it was kept in each language; an older program kept fewer."""
+    """Return a sentence as it was kept in each language; an older program kept fewer."""
     return Words.of({language.value: text for language, text in zip(Language, texts, strict=False)})
 
 

@@ -108,8 +108,9 @@ def _make_tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
     counted = (
         (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
-        (len(state.not_met), words.NOT_MET, "not-met"),
-        (len(state.undecided), words.UNDECIDED, "undecided"),
+        (len(group_by_axis(state.not_met)), words.NOT_MET, "not-met"),
+        (len(group_by_axis(state.undecided)), words.UNDECIDED, "undecided"),
+        (len(state.doubtful), words.DOUBTFUL, "doubtful"),
         (len(group_by_axis(state.changed)), words.CHANGED, "changed"),
         (len(group_by_axis(state.drifting)), words.DRIFTING, "drifting"),
         (len(state.overdue), words.OVERDUE, "overdue"),
@@ -218,6 +219,13 @@ _FAILED: _Table[FailingJob] = _Table(
 )
 _NOT_MET = _Table("not-met", words.NOT_MET, words.NOT_MET_CAPTION, words.AXIS, _OF_LIMITS)
 _UNDECIDED = _Table("undecided", words.UNDECIDED, words.UNDECIDED_CAPTION, words.AXIS, _OF_LIMITS)
+_DOUBTFUL: _Table[Words] = _Table(
+    "doubtful",
+    words.DOUBTFUL,
+    words.DOUBTFUL_CAPTION,
+    words.AXIS,
+    ((words.DOUBT, lambda cells, doubt: _make_message(cells.say(doubt))),),
+)
 _CHANGED = _Table(
     "changed",
     words.CHANGED,
@@ -274,11 +282,13 @@ def _list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableC
     failed = [
         (OverviewCellContext(each.entry.job, note=each.entry.of_axis), [each]) for each in state.failures
     ]
+    doubtful = [(cells.write_axis_of(each), each.doubts) for each in state.doubtful]
     tables = (
         _NOTICED.lay_out(noticed, cells),
         _FAILED.lay_out(failed, cells),
         _NOT_MET.lay_out(_list_axes(state.not_met, cells), cells),
         _UNDECIDED.lay_out(_list_axes(state.undecided, cells), cells),
+        _DOUBTFUL.lay_out(doubtful, cells),
         _CHANGED.lay_out(_list_axes(state.changed, cells), cells),
         _DRIFTING.lay_out(_list_drifts(state.drifting, cells), cells),
         _OVERDUE.lay_out(_list_terms(state.overdue, cells), cells),
@@ -391,6 +401,7 @@ def _list_marks(state: FleetState) -> Sequence[tuple[str, Words, frozenset[tuple
     return (
         ("not-met", words.NOT_MET, frozenset(group_by_axis(state.not_met))),
         ("undecided", words.UNDECIDED, frozenset(group_by_axis(state.undecided))),
+        ("doubtful", words.DOUBTFUL, frozenset(each.axis_key for each in state.doubtful)),
         ("changed", words.CHANGED, frozenset(group_by_axis(state.changed))),
         ("drifting", words.DRIFTING, frozenset(group_by_axis(state.drifting))),
         ("overdue", words.OVERDUE, frozenset(term.entry.axis_key for term in state.overdue)),

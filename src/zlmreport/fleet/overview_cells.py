@@ -215,6 +215,11 @@ class CellWriter:
         entry = trend.series.calibrations[-1].entry
         return OverviewCellContext(entry.number, note=entry.measured, links=self.list_links(entry))
 
+    def write_axis_of(self, entry: LedgerEntry) -> OverviewCellContext:
+        """Return the axis, its machine and the number of a certificate, with links to its files."""
+        note = f"{entry.machine or self.say(words.NO_MACHINE)}\n{entry.number}"
+        return OverviewCellContext(entry.axis, note=note, links=self.list_links(entry))
+
     def write_issued(self, entry: LedgerEntry) -> OverviewCellContext:
         """Return the number and the axis of a certificate, with links to its files."""
         return OverviewCellContext(entry.number, note=entry.of_axis, links=self.list_links(entry))

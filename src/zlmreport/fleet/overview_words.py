@@ -72,6 +72,11 @@ NOT_MET = Words("Limit not met")
 NOT_MET_CAPTION = Words("Parameters whose latest certificate states that the limit is not met")
 UNDECIDED = Words("Undecided")
 UNDECIDED_CAPTION = Words("Parameters so near to their limit that the decision rule states nothing")
+DOUBTFUL = Words("Doubtful")
+DOUBTFUL_CAPTION = Words(
+    "Axes whose latest certificate has readings or units that look wrong: where they are, correct the job or "
+    "its readings and issue an amendment; where they are right, nothing is to be done"
+)
 CHANGED = Words("Changed")
 CHANGED_CAPTION = Words(
     "Parameters of which the latest test shows a step, or whose latest tests scatter more than before"
@@ -104,6 +109,7 @@ FOUND = Words("{shown} of {number} axis", plural="{shown} of {number} axes")
 
 JOB = Words("Job")
 MESSAGE = Words("What is wrong")
+DOUBT = Words("What is doubtful")
 SINCE = Words("Since")
 AXIS = Words("Axis")
 PARAMETER = Words("Parameter")

@@ -264,6 +264,7 @@ class LedgerEntry(Subject):
     message: str = ""  #: Why it failed, or why it is a draft; empty otherwise.
     files: tuple[str, ...] = ()  #: Paths of its files, relative to the fleet's output folder.
     parameters: tuple[RecordedParameter, ...] = ()  #: What it states.
+    doubts: tuple[Words, ...] = ()  #: Sentences on what it leaves doubtful.
     seconds: float | None = None  #: How long it took; None where nothing was made.
 
 

@@ -43,6 +43,7 @@ class FleetState:
     certificates: tuple[LedgerEntry, ...]  #: That stand, in the order of measurement.
     trends: tuple[Trend, ...]  #: Every parameter of every axis, machine by machine.
     effects: tuple[Series, ...] = ()  #: Parameters of the error models over time, where jobs name effects.
+    doubtful: tuple[LedgerEntry, ...] = ()  #: Latest certificates that leave something doubtful, by axis.
     terms: tuple[DueDate, ...] = ()  #: Of every axis that has one, the earliest first.
     #: How many of them the last run had no time for; of those that failed before, or are drafts, none.
     untried: int = 0
@@ -136,6 +137,7 @@ def describe_state(
     ]
     certificates = select_standing(history)
     series = list_series_of(certificates)
+    latest_of_axes = _select_latest(certificates, rules)
     began = night.began if night else None
     counted = {each.job for each in current if each.state.is_failure or each.state is State.DRAFT}
     return FleetState(
@@ -154,20 +156,21 @@ def describe_state(
         certificates=certificates,
         trends=judge_trends(each for each in series if each.standard != MODEL),
         effects=tuple(each for each in series if each.standard == MODEL),
-        terms=_list_terms(certificates, rules, began),
+        doubtful=tuple(each for each in latest_of_axes if each.doubts),
+        terms=_list_terms(latest_of_axes, rules, began),
         untried=len(set(night.untried) & set(jobs) - counted) if night else 0,
     )
 
 
-def _list_terms(
-    certificates: Sequence[LedgerEntry], rules: Rules, now: datetime | None
-) -> tuple[DueDate, ...]:
-    standing = [entry for entry in certificates if not rules.is_retired(entry.job)]
-    latest = {(entry.machine, entry.axis): entry for entry in standing}
-    stated = (
-        (entry, compute_due_date(entry.measured, entry.interval or rules.interval))
-        for entry in latest.values()
-    )
+def _select_latest(certificates: Iterable[LedgerEntry], rules: Rules) -> tuple[LedgerEntry, ...]:
+    """Return the latest certificate of each axis that is not gone on purpose, axis by axis."""
+    standing = (entry for entry in certificates if not rules.is_retired(entry.job))
+    latest = {entry.axis_key: entry for entry in standing}
+    return tuple(latest[axis] for axis in sorted(latest))
+
+
+def _list_terms(latest: Iterable[LedgerEntry], rules: Rules, now: datetime | None) -> tuple[DueDate, ...]:
+    stated = ((entry, compute_due_date(entry.measured, entry.interval or rules.interval)) for entry in latest)
     days = [(entry, date.fromisoformat(day)) for entry, day in stated if day]
     terms = [DueDate(entry, day, is_over=now is not None and day < now.date()) for entry, day in days]
     return tuple(sorted(terms, key=lambda term: (term.due, term.entry.machine, term.entry.axis)))

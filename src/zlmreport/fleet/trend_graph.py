@@ -159,7 +159,7 @@ def _draw_scale(canvas: SvgCanvas, frame: _Frame, trend: Trend, sign: DecimalSig
         x, baseline = frame.place_x(day.toordinal()), size.height - 0.2 * size.text
         if size is LARGE:
             canvas.outline("grid", _draw_line((x, 0), (x, frame.bottom)), Stroke(_GREY, 0.3), None)
-        share = 0.5 if size is LARGE else float(day == frame.period.last)
+        share = 0.5 if size is LARGE else float(day > frame.period.first)
         _write(canvas, (x, baseline), label, size.text, share=share)
 
 
