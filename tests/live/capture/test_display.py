@@ -10,7 +10,7 @@ import pytest
 
 from live.capture.moves import MM, SETTINGS, UM, Axis, following, happened, kinds, listed
 from zlmreport.live.capture.display import JumpWatch, Offsets
-from zlmreport.live.capture.events import Event, Recorded, Resumed, Unclear
+from zlmreport.live.capture.events import Elsewhere, Event, Recorded, Resumed, Unclear
 from zlmreport.live.capture.follower import Follower
 from zlmreport.plugin.instrument import DatumHolds, LiveReading, ScaleChanged
 
@@ -95,6 +95,16 @@ def test_lost_counts_are_no_other_unit(counts: float, since: float) -> None:
     assert kinds(events)[-1] == "ZeroLost"
     assert not any(isinstance(event, ScaleChanged) for event in events)
     assert filed(events) == pytest.approx(dict.fromkeys(filed(events), 6.25))
+
+
+def test_a_display_in_inches_from_the_beginning_has_lost_no_counts() -> None:
+    axis, datum = Axis(), -5 * MM
+    motion = chain(axis.stand(2), axis.go(0, 20), axis.turn(25), axis.go(20, 0, -5))
+    shown = (replace(each, value=(each.value - datum) / INCH) for each in motion)
+    events = happened(shown, following(listed(targets=(0, 20)), datum=datum))
+    factors = [each.factor for each in events if isinstance(each, Elsewhere)]
+    assert factors[:4] == [pytest.approx(INCH)] * 4
+    assert "ZeroLost" not in kinds(events)
 
 
 def test_a_jump_from_rest_to_rest_loses_the_zero_at_once() -> None:

@@ -106,7 +106,8 @@ _LEFT_OUT = Words("{visit}: left out, as you said")
 
 _DATUM_UNKNOWN = Words(
     "the axis moved before the reading at {position} was taken for its datum, and where it stands now is "
-    "not known: stop the program"
+    "not known: stop the program. If it had stood still, its readings scatter by more than the key stability "
+    "allows: state a larger one"
 )
 _HAS_MOVED = Words("the datum has moved by {difference} since visit {number} was read. {void}")
 _TOO_SELDOM = Words(

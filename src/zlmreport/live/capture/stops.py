@@ -100,6 +100,8 @@ def name_elsewhere(
     unit = find_misread_factor(mean.value, zero, right, following, close, UNITS)
     if unit is not None and progress.read:
         return ScaleChanged(unit, _find_visit_of_either_unit(zero, progress, settings))
+    if unit is not None:  # in other units from the beginning: so far off are all stops at one target
+        return Elsewhere(position, unit)
     if offsets.is_lost(position, progress.taken):
         return ZeroLost(_SHIFTED, progress.rest_of_part)
     return Elsewhere(position, find_misread_factor(mean.value, zero, right, following, near))
