@@ -90,6 +90,15 @@ def find_line_of_job(job: Job) -> ErrorLine:
     return _find_line(_Line.model_validate(job.keys.measurement.at))
 
 
+def _find_line_of_square(job: Job) -> ErrorLine:
+    """Return where a squareness error was measured: each of its lines says where the other axis stood."""
+    measurement = job.keys.measurement
+    stated: dict[str, Any] = {}
+    for line in measurement.tests.values():
+        stated |= line.at
+    return _find_line(_Line.model_validate(stated | measurement.at))
+
+
 def _say_meant(name: str) -> str:
     """Return which error a wrong name may mean: a letter O in the place of the zero of a squareness, too."""
     axis = name[-1:].upper()
@@ -124,7 +133,7 @@ def make_curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry
             f"this job states no {name} with its uncertainty; name what enters it under uncertainty and "
             "instrument, and evaluate iso230-1:2012",
         )
-    return make_single_curve(name, found[0].value, u, find_line_of_job(job), source)
+    return make_single_curve(name, found[0].value, u, _find_line_of_square(job), source)
 
 
 def make_single_curve(name: str, value: float, u: float, line: ErrorLine, source: str) -> AxisErrorCurve:

@@ -19,6 +19,8 @@ from zlmreport.model.fitting.estimate import InstrumentError
 
 #: A position is outside of a curve only beyond what a typed position may be off, m.
 _TOUCHING = 1e-9
+#: Of the largest value, what the rounding of doubles may leave of nothing.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,4 +175,12 @@ def remove_alignment(curve: AxisErrorCurve, zero_at: float | None = None) -> Axi
         return replace(curve, values=left @ curve.values, factor=left @ curve.factor)
     base, _ = np.linalg.qr(np.tile(np.column_stack(columns), (repeats, 1)))
     left = np.eye(len(curve.values)) - base @ base.T
-    return replace(curve, values=left @ curve.values, factor=left @ curve.factor)
+    return replace(
+        curve, values=_drop_rounding(left, curve.values), factor=_drop_rounding(left, curve.factor)
+    )
+
+
+def _drop_rounding(left: FloatArray, values: FloatArray) -> FloatArray:
+    """Return what is left of values: nothing of those that a line describes, no rounding of doubles."""
+    found = left @ values
+    return np.asarray(np.where(np.abs(found) > _ROUNDING * np.abs(values).max(initial=0.0), found, 0.0))

@@ -11,6 +11,7 @@ import numpy as np
 from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, ErrorLine, Point, weights
+from zlmreport.machines.square_lines import MovedSquare, SquareDoubt, list_square_doubts
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import ARCSECOND, MICROMETRE, Unit
 from zlmreport.model.effects.circle_design import AXES
@@ -56,10 +57,18 @@ class MachineModel:
     tool: Point  #: The tool's offset, m.
     curves: tuple[AxisErrorCurve, ...]  #: What was measured or stated, in the order of `ERRORS`.
     unmeasured: tuple[Unmeasured, ...]  #: All others of the 21.
+    #: Squareness errors among them that were measured elsewhere than the model has them.
+    moved_squares: tuple[MovedSquare, ...] = ()
 
     def find_curve(self, name: str) -> AxisErrorCurve | None:
         """Return one of the errors; None if it was not measured."""
         return next((each for each in self.curves if each.name == name), None)
+
+    @property
+    def square_doubts(self) -> tuple[SquareDoubt, ...]:
+        """What angles that nobody measured leave open of the squareness errors."""
+        bounds = {each.name: each.bound for each in self.unmeasured}
+        return tuple(list_square_doubts(self.curves, bounds, self.chain))
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,6 +28,7 @@ from zlmreport.machines.keys import MachineFileKeys, StatedKeys
 from zlmreport.machines.kinematics import SQUARENESS, Chain
 from zlmreport.machines.machine import MachineModel, list_missing_errors
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
+from zlmreport.machines.square_lines import move_squares
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -121,11 +122,14 @@ def read_machine(path: Path, registry: Registry, opened: Opened = lambda _: None
     if problems or chain is None:
         raise InputError(sorted(set(problems)))
     tool = file.keys.tool
+    aligned = (remove_alignment(each, _find_zero(each, curves)) for each in curves.values())
+    known, moved = move_squares(aligned, chain)
     machine = MachineModel(
         chain,
         (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3),
-        tuple(remove_alignment(each, _find_zero(each, curves)) for each in curves.values()),
+        known,
         list_missing_errors(curves, bounds),
+        moved,
     )
     return MachineFile(
         path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources),

@@ -37,6 +37,7 @@ def collect_errors(machine: MachineModel) -> list[dict[str, Any]]:
     """Return the 21 errors: those that are known with their uncertainty, the others with their bounds."""
     unmeasured = {each.name: each for each in machine.unmeasured}
     found: list[dict[str, Any]] = []
+    moved = {each.name: each for each in machine.moved_squares}
     for name in ERRORS:
         unit, curve = find_unit_of(name), machine.find_curve(name)
         if curve is None:
@@ -62,9 +63,26 @@ def collect_errors(machine: MachineModel) -> list[dict[str, Any]]:
                 "at": {axis: place * _MILLI for axis, place in curve.line.others.items()},
                 "tool": [place * _MILLI for place in curve.line.tool],
                 "source": curve.source or "stated",
+                **({"as_measured": float(unit.from_si(moved[name].measured))} if name in moved else {}),
+                **({"doubts": doubts} if (doubts := _collect_doubts(machine, name)) else {}),
             }
         )
     return found
+
+
+def _collect_doubts(machine: MachineModel, name: str) -> list[dict[str, Any]]:
+    """Return what angles that nobody measured leave open of a squareness error."""
+    return [
+        {
+            "straightness": each.straightness,
+            "not_measured": list(each.angles),
+            "up_to": _MICRO * each.size,
+            "unit": "um",
+            "length": _MILLI * each.length,
+        }
+        for each in machine.square_doubts
+        if each.name == name
+    ]
 
 
 def collect_compared(found: ComparedTest) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from zlmreport.plugin import (
     MICROMETRE,
     MILLIMETRE,
+    SQUARENESS,
     Approach,
     Axis,
     Language,
@@ -237,8 +238,8 @@ def _collect_model(certificate: Certificate) -> Json:
 
 def _collect_measurements(measurements: MeasurementSet, job: Job | None) -> Json:
     axis = measurements.axis
-    stated = job.keys.measurement.at.items() if job else ()
-    at = {name: list(each) if isinstance(each, tuple) else each for name, each in stated}
+    stated = _find_places(job) if job else {}
+    at = {name: list(each) if isinstance(each, tuple) else each for name, each in stated.items()}
     return {
         "axis": axis.name,
         "kind": axis.kind.value,
@@ -252,6 +253,16 @@ def _collect_measurements(measurements: MeasurementSet, job: Job | None) -> Json
         "missing": list(_list_missing(measurements)),
         "excluded": list(_list_excluded(measurements)),
     }
+
+
+def _find_places(job: Job) -> Json:
+    """Return where the other axes stood; of squareness each line says it of the other's axis."""
+    measurement = job.keys.measurement
+    places: Json = {}
+    if job.axis.measurand.identifier == SQUARENESS.identifier:
+        for line in measurement.tests.values():
+            places |= line.at
+    return places | measurement.at
 
 
 def _collect_circle(circle: NominalCircle) -> Json:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
+from zlmreport.document.blocks import Block, Cell, Column, Graph, Mark, Paragraph, Section, Symbol
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
 from zlmreport.language import Words, list_alternatives, list_in_words, same
 from zlmreport.machines.kinematics import ERRORS
@@ -50,6 +51,8 @@ def lay_out_errors(machine: MachineModel, say: Sayer, *, is_full: bool) -> Secti
     exact = [each.name for each in machine.curves if not each.largest_uncertainty]
     if exact:
         blocks.append(Paragraph(say(_EXACT.given(errors=list_in_words(exact)))))
+    blocks += [Paragraph(each) for each in _tell_moved(machine, say)]
+    blocks += [Paragraph(each, Mark.OPEN) for each in _tell_doubts(machine, say)]
     if is_full:
         return Section("errors", say(_ERRORS), (Paragraph(say(_NOTE)), *blocks))
     if named:
@@ -58,6 +61,36 @@ def lay_out_errors(machine: MachineModel, say: Sayer, *, is_full: bool) -> Secti
     if assumed:
         blocks.append(Paragraph(say(_ASSUMED.given(number=assumed))))
     return Section("errors", title, tuple(blocks))
+
+
+def _tell_moved(machine: MachineModel, say: Sayer) -> Iterator[str]:
+    """Yield what known angles make of squareness errors that were measured elsewhere than straightness."""
+    for each in machine.moved_squares:
+        square, unit = machine.find_curve(each.name), find_unit_of(each.name)
+        if square is None:
+            continue
+        yield say(
+            _MOVED.given(
+                square=each.name,
+                measured=say.write_quantity(each.measured, unit),
+                value=say.write_quantity(float(square.values[0]), unit),
+                angles=list_in_words(each.angles),
+            )
+        )
+
+
+def _tell_doubts(machine: MachineModel, say: Sayer) -> Iterator[str]:
+    """Yield what angles that nobody measured leave open of squareness errors."""
+    for each in machine.square_doubts:
+        yield say(
+            _DOUBTFUL.given(
+                square=each.name,
+                straightness=each.straightness,
+                angles=list_in_words(each.angles),
+                size=say.write_quantity(each.size, MICROMETRE),
+                length=say.write_millimetres(each.length),
+            )
+        )
 
 
 def say_known(machine: MachineModel) -> Words:
@@ -160,6 +193,15 @@ _EXACT = Words(
     "them as exact."
 )
 _STATED = Words("stated")
+_MOVED = Words(
+    "{square} was measured at another place than the model has it (the tool's offset, or where the other "
+    "axes stood): {measured} there are {value} here, by the known {angles}."
+)
+_DOUBTFUL = Words(
+    "{square} was measured at another place than {straightness} (the tool's offset, or where the other axes "
+    "stood): angles that nobody measured ({angles}) may make up to {size} of it over {length} mm. Measure "
+    "them, or both at one place."
+)
 _NOT_MEASURED = Words("Not measured, taken as bounded: {errors}")
 _ASSUMED = Words(
     "{number} of these bounds is an assumption of this program; the machine file (bounds) states your own.",

@@ -1,0 +1,135 @@
+"""Squareness measured at another tool offset, or with the other axes elsewhere, than straightness."""
+
+import json
+
+import numpy as np
+import pytest
+
+from machines.exact import exact_deviation
+from zlmreport.cli import main
+from zlmreport.machines.course import ToolCourse
+from zlmreport.machines.kinematics import SQUARENESS, find_square_slope
+from zlmreport.machines.machine import predict
+from zlmreport.machines.reading import read_machine
+from zlmreport.plugin.registry import find_plugins
+
+ARCSECOND = np.radians(1 / 3600)
+LENGTH = np.linspace(0.0, 0.4, 9)
+#: The place where squareness was measured: X, Y, Z and the tool's offset, mm.
+PLACE, TOOL = {"X": 120.0, "Y": 60.0, "Z": 210.0}, (30.0, -40.0, 150.0)
+#: By the tool alone.
+HIGHER = ((0, 0, 150), {})
+#: The turns of each axis over its 0.4 m, arc seconds: rising evenly.
+TURNS = {"EAX": 3, "EBX": -5, "ECX": 4, "EAY": 6, "EBY": 7, "ECY": -3, "EAZ": 1, "EBZ": -6, "ECZ": 5}
+
+
+def write(tmp_path, angles, squares, where=(TOOL, PLACE), chain="XYFZ"):
+    """Return the machine of a file with straight axes, read at the origin with no tool."""
+    tool, place = where
+    at = ", ".join([*(f"{axis}: {value}" for axis, value in place.items()), f"tool: {list(tool)}"])
+    lines = ["schema: zlmreport/machine/1", f"chain: {chain}", "errors:"]
+    lines += [
+        f"  - {{E{d}{a}: {{0: 0, 400: 0}}, expanded_uncertainty: 0.2}}"
+        for a in "XYZ"
+        for d in "XYZ"
+        if d != a
+    ]
+    lines += [
+        f"  - {{{name}: {{0: 0, 400: {turn}}}, expanded_uncertainty: 0.4}}" for name, turn in angles.items()
+    ]
+    lines += [
+        f"  - {{{name}: {value}, expanded_uncertainty: 0.6, at: {{{at}}}}}" for name, value in squares.items()
+    ]
+    path = tmp_path / "machine.yaml"
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return read_machine(path, find_plugins()).machine
+
+
+def lean(machine, axis, direction, place, tool):
+    """Return how an axis leans in the model, rad, with the others at a place, mm."""
+    position = np.tile([place[each] / 1e3 for each in "XYZ"], (len(LENGTH), 1))
+    position[:, "XYZ".index(axis)] = LENGTH
+    sensing = np.zeros_like(position)
+    sensing[:, "XYZ".index(direction)] = 1.0
+    course = ToolCourse(position, sensing, np.zeros_like(position), tuple(each / 1e3 for each in tool))
+    return np.polyfit(LENGTH, predict(machine, course).values, 1)[0]
+
+
+@pytest.mark.parametrize("chain", ["XYFZ", "YXFZ", "FZXY"])
+def test_the_model_is_as_square_as_was_measured_where_it_was_measured(tmp_path, chain):
+    squares = {"C0Y": 8.0, "B0Z": -3.0, "A0Z": 5.0}
+    machine = write(tmp_path, TURNS, squares, chain=chain)
+    for name, value in squares.items():
+        leaning, along, sign = find_square_slope(name)
+        both = lean(machine, along, leaning, PLACE, TOOL) + lean(machine, leaning, along, PLACE, TOOL)
+        assert sign * both / ARCSECOND == pytest.approx(value, abs=1e-6)
+    assert {each.name for each in machine.moved_squares} == set(SQUARENESS)
+
+
+def test_exact_matrices_lean_as_the_model_takes_off(tmp_path):
+    """A straight axis that turns evenly leans at a tool's offset by arm times turn over length."""
+    machine = write(tmp_path, {"EBY": 7.0}, {"C0Y": 8.0}, HIGHER)
+    square = machine.find_curve("C0Y")
+    along = [
+        exact_deviation("XYFZ", (0.0, y, 0.0), (0.0, 0.0, 0.15), {"EBY": 7 * ARCSECOND * y / 0.4})[0]
+        for y in LENGTH
+    ]
+    at_the_tool = np.polyfit(LENGTH, along, 1)[0]
+    # ΔX along Y is −C0Y·y: what the turn adds there, C0Y had less of where it was measured.
+    assert square.values[0] == pytest.approx(8 * ARCSECOND + at_the_tool, rel=1e-6)
+    assert square.values[0] / ARCSECOND == pytest.approx(8 + 7 * 0.15 / 0.4)
+    # U of the turn, 0.4″ at both its ends, enters beside that of the squareness itself.
+    assert square.largest_uncertainty / ARCSECOND == pytest.approx(
+        np.hypot(0.6, 0.4 * np.sqrt(2) * 0.15 / 0.4), rel=0.01
+    )
+    assert machine.moved_squares[0].measured == pytest.approx(8 * ARCSECOND)
+
+
+def test_at_one_place_nothing_is_moved_and_nothing_doubtful(tmp_path):
+    machine = write(tmp_path, {}, {"C0Y": 8.0}, ((0, 0, 0), {}))
+    assert machine.find_curve("C0Y").values[0] == pytest.approx(8 * ARCSECOND)
+    assert (machine.moved_squares, machine.square_doubts) == ((), ())
+
+
+def test_angles_that_nobody_measured_are_a_doubt_with_its_size(tmp_path):
+    """Bounds are ± 6″: 2·6″·150 mm are 8.7 µm over the range, of EBY in X and of EAX in Y each."""
+    machine = write(tmp_path, {}, {"C0Y": 8.0}, HIGHER)
+    found = {each.straightness: each for each in machine.square_doubts}
+    assert {name: each.angles for name, each in found.items()} == {"EXY": ("EBY",), "EYX": ("EAX",)}
+    for each in found.values():
+        assert each.size == pytest.approx(2 * 6 * ARCSECOND * 0.15)
+        assert each.length == pytest.approx(0.4)
+    known = write(tmp_path, {"EBY": 7.0, "EAX": 1.0}, {"C0Y": 8.0}, HIGHER)
+    assert known.square_doubts == ()
+
+
+def test_where_nobody_says_the_place_of_squareness_it_is_that_of_straightness(tmp_path):
+    path = tmp_path / "machine.yaml"
+    path.write_text(
+        "schema: zlmreport/machine/1\nchain: XYFZ\nerrors:\n"
+        "  - {EXY: {0: 0, 400: 0}, expanded_uncertainty: 0.2, at: {tool: [0, 0, 120]}}\n"
+        "  - {C0Y: 8, expanded_uncertainty: 0.5}\n",
+        encoding="utf-8",
+    )
+    machine = read_machine(path, find_plugins()).machine
+    assert (machine.moved_squares, machine.square_doubts) == ((), ())
+
+
+def test_a_job_of_two_lines_says_with_each_where_the_other_axis_stood(folder):
+    machine = read_machine(folder / "machine.yaml", find_plugins()).machine
+    assert machine.find_curve("C0Y").line.others == pytest.approx({"X": 0.25, "Y": 0.2, "Z": 0.1})
+    assert machine.square_doubts == ()
+
+
+def test_what_is_doubtful_is_said_with_the_errors(tmp_path, capsys):
+    write(tmp_path, {}, {"C0Y": 8.0}, HIGHER)
+    assert main(["machine", "predict", str(tmp_path / "machine.yaml")]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "(EBY) may make up to 8.73 µm of it over 400 mm" in text
+    write(tmp_path, {"EBY": 7.0, "EAX": 0.0}, {"C0Y": 8.0}, HIGHER)
+    assert main(["machine", "predict", str(tmp_path / "machine.yaml")]) == 0
+    text = " ".join(capsys.readouterr().out.split())
+    assert "8″ there are 10.6″ here, by the known EBY" in text
+    assert main(["machine", "predict", str(tmp_path / "machine.yaml"), "--json"]) == 0
+    errors = {each["error"]: each for each in json.loads(capsys.readouterr().out)["errors"]}
+    assert errors["C0Y"]["as_measured"] == pytest.approx(8.0)
