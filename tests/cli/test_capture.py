@@ -329,10 +329,18 @@ def test_a_port_that_is_not_there_leaves_no_journal(bench: Bench) -> None:
     assert not bench.journal.exists()
 
 
-def test_going_on_and_closing_exclude_each_other(bench: Bench) -> None:
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--end", "--resume"], "--resume goes on and --end closes the capture: take one of them"),
+        (["--end", "--retake", "1"], "--retake goes on and --end closes the capture: take one of them"),
+        (["--answer", "1"], "--answer belongs to --resume: state both"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(options: list[str], message: str, bench: Bench) -> None:
     bench.job(WHOLE)
-    done = bench.run("capture", "job.yaml", "--end", "--resume")
-    assert (done.code, "take one of them" in done.messages) == (2, True)
+    done = bench.run("capture", "job.yaml", *options)
+    assert (done.code, done.messages) == (2, f"zlmreport capture: {message}\n")
 
 
 def _in_a_terminal(*arguments: str, columns: int = 80) -> str:

@@ -18,13 +18,6 @@ def test_a_series_runs_in_the_order_of_measurement_whatever_the_order_of_the_led
     assert [each.parameter.value for each in series.calibrations] == [1.0, 2.0, 3.0]
 
 
-def test_a_certificate_made_again_counts_once_with_its_last_values() -> None:
-    first = entry(DAY, parameter(5.0))
-    again = replace(first, night="2026-05-01T22:00:00+00:00", parameters=(parameter(5.5),))
-    (series,) = list_series_of(select_standing([first, again]))
-    assert [each.parameter.value for each in series.calibrations] == [5.5]
-
-
 def test_the_ledger_s_order_counts_and_not_a_clock_that_was_set_back() -> None:
     first = entry(DAY, parameter(5.0))
     again = replace(first, night="2020-01-01T22:00:00+00:00", parameters=(parameter(5.5),))

@@ -52,11 +52,6 @@ def test_within_a_chosen_family_the_level_is_that_of_the_chosen_share() -> None:
     assert name_in_families(families, 0.05) == {0}
 
 
-def test_a_steady_rise_is_a_drift() -> None:
-    (trend,) = judged(history([8.0, 9.1, 9.9, 11.0, 12.1, 12.9]))
-    assert trend.drifts
-
-
 def test_a_drift_towards_its_limit_has_a_date() -> None:
     (trend,) = judged(history([8.0, 9.1, 9.9, 11.0, 12.1, 12.9]))
     assert trend.forecast

@@ -202,6 +202,11 @@ WRONG_ADDITIONS = [
         "16:48",
         "model.effects.exemplary-wave.rectified: 'perhaps' is not true or false",
     ),
+    (
+        "model: {candidates: [exemplary-wave]}",
+        "16:22",
+        "model.candidates: exemplary-wave is installed, and tried in any case; list formulas here",
+    ),
     ("<<: {}", "16:1", "'<<' is not used in a job; shared keys come from a file by 'extends'"),
     ("laboratory: !!python/object:os.system {}", "16:13", "a job uses no tags"),
     ("? [a]\n: b", "16:3", "a key is a plain word"),

@@ -114,6 +114,16 @@ def test_measurements_are_read_by_themselves_too() -> None:
             "rack.yaml:2:15: measurements: there is no file 'other.yaml' beside this one",
         ),
         (
+            "effects:\n",
+            "effects:\n  - ring\n",
+            "rack.yaml:5:5: effects: 'ring' is no entry; each begins with '- name: …'",
+        ),
+        (
+            "{unit: um, range: [-100, 100]}",
+            "{unit: um, range: [-100, 100], possible: {least: 0, most: 5*rize, because: {en: so}}}",
+            "reset: a bound depends on temperature_rise alone, not on rize",
+        ),
+        (
             "    needs:",
             "    measurands: [position]\n    needs:",
             "rack.yaml:11:5: effects.rack.measurands: 'position' is nothing that is measured; did you mean",

@@ -71,6 +71,10 @@ def test_the_url_of_a_database_stays_as_it_is(tmp_path: Path) -> None:
             "executor: {scheduler: x}",
             "fleet.yaml:3:1: executor: processes have no scheduler; write kind: dask",
         ),
+        (
+            "executor: {kind: dask, scheduler: x, workers: 2}",
+            "fleet.yaml:3:1: executor: the scheduler knows its workers; remove workers",
+        ),
         ("executor: {workers: 0}", "fleet.yaml:3:21: executor.workers: '0' is not a number of at least 1"),
         (
             "defaults: {laboratry: {}}",

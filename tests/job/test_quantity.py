@@ -20,7 +20,7 @@ def of(measurement: str) -> str:
     [
         (
             "{error: EYX, source: {plugin: exemplary-text, file: six.txt}}",
-            "exemplary:1 evaluates positioning, and this job is on straightness",
+            "this job is on straightness (measurement.error: EYX); no installed standard evaluates that",
         ),
         (
             "{error: EYY, source: {plugin: exemplary-text, file: six.txt}}",

@@ -102,6 +102,7 @@ def test_what_lies_beyond_the_measured_range_is_marked(folder, capsys):
             "{COY: 1, expanded_uncertainty: 1}",
             "machine.yaml:15:6: 'COY' is none of the 21 errors",
         ),
+        ("xy-squareness.yaml", "{expanded_uncertainty: 1}", "machine.yaml:15:5: states no error; write for"),
         ("centre-offset,", "center-offset,", "did you mean 'centre-offset'?"),
         ("tests: [circle-xy.yaml]", "test: [circle-xy.yaml]", "did you mean 'tests'?"),
         ("  - y-positioning.yaml", "  - x-positioning.yaml", "EXX was named already"),

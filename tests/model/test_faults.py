@@ -59,7 +59,8 @@ def test_order_of_the_rows_shows_swapped_directions() -> None:
 def test_swapped_directions_are_a_fault_and_no_cause() -> None:
     found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
     assert found.verdict is DiagnosisVerdict.UNEXPLAINED
-    assert found.candidates == ()
+    assert found.faults[0].comes_first
+    assert (found.together, found.candidates) == ((), ())
     (fault,) = report(found)["faults"]
     assert (fault["fault"], fault["run"], fault["probability"]) == ("swapped-direction", 3, 1.0)
     assert fault["statement"].endswith("were swapped; the order of its rows says so too")
@@ -297,12 +298,6 @@ def test_repeats_that_no_rotary_table_has_look_like_degrees() -> None:
     design = linear_test(axis=Axis("C", AxisKind.ROTARY))
     (fault,) = find_recorded_faults(design, 1e-6 * design.position + noise(design, sigma=1e-9))
     assert fault.statement.in_language(Language.ENGLISH).endswith("as if they stood in degrees")
-
-
-def test_a_fault_that_the_rows_show_is_out_of_the_contest() -> None:
-    found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
-    assert found.faults[0].comes_first
-    assert (found.together, found.candidates) == ((), ())
 
 
 def test_beside_a_fault_that_is_sure_nothing_without_a_name_is_told() -> None:

@@ -10,6 +10,7 @@ import pytest
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.random_curves import Course
+from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.plugin import Axis, AxisKind, FloatArray
 from zlmreport.plugin.effect import Design
@@ -28,6 +29,13 @@ def _diagnose(design: Design, deviation: FloatArray, model: AxisModel = _MODEL) 
     return diagnose(model, observations(design, deviation), INSTALLED)
 
 
+def _leave(design: Design, deviation: FloatArray, model: AxisModel = _MODEL) -> Remainder:
+    """Return what a diagnosis leaves without a name."""
+    found = _diagnose(design, deviation, model).remainder
+    assert found is not None
+    return found
+
+
 @pytest.mark.parametrize(("targets", "seed"), [(6, 1), (6, 4), (7, 2), (9, 4), (11, 0), (11, 11)])
 def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targets: int, seed: int) -> None:
     design = linear_test(targets, 5, seed=seed)
@@ -41,10 +49,8 @@ def test_geometry_that_is_irregular_from_target_to_target_is_given_no_name(targe
 @pytest.mark.parametrize(("targets", "seed"), [(7, 1), (7, 5), (9, 4), (11, 1), (11, 3)])
 def test_no_formula_is_proposed_for_what_no_form_follows(targets: int, seed: int) -> None:
     design = linear_test(targets, 5, seed=seed)
-    found = _diagnose(design, _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50))
-    assert found.remainder is not None
-    assert found.remainder.course is Course.IRREGULAR
-    assert found.remainder.formula is None
+    left = _leave(design, _draw_geometry(design, seed, 10 * SIGMA) + noise(design, seed=seed + 50))
+    assert (left.course, left.formula) == (Course.IRREGULAR, None)
 
 
 @pytest.mark.parametrize("kind", AxisKind)
@@ -55,19 +61,15 @@ def test_what_is_irregular_along_the_axis_has_no_formula_in_time(kind: AxisKind)
         axis, turn = Axis("C", kind, travel=(0.0, 2 * np.pi)), (0.0, 2 * np.pi)
         design = replace(design, axis=axis, position=2 * np.pi * design.position, span=turn)
     deviation = _draw_geometry(design, 4, 5e-6) + noise(design, 54, 3.5 * SIGMA)
-    found = _diagnose(design, deviation, model_of("offset", "backlash"))
-    assert found.remainder is not None
-    assert found.remainder.course is Course.IRREGULAR
-    assert found.remainder.formula is None
+    left = _leave(design, deviation, model_of("offset", "backlash"))
+    assert (left.course, left.formula) == (Course.IRREGULAR, None)
 
 
 def test_a_wave_that_follows_the_most_of_what_is_irregular_is_not_that() -> None:
     design = linear_test(6, 3, seed=3)
     deviation = _draw_geometry(design, 3, 5e-6) + noise(design, 53, 3.5 * SIGMA)
-    found = _diagnose(design, deviation, model_of("offset", "backlash"))
-    assert found.remainder is not None
-    assert found.remainder.course is Course.IRREGULAR
-    assert found.remainder.formula is None
+    left = _leave(design, deviation, model_of("offset", "backlash"))
+    assert (left.course, left.formula) == (Course.IRREGULAR, None)
 
 
 @pytest.mark.parametrize(("targets", "seed"), [(6, 0), (6, 3), (7, 2), (7, 3), (7, 5), (9, 0), (9, 3)])

@@ -125,3 +125,11 @@ def test_limits_that_make_no_sense_are_refused_where_they_stand(
     said = _refused(tmp_path, (LAST, f"    - backlash: {{lost_motion: {limits}}}\n"))
     assert message in said
     assert "job.yaml:26:" in said or "job.yaml:25:" in said
+
+
+def test_a_parameter_that_equals_another_itself_is_none_to_be_linked_to(tmp_path: Path) -> None:
+    linked = ("    - offset\n", "    - offset: {offset: {equals: backlash.lost_motion}}\n")
+    said = _refused(tmp_path, linked, (LAST, "    - backlash: {lost_motion: {equals: offset.offset}}\n"))
+    assert (
+        "offset cannot have offset equal to backlash.lost_motion, which equals another itself; link" in said
+    )

@@ -29,8 +29,14 @@ DESIGN = linear_test()
 UM = 1e-6
 
 
-def _left(added: FloatArray | float, design: Design = DESIGN, seed: int = 2) -> Remainder | None:
+def _find_left(added: FloatArray | float, design: Design = DESIGN, seed: int = 2) -> Remainder | None:
     return _remainder(1e-6 * (2.0 + 10.0 * design.position - 1.5 * design.direction) + added, design, seed)
+
+
+def _left(added: FloatArray | float, design: Design = DESIGN) -> Remainder:
+    found = _find_left(added, design)
+    assert found is not None
+    return found
 
 
 def _remainder(
@@ -63,7 +69,6 @@ def _saw(period: float) -> FloatArray:
 )
 def test_a_bump_is_found_at_its_place_with_its_width(at: float, width: float, size: float) -> None:
     left = _left(size * UM * _bump(at, width))
-    assert left is not None
     assert _formula(left).name.startswith("bump-")
     assert left.low == pytest.approx(at - width / 2, abs=0.25 * width)
     assert left.high == pytest.approx(at + width / 2, abs=0.25 * width)
@@ -87,7 +92,7 @@ CASES: dict[str, Callable[[], FloatArray]] = {
 
 
 @cache
-def _left_of(name: str) -> Remainder | None:
+def _left_of(name: str) -> Remainder:
     """Return what is left in a case: searched once for all that is asked of it."""
     return _left(CASES[name]())
 
@@ -95,14 +100,12 @@ def _left_of(name: str) -> Remainder | None:
 @pytest.mark.parametrize("name", CASES)
 def test_a_form_is_named_with_its_carrier(name: str) -> None:
     left = _left_of(name)
-    assert left is not None
     assert re.sub(r"(-[0-9]+-(mm|s))?$", "", _formula(left).name) == name
 
 
 @pytest.mark.parametrize("name", CASES)
 def test_the_formula_takes_it_away_when_it_is_tried(name: str) -> None:
     left = _left_of(name)
-    assert left is not None
     tried = FormulaEffect(_formula(left), AxisKind.LINEAR)
     deviation = known(DESIGN) + noise(DESIGN) + CASES[name]()
     fitted = fit(model_of("polynomial", "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
@@ -114,7 +117,6 @@ def test_the_formula_takes_it_away_when_it_is_tried(name: str) -> None:
 )
 def test_a_period_is_in_the_words_in_both_languages(name: str, period: float) -> None:
     left = _left_of(name)
-    assert left is not None
     assert re.search(r"with a period of [0-9.]+ (mm|s)", left.shape.in_language(Language.ENGLISH))
     assert re.search(r"mit [0-9,]+ (mm|s) Periode", left.shape.in_language(Language.GERMAN))
     low, high = _formula(left).parameters["L"].range or (0.0, 0.0)
@@ -124,14 +126,13 @@ def test_a_period_is_in_the_words_in_both_languages(name: str, period: float) ->
 
 @pytest.mark.long
 def test_noise_alone_is_rarely_given_a_form() -> None:
-    assert sum(_left(0.0, seed=100 + seed) is not None for seed in range(20)) <= 1
+    assert sum(_find_left(0.0, seed=100 + seed) is not None for seed in range(20)) <= 1
 
 
 def test_a_bump_of_the_pendulum_method_is_one_of_position() -> None:
     design = pendulum_test()
     bump = 6 * UM * np.exp(-4 * np.log(2) * ((design.position - 0.42) / 0.15) ** 2)
     left = _left(bump, design)
-    assert left is not None
     assert _formula(left).name.startswith("bump-4")
 
 
@@ -157,7 +158,6 @@ def test_one_direction_has_no_form_of_the_reversal() -> None:
 def test_the_formula_is_accepted_by_a_job_at_any_place_and_time() -> None:
     late = replace(DESIGN, time=DESIGN.time + 80_000.0)
     left = _left(4 * UM * np.exp(-4 * np.log(2) * ((late.time - 80_900) / 300) ** 2), late)
-    assert left is not None
     assert FormulaKeys.model_validate(_formula(left).model_dump()) == left.formula
 
 
@@ -168,7 +168,6 @@ def test_a_lever_that_comes_and_goes_is_placed_over_the_time_in_which_it_does() 
         np.exp(-4 * np.log(2) * ((moment - at) / width) ** 2) for at, width in ((0.25, 0.17), (0.7, 0.33))
     )
     left = _left(6 * UM * lever * (first - 3.0 * second))
-    assert left is not None
     # At the middle of the travel it is nothing, and there the stretch does not end.
     assert left.low == pytest.approx(0.53 * DESIGN.duration, abs=0.06 * DESIGN.duration)
     assert left.high == pytest.approx(0.87 * DESIGN.duration, abs=0.06 * DESIGN.duration)

@@ -163,14 +163,14 @@ def test_a_late_beginning_does_not_begin_with_the_test() -> None:
 
 def test_a_slope_that_differs_from_run_to_run_is_nothing_at_the_zero_of_the_axis() -> None:
     slopes = 3 * SIGMA * np.array([2.0, -3.0, 1.0, 4.0, -1.0])[DESIGN.run - DESIGN.run.min()]
-    search = SetSearch(_contest(_hiding(("backlash", [])) + slopes * DESIGN.position))
+    assert _list_left_beside_lost_motion(slopes * DESIGN.position) == [Course.RUNS]
+
+
+def _list_left_beside_lost_motion(shape: FloatArray) -> list[Course | str]:
+    """Return what has no name beside the only cause that is named: courses of curves, and forms."""
+    search = SetSearch(_contest(_hiding(("backlash", [])) + shape))
     found = search.find_best()
     assert _names(found) == {"backlash"}
-    assert _list_left(search, found) == [Course.RUNS]
-
-
-def _list_left(search: SetSearch, found: EffectSet) -> list[Course | str]:
-    """Return what of a set has no name: courses of curves, and forms."""
     loud = [
         part.course
         for part, level in zip(search.contest.parts, found.amplitudes, strict=True)
@@ -183,10 +183,7 @@ def test_a_wave_that_grows_along_the_axis_is_one_thing_without_a_name() -> None:
     # Two or three steady waves would describe it, and none of them is there.
     place = (DESIGN.position - DESIGN.span[0]) / DESIGN.length
     wave = 6 * SIGMA * place**2 * np.sin(2 * np.pi * (5.3 * place + 0.2))
-    search = SetSearch(_contest(_hiding(("backlash", [])) + wave))
-    found = search.find_best()
-    assert _names(found) == {"backlash"}
-    assert _list_left(search, found) == [Course.PLACE]
+    assert _list_left_beside_lost_motion(wave) == [Course.PLACE]
 
 
 def test_a_bow_that_comes_with_the_warmth_is_one_thing_without_a_name() -> None:
@@ -194,10 +191,7 @@ def test_a_bow_that_comes_with_the_warmth_is_one_thing_without_a_name() -> None:
     place = (DESIGN.position - DESIGN.span[0]) / DESIGN.length
     warmth = -np.expm1(-(DESIGN.time - DESIGN.time.min()) / (0.5 * DESIGN.duration))
     bow = 9 * SIGMA * warmth * np.exp(-0.5 * ((place - 0.4) / 0.25) ** 2)
-    search = SetSearch(_contest(_hiding(("backlash", [])) + bow))
-    found = search.find_best()
-    assert _names(found) == {"backlash"}
-    assert _list_left(search, found) == [Course.PLACE_IN_TIME]
+    assert _list_left_beside_lost_motion(bow) == [Course.PLACE_IN_TIME]
 
 
 @pytest.mark.parametrize("targets", [5, 8])
@@ -212,10 +206,7 @@ def test_a_wave_is_not_shorter_than_two_steps_between_targets(targets: int) -> N
 def test_a_drift_that_begins_late_is_neither_a_step_of_the_zero_nor_a_passing_warmth() -> None:
     moment = (DESIGN.time - DESIGN.time.min()) / DESIGN.duration
     late = -4 * SIGMA * np.expm1(-np.maximum(0.0, moment - 0.45) / 0.12)
-    search = SetSearch(_contest(_hiding(("backlash", [])) + late))
-    found = search.find_best()
-    assert _names(found) == {"backlash"}
-    assert _list_left(search, found) == ["late-time"]
+    assert _list_left_beside_lost_motion(late) == ["late-time"]
 
 
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:

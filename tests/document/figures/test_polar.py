@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from document.figures.samples import drawn
 from zlmreport.document.figures.draw import draw_figure_shapes, draw_legend
 from zlmreport.document.figures.layout import lay_out
 from zlmreport.document.figures.polar import find_largest_square, make_polar_grid, place_on_circle
@@ -31,6 +32,11 @@ def figure(values, **of_panel):
     )
 
 
+def shapes(shown, kind):
+    """Return the shapes of a kind that are drawn of a figure."""
+    return [each for each in draw_figure_shapes(lay_out(shown, Language.ENGLISH)) if each.kind == kind]
+
+
 def test_values_stand_so_far_outside_the_nominal_circle_as_they_are_large():
     panel = figure(3.0 * np.cos(np.radians(ANGLES))).panels[0]
     grid = make_polar_grid(panel, DecimalSign.POINT)
@@ -55,58 +61,36 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
     box = panel.frame.box
     assert 0 <= box.left < box.right <= width
     assert 0 <= box.bottom < box.top <= height
-    (curve,) = [shape for shape in draw_figure_shapes(layout) if shape.kind == "curve mean_positive"]
+    (curve,) = shapes(shown, "curve mean_positive")
     assert np.abs(curve.parts[0]).max() <= panel.frame.x_scale.upper
 
 
 @pytest.mark.parametrize(("height", "least"), [(99.5, 90.0), (None, 115.0)])
 def test_a_circle_uses_the_height_of_its_figure(height, least):
     # Above and below it are angles; in a high figure a line of the legend, too, and what its distances are.
-    layout = lay_out(replace(figure(3.0 * np.cos(np.radians(ANGLES))), height=height), Language.ENGLISH)
-    outermost = max(np.ptp(each.parts[0][:, 1]) for each in draw_figure_shapes(layout) if each.kind == "grid")
+    shown = replace(figure(3.0 * np.cos(np.radians(ANGLES))), height=height)
+    outermost = max(np.ptp(each.parts[0][:, 1]) for each in shapes(shown, "grid"))
     assert outermost / 72 * 25.4 >= least
 
 
 def test_the_angles_stand_outside_of_the_circle_and_inside_of_the_figure():
     shown = figure(3.0 * np.cos(np.radians(ANGLES)), directions=((0, "+X"), (180, "−X")))
     width, _ = figure_size(shown)
-    layout = lay_out(shown, Language.ENGLISH)
-    rim = max((each.parts[0] for each in draw_figure_shapes(layout) if each.kind == "grid"), key=np.ptp)
-    (right,), (left,) = (
-        [
-            each.placed
-            for each in draw_figure_shapes(layout)
-            if each.kind == "ray" and each.placed.label.runs[0].text == text
-        ]
-        for text in ("+X 0°", "−X 180°")
-    )
+    rim = max((each.parts[0] for each in shapes(shown, "grid")), key=np.ptp)
+    labels = {each.placed.label.runs[0].text: each.placed for each in shapes(shown, "ray") if each.placed}
+    right, left = labels["+X 0°"], labels["−X 180°"]
     assert 0 <= left.x < left.x + left.label.width < rim[:, 0].min()
     assert rim[:, 0].max() < right.x < right.x + right.label.width <= width
 
 
 def test_a_curve_shows_its_sense_by_an_arrow_along_it():
-    forwards, backwards = figure(0 * ANGLES), figure(0 * ANGLES)
+    forwards = figure(0 * ANGLES)
     turned = Curve("G", Role.MEAN_POSITIVE, ANGLES[::-1], 0 * ANGLES)
-    backwards = figure(0 * ANGLES)
-    panel = Panel(curves=(turned,), projection="polar")
-    backwards = Figure(
-        *[getattr(forwards, each) for each in ("key", "title", "alternative")],
-        forwards.x_title,
-        forwards.y_title,
-        "°",
-        "µm",
-        (panel,),
-    )
-
-    def tip_and_base(shown):
-        (head,) = [
-            each for each in draw_figure_shapes(lay_out(shown, Language.ENGLISH)) if each.kind == "sense"
-        ]
-        corners = head.parts[0]
-        return corners[0], (corners[1] + corners[2]) / 2
-
+    backwards = replace(forwards, panels=(replace(forwards.panels[0], curves=(turned,)),))
     for shown, sense in ((forwards, 1.0), (backwards, -1.0)):
-        tip, base = tip_and_base(shown)
+        (head,) = shapes(shown, "sense")
+        tip, *corners = head.parts[0][:3]
+        base = sum(corners) / 2
         frame = lay_out(shown, Language.ENGLISH).panels[0].frame
         middle = np.array([frame.place_x(0.0), frame.place_y(0.0)])
         arm, way = base - middle, tip - base
@@ -120,17 +104,16 @@ def test_the_distance_of_circles_is_told_in_words_of_the_language():
 
 
 def test_a_level_is_a_circle_and_a_gap_stays_a_gap():
-    values = np.where(ANGLES < 180, 1.0, np.nan)
-    shapes = list(
-        draw_figure_shapes(
-            lay_out(figure(values, levels=(Level("F", Role.TOLERANCE, 4.0),)), Language.ENGLISH)
-        )
-    )
-    (level,) = [each for each in shapes if each.kind == "level"]
-    middle = level.parts[0].mean(axis=0)
-    distances = np.hypot(*(level.parts[0][:-1] - level.parts[0][:-1].mean(axis=0)).T)
-    assert np.ptp(distances) < 1e-6
-    assert np.isfinite(middle).all()
+    shown = figure(np.where(ANGLES < 180, 1.0, np.nan), levels=(Level("F", Role.TOLERANCE, 4.0),))
+    (level,) = shapes(shown, "level")
+    middle = level.parts[0][:-1].mean(axis=0)
+    assert np.ptp(np.hypot(*(level.parts[0][:-1] - middle).T)) < 1e-6
+    (curve,) = drawn(shown).of("curve mean_positive")
+    width, height = np.ptp(curve.points, axis=0)
+    assert height == pytest.approx(width / 2, rel=0.03)
+
+
+def test_a_circle_stands_in_the_middle_of_its_room():
     assert find_largest_square(Box(0, 0, 4, 2)) == Box(1, 0, 3, 2)
 
 
