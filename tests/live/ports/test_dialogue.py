@@ -86,7 +86,7 @@ def test_what_was_not_understood_is_void_and_keeps_the_zero() -> None:
         (Fault.DEVICE_ERROR | Fault.BEAM_LOST, True),
     ],
 )
-def test_faults_that_lose_counts_lose_the_zero(fault: Fault, loses: bool) -> None:  # noqa: FBT001 - a column
+def test_faults_that_lose_counts_lose_the_zero(fault: Fault, loses: bool) -> None:
     reading = LiveReading(0.0, 1.0, fault)
     assert (reading.is_usable, reading.loses_zero) == (False, loses)
 
