@@ -208,21 +208,26 @@ class Doubtful:
     said_in: Callable[[Certificate], str] = first_page
 
 
-def check_marked(job: Doubtful, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Check that a document says what is doubtful, and nothing that is not so."""
-    monkeypatch.setattr(doubtful_jobs, "TARGETS", job.targets)
-    monkeypatch.setattr(doubtful_jobs, "RUNS", job.runs)
+def make_test_of(jobs: Mapping[str, Doubtful]) -> Callable[..., None]:
+    """Return the test that a document says what is doubtful of each job, and nothing that is not so."""
 
-    document = composed(folder, job.keys, job.spoil(readings()), **job.logged)
+    @pytest.mark.parametrize("job", jobs.values(), ids=jobs)
+    def is_marked(job: Doubtful, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setattr(doubtful_jobs, "TARGETS", job.targets)
+        monkeypatch.setattr(doubtful_jobs, "RUNS", job.runs)
 
-    assert job.said in job.said_in(document)
-    assert false_in(document) == []
+        document = composed(tmp_path, job.keys, job.spoil(readings()), **job.logged)
+
+        said = job.said_in(document)
+        assert job.said in said, said
+        assert not (untrue := false_in(document)), untrue
+
+    return is_marked
 
 
 def false_in(document: Certificate) -> list[str]:
     """Return what a document says that is not so, by what else it says."""
     text, job = text_of(document), document.job
-    assert job is not None
     is_german, is_report = document.language.value == "de", job.keys.certificate.kind == "report"
     parameters = [each for of in document.evaluations for each in of.parameters]
     marked = [each.in_language(document.language) for each in (*document.doubts, *document.evidence)]

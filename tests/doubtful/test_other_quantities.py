@@ -76,7 +76,6 @@ def test_of_a_sound_record_nothing_is_said(example: str) -> None:
 def test_the_feed_of_a_circle_is_that_of_its_times(times: float, said: str) -> None:
     job, measurements = measured(CIRCLE)
     circle = measurements.axis.circle
-    assert circle is not None
     slower = replace(measurements.axis, circle=replace(circle, feed=circle.feed / times))
 
     found = say(find_disagreements(job, replace(measurements, axis=slower)))
@@ -216,7 +215,6 @@ def test_a_ballbar_of_calibrated_length_has_a_certificate(tmp_path: Path) -> Non
 
 def test_a_circle_that_slows_down_in_a_quadrant_is_marked() -> None:
     job, measurements = measured(CIRCLE)
-    assert measurements.time is not None
     angle = np.degrees(measurements.target_positions[measurements.target])
     steps = np.diff(measurements.time, prepend=measurements.time[0])
     slowed = np.cumsum(np.where((angle > 90) & (angle < 180), 4 * steps, steps))
@@ -283,7 +281,6 @@ def test_a_straightness_says_what_it_was_held_against() -> None:
 
     assert check(job, measurements) is None
     assert check(job, replace(measurements, artefact_is_reversed=True))
-    assert job.keys.instrument is not None
     beam = job.keys.instrument.model_copy(update={"name": "Laser interferometer, straightness optics"})
     assert check(replace(job, keys=job.keys.model_copy(update={"instrument": beam})), measurements)
 

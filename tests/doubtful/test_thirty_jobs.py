@@ -22,10 +22,10 @@ from doubtful.doubtful_jobs import (
     Doubtful,
     by,
     changed,
-    check_marked,
     composed,
     first_page,
     machine,
+    make_test_of,
     order,
     parameter,
     readings,
@@ -138,11 +138,7 @@ JOBS: dict[str, Doubtful] = {
 }
 
 
-@pytest.mark.parametrize("name", JOBS)
-def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
-    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    check_marked(JOBS[name], tmp_path, monkeypatch)
+test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so = make_test_of(JOBS)
 
 
 # What is sound is not marked.
@@ -179,7 +175,6 @@ def test_readings_in_steps_of_10_micrometres_have_them_in_their_uncertainty(tmp_
     coarse = np.round(10 * readings(), -1)
     document = composed(tmp_path, changed(by("iso230-2:2014", A=60)), coarse)
 
-    assert document.budget is not None
     of_steps = {each.contributor: each.standard_uncertainty for each in document.budget.contributions}
     assert of_steps["resolution"] == pytest.approx(10e-6 / np.sqrt(12))
     assert "steps of the readings, coarser than their last digit" in text_of(document)

@@ -25,8 +25,8 @@ from doubtful.doubtful_jobs import (
     Doubtful,
     by,
     changed,
-    check_marked,
     machine,
+    make_test_of,
     one_direction_twice,
     readings,
     refusals,
@@ -218,11 +218,7 @@ JOBS: dict[str, Doubtful] = {
 }
 
 
-@pytest.mark.parametrize("name", JOBS)
-def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
-    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    check_marked(JOBS[name], tmp_path, monkeypatch)
+test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so = make_test_of(JOBS)
 
 
 def test_silence_on_the_air_refuses_a_certificate_and_a_word_is_enough(tmp_path: Path) -> None:

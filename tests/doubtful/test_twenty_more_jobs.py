@@ -25,10 +25,10 @@ from doubtful.doubtful_jobs import (
     Doubtful,
     by,
     changed,
-    check_marked,
     composed,
     cover,
     first_page,
+    make_test_of,
     order,
     parameter,
     readings,
@@ -170,11 +170,7 @@ JOBS: dict[str, Doubtful] = {
 }
 
 
-@pytest.mark.parametrize("name", JOBS)
-def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
-    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    check_marked(JOBS[name], tmp_path, monkeypatch)
+test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so = make_test_of(JOBS)
 
 
 def test_each_certificate_of_two_dates_is_told_once(tmp_path: Path) -> None:
@@ -214,7 +210,6 @@ def test_an_instrument_as_coarse_as_the_axis_is_said_to_have_raised_u(layout: st
 
     e = parameter(document, "E")
     assert "raised to reach the flattest axis that the readings leave possible" in text_of(document)
-    assert e.raised_to is not None
     assert e.raised_to.value == "flatter-axis"
     assert (e.coverage_factor or 0.0) > 2.0
 

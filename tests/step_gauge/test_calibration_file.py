@@ -62,11 +62,13 @@ def test_a_section_holds_its_blocks_whole() -> None:
         (ROWS.replace("3,front", "4,front"), "4:1: face 4 stands where face 3 is expected"),
         (ROWS.replace("2,back", "2,front"), "3:1: face 2 is a back face"),
         (ROWS.replace("3,front,20", "3,front,5"), "lies at 5 mm, not behind face 2"),
+        (ROWS.replace("3,front,20", "3,front,10"), "lies at 10 mm, not behind face 2"),
         (ROWS.replace("20.0002", "20002"), "is the unit right"),
         (re.sub(r",[0-9.]+$", ",0", ROWS, flags=re.MULTILINE), "2:1: U is 0 at every face; write those of"),
         (ROWS.replace("10.0001", "ten"), "3:11: column calibrated_mm: 'ten' stands where a number belongs"),
         (ROWS.replace("2,back", "2,rear"), "3:3: column side: front or back is expected"),
         ("\n".join(ROWS.splitlines()[:3]), "the calibration ends after 3 faces"),
+        (ROWS.partition("\n")[0], "the calibration ends after 1 face;"),
         (ROWS[ROWS.index("2,back") :], "begins with face 2, the back of a block"),
     ],
 )

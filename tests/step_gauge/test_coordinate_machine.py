@@ -26,7 +26,6 @@ def test_a_touch_lies_a_radius_before_the_face() -> None:
 def test_an_edge_is_touched_where_the_sphere_meets_it() -> None:
     # 1.2 mm above the upper edge, the sphere of 2 mm reaches it 1.6 mm before the face
     touched = at(CoordinateMachine(CUBE), 0.05, 0.2, 0.3 + 6.2e-3).probe(np.array([0.1, 0.2, 0.3 + 6.2e-3]))
-    assert touched is not None
     assert touched[0] == pytest.approx(0.1 - 5e-3 - 1.6e-3, abs=1e-12)
 
 
@@ -54,7 +53,6 @@ def test_errors_of_the_machine_are_shown_along_their_line() -> None:
     x = np.array([1.0, 0.0, 0.0])
     errors = make_errors_along(x, np.zeros(3), np.array([0.0, 0.2]), np.array([0.0, 20e-6]))
     touched = at(CoordinateMachine(CUBE, errors), 0.05, 0.2, 0.3).probe(np.array([0.1, 0.2, 0.3]))
-    assert touched is not None
     true = 0.1 - 5e-3 - RADIUS
     assert touched[0] - true == pytest.approx(1e-4 * true, abs=1e-12)
     assert touched[1:] == pytest.approx([0.2, 0.3])
@@ -74,7 +72,6 @@ def test_noise_scatters_what_is_shown_by_its_standard_deviation() -> None:
     shown = []
     for _ in range(400):
         touched = at(machine, 0.09, 0.2, 0.3).probe(np.array([0.1, 0.2, 0.3]))
-        assert touched is not None
         shown.append(touched[0])
     assert np.std(shown) == pytest.approx(1e-6, rel=0.15)  # 4 standard deviations of s are 0.14
 

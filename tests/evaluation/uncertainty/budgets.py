@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import partial
 
+from installed import registry
 from plugins.standards.installed import STANDARDS
+from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS, Expanded, propagate
 from zlmreport.plugin import MeasurementSet, same_in_all_languages
-from zlmreport.plugin.extension import Acts, Contribution, Distribution
+from zlmreport.plugin.extension import Acts, Contribution, Distribution, Job
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugin.renderer import Budget
 from zlmreport.plugin.standard import evaluate
@@ -31,6 +33,14 @@ def contribution(
         same_in_all_languages(""),
         same_in_all_languages(""),
     )
+
+
+def make_budget_of(job: Job, measurements: MeasurementSet | None = None) -> Budget:
+    """Return the budget of a job, of its own readings or of others."""
+    read = pipeline.read(job, registry()) if measurements is None else measurements
+    found = pipeline.make_budget_of_job(job, read, registry())
+    assert isinstance(found, Budget), found
+    return found
 
 
 def budget(micrometres: float, acts: Acts, distribution: Distribution = Distribution.NORMAL) -> Budget:

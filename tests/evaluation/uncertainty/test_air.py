@@ -8,11 +8,9 @@ from pathlib import Path
 import pytest
 
 from document.certificate.documents import COMPLETE, job
-from installed import registry
-from zlmreport import pipeline
+from evaluation.uncertainty.budgets import make_budget_of
 from zlmreport.plugin import Language
 from zlmreport.plugin.extension import Acts, Contribution
-from zlmreport.plugin.renderer import Budget
 
 #: Over 1 m; measured at 20 °C, 1013.25 hPa and 50 %.
 AIR = {"air_temperature": 20, "air_pressure": 1013.25, "relative_humidity": 50}
@@ -30,10 +28,8 @@ def found_in(folder: Path, ranges: dict[str, float], *, air: bool = True) -> lis
         "evaluate": ["iso230-2:2014"],
         **({"corrections": {"air": {"assumed": "vacuum"}}} if air else {}),
     }
-    asked = job(folder, keys)
-    budget = pipeline.make_budget_of_job(asked, pipeline.read(asked, registry()), registry())
-    assert isinstance(budget, Budget)
-    return [each for each in budget.contributions if each.contributor not in {"instrument", "resolution"}]
+    found = make_budget_of(job(folder, keys)).contributions
+    return [each for each in found if each.contributor not in {"instrument", "resolution"}]
 
 
 def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -> dict[str, float]:

@@ -53,10 +53,9 @@ def about_nothing(width: float) -> tuple[object, object]:
     return pytest.approx(-width, rel=BY_CHANCE), pytest.approx(width, rel=BY_CHANCE)
 
 
-def testestimate_scatter_readings_is_found_where_no_run_stands_apart() -> None:
+def test_scatter_of_readings_is_found_where_no_run_stands_apart() -> None:
     """Two targets that deviate oppositely: s² = Σe²/(n − 1) about means of runs that took half of it away."""
     found = estimate_scatter(between(OPPOSITE, OPPOSITE).deviations(), np.array([0.0, 0.1]))
-    assert found is not None
     assert found.variance / MICROMETRE**2 == pytest.approx(np.full((2, 2), 2.0))
     assert found.freedom == pytest.approx(np.full((2, 2), 4 * (RUNS - 1.0)))
     assert found.mean / MICROMETRE == pytest.approx(np.array([[0.0, 500.0]] * 2))
@@ -64,11 +63,10 @@ def testestimate_scatter_readings_is_found_where_no_run_stands_apart() -> None:
 
 
 @pytest.mark.parametrize(("negative", "correlation"), [(ALIKE, 1.0), (-ALIKE, -1.0), (0 * ALIKE, 0.0)])
-def testestimate_scatter_runs_is_found_where_targets_deviate_alike(
+def test_scatter_of_runs_is_found_where_targets_deviate_alike(
     negative: np.ndarray, correlation: float
 ) -> None:
     found = estimate_scatter(between(2 * ALIKE, negative).deviations(), np.array([0.0, 0.1]))
-    assert found is not None
     assert found.variance == pytest.approx(np.zeros((2, 2)), abs=1e-20)
     assert found.run_variance[0] / MICROMETRE**2 == pytest.approx(4.0)
     assert found.run_freedom == pytest.approx([RUNS - 1, RUNS - 1])
@@ -79,7 +77,6 @@ def test_a_gap_takes_a_reading_and_nothing_else() -> None:
     positive = OPPOSITE.copy()
     positive[1, 39] = np.nan
     found = estimate_scatter(between(positive, OPPOSITE).deviations(), np.array([0.0, 0.1]))
-    assert found is not None
     assert found.freedom == pytest.approx(np.full((2, 2), 4 * (RUNS - 1.0) - 1))
     assert found.mean[0, 1] / MICROMETRE == pytest.approx(500 - UNIT[0] / 39)
     assert found.run_variance[0] / MICROMETRE**2 == pytest.approx(UNIT[0] ** 2 / (RUNS - 1), rel=0.01)
@@ -88,7 +85,6 @@ def test_a_gap_takes_a_reading_and_nothing_else() -> None:
 def test_one_target_has_all_its_scatter_from_the_run() -> None:
     one = bidirectional_test([0.0], [UNIT], [UNIT])
     found = estimate_scatter(one.deviations(), one.target_positions)
-    assert found is not None
     assert not found.variance.any()
     assert found.run_variance / MICROMETRE**2 == pytest.approx([1.0, 1.0])
 
@@ -104,7 +100,7 @@ def test_readings_that_share_no_run_tell_nothing_of_it() -> None:
     assert estimate_scatter(np.stack([single, nothing]), np.array([0.0, 0.1])) is None
 
 
-def test_the_next_range_differs_by_theestimate_scatter_its_means_in_both_tests() -> None:
+def test_the_next_range_differs_by_the_scatter_of_its_means_in_both_tests() -> None:
     """u² of a mean is 2/n µm², of a range of two 4/n, of the difference between two tests 8/n."""
     found = intervals(between(OPPOSITE, OPPOSITE))
     assert found["E_fwd"] == about_nothing(NORMAL * math.sqrt(8 / RUNS))

@@ -3,24 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 from statistics import NormalDist
 
 import numpy as np
 import pytest
 
+from evaluation.uncertainty.budgets import ISO, MICROMETRE, budget, expanded
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
-from zlmreport.evaluation.uncertainty.monte_carlo import propagate
 from zlmreport.plugin import (
     STRAIGHTNESS,
     Axis,
     MeasurementSet,
     Options,
     read_only_floats,
-    same_in_all_languages,
 )
-from zlmreport.plugin.extension import Acts, Contribution, Distribution
-from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.extension import Acts
 from zlmreport.plugin.renderer import Budget
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test, simulated_test
@@ -28,18 +25,7 @@ from zlmreport.testing import bidirectional_test, simulated_test
 
 def of_instrument(standard_uncertainty: float, acts: Acts = Acts.AT_EACH_POSITION) -> Budget:
     """Return the budget of an instrument with an error of its own at each position, m."""
-    return Budget(
-        (
-            Contribution(
-                same_in_all_languages("Instrument"),
-                standard_uncertainty,
-                acts,
-                Distribution.NORMAL,
-                same_in_all_languages(""),
-                same_in_all_languages(""),
-            ),
-        )
-    )
+    return budget(standard_uncertainty / MICROMETRE, acts)
 
 
 def means(measurements: MeasurementSet) -> np.ndarray:
@@ -101,12 +87,9 @@ def test_u_reaches_to_the_flat_axis_of_which_the_readings_may_be_a_test() -> Non
     test = simulated_test(11)
     errors = 1e-6 * np.array([NormalDist().inv_cdf((each + 0.5) / 11) for each in range(11)])
     shown = replace(test, deviation=read_only_floats(errors[test.target]))
-    standard = find_plugins().standard("iso230-2:2014")
-    evaluation = evaluate(standard, shown, Options(), {})
+    evaluation = evaluate(ISO, shown, Options(), {})
 
-    (found,) = propagate(
-        of_instrument(1e-6), [(evaluation, partial(standard.arithmetic, options=Options()))], 4000
-    )
+    found = expanded(of_instrument(1e-6), shown, trials=4000)
 
     for symbol in ("E", "M"):
         assert found[symbol].uncertainty == pytest.approx(evaluation.value(symbol), rel=1e-5)

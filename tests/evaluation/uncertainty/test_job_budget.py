@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from document.certificate.documents import COMPLETE, ROOT, job
+from evaluation.uncertainty.budgets import make_budget_of
 from installed import registry
 from refusals import refused
 from zlmreport import pipeline
@@ -389,9 +390,7 @@ def warm(folder: Path, example: str) -> list[Budget]:
         "certificate": {"kind": "report"},
         **IN_WARMTH,
     }
-    checked = job(folder, extending)
-    found = pipeline.make_budget_of_job(checked, pipeline.read(checked, registry()), registry())
-    assert isinstance(found, Budget)
+    found = make_budget_of(job(folder, extending))
     return list(found.tests.values()) or [found]
 
 

@@ -34,15 +34,12 @@ def test_long_tails_are_seen_and_neither_chance_nor_places_are_taken_for_them() 
 def test_the_scale_goes_with_the_readings() -> None:
     one, thousand = (find_long_tails(factor * residuals(1, "tails")) for factor in (1.0, 1000.0))
 
-    assert one is not None
-    assert thousand is not None
     assert thousand.probability == pytest.approx(one.probability)
     assert thousand.scale == pytest.approx(1000 * one.scale)
 
 
 def test_the_axes_that_are_drawn_are_the_likely_ones() -> None:
     tails = find_long_tails(residuals(1, "tails"))
-    assert tails is not None
 
     freedom, scale = tails.draw(2000, np.random.default_rng(1))
 

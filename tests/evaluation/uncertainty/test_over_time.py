@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from document.certificate.documents import COMPLETE, job as job_of
+from evaluation.uncertainty.budgets import make_budget_of
 from installed import registry
 from zlmreport import pipeline
 from zlmreport.plugin import same_in_all_languages
@@ -40,9 +41,7 @@ def job(folder: Path, **changed: Any) -> Job:
 
 
 def budget(of: Job) -> Budget:
-    found = pipeline.make_budget_of_job(of, pipeline.read(of, registry()), registry())
-    assert isinstance(found, Budget)
-    return found.tests["Z"]
+    return make_budget_of(of).tests["Z"]
 
 
 def test_instrument_and_resolution_make_it_complete(tmp_path: Path) -> None:
@@ -85,6 +84,5 @@ def test_the_resolution_of_corrected_readings_is_missing(tmp_path: Path) -> None
     whole = pipeline.read(of, registry())
     read = whole.tests["Z"]
     corrected = replace(read, provenance=replace(read.provenance, corrections=(CORRECTED,)))
-    found = pipeline.make_budget_of_job(of, replace(whole, tests={"Z": corrected}), registry())
-    assert isinstance(found, Budget)
+    found = make_budget_of(of, replace(whole, tests={"Z": corrected}))
     assert found.tests["Z"].missing == ("resolution",)

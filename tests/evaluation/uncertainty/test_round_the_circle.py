@@ -11,12 +11,13 @@ import pytest
 import yaml
 
 from document.certificate.documents import COMPLETE, job as job_of_axis
+from evaluation.uncertainty.budgets import make_budget_of
 from installed import registry
 from refusals import refused
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
 from zlmreport.job.loading import load
-from zlmreport.plugin import Evaluation, InputError, Language, MeasurementSet
+from zlmreport.plugin import Evaluation, InputError, Language
 from zlmreport.plugin.extension import Acts, Contribution, Job
 from zlmreport.plugin.renderer import Budget
 
@@ -71,28 +72,17 @@ def job(folder: Path, *, calibrated: bool = True, arc: float = 360.0, **groups: 
     return load(path, registry())
 
 
-def readings(of: Job) -> MeasurementSet:
-    return pipeline.read(of, registry())
-
-
-def budget(of: Job) -> Budget:
-    found = pipeline.make_budget_of_job(of, readings(of), registry())
-    assert isinstance(found, Budget)
-    return found
-
-
 def named(found: Budget) -> dict[str, Contribution]:
     return {each.contributor or "": each for each in found.contributions}
 
 
 def evaluation(of: Job, trials: int = 2000) -> Evaluation:
-    (found,) = pipeline.evaluate_all(of, readings(of), registry(), trials)
+    (found,) = pipeline.evaluate_all(of, pipeline.read(of, registry()), registry(), trials)
     return found.evaluation
 
 
 def uncertainty(of: Job, symbol: str) -> float:
     (found,) = [each for each in evaluation(of).parameters if each.quantity.symbol == symbol]
-    assert found.expanded_uncertainty is not None
     return found.expanded_uncertainty / MICROMETRE
 
 
@@ -138,7 +128,7 @@ def test_angles_tell_a_centre_where_no_right_angle_is_left_out(
 
 
 def test_each_contribution_acts_where_it_does(tmp_path: Path) -> None:
-    found = named(budget(job(tmp_path)))
+    found = named(make_budget_of(job(tmp_path)))
 
     assert {name: each.acts for name, each in found.items()} == {
         "machine_temperature": Acts.AT_THE_DATUM,
@@ -154,7 +144,7 @@ def test_each_contribution_acts_where_it_does(tmp_path: Path) -> None:
 
 
 def test_lengths_are_those_of_the_radius(tmp_path: Path) -> None:
-    found = named(budget(job(tmp_path)))
+    found = named(make_budget_of(job(tmp_path)))
     sizes = {name: each.standard_uncertainty / MICROMETRE for name, each in found.items()}
 
     assert sizes["calibrated_length"] == pytest.approx(0.8 / 2)
@@ -174,7 +164,7 @@ def test_an_expansion_that_is_not_corrected_is_in_what_has_a_length_only(tmp_pat
     in_warmth = {symbol: uncertainty(warm, symbol) for symbol in symbols}
     expansion = (11.5 - 1.5) * 0.15 * 2
 
-    assert budget(warm).uncorrected_expansion == pytest.approx(expansion * MICROMETRE)
+    assert make_budget_of(warm).uncorrected_expansion == pytest.approx(expansion * MICROMETRE)
 
     cold = job(tmp_path, environment=COLD)
     grown = {symbol: in_warmth[symbol] - uncertainty(cold, symbol) for symbol in symbols}
@@ -186,7 +176,7 @@ def test_an_expansion_that_is_not_corrected_is_in_what_has_a_length_only(tmp_pat
 def test_without_a_calibrated_length_nothing_of_a_length_counts(tmp_path: Path) -> None:
     bare = {"environmental_variation": 0.6}
 
-    found = budget(job(tmp_path, calibrated=False, uncertainty=bare))
+    found = make_budget_of(job(tmp_path, calibrated=False, uncertainty=bare))
 
     assert found.is_complete
     assert set(named(found)) == {"instrument", "centring", "environmental_variation", "resolution"}
@@ -197,19 +187,21 @@ def test_a_radius_that_nobody_calibrated_does_not_expand(tmp_path: Path) -> None
     of_a_length = ("machine_temperature", "expansion_coefficient", "device_expansion_coefficient")
     stated = {key: STATED[key] for key in (*of_a_length, "environmental_variation")}
 
-    assert not {*of_a_length} & named(budget(job(tmp_path, calibrated=False, uncertainty=stated))).keys()
+    assert (
+        not {*of_a_length} & named(make_budget_of(job(tmp_path, calibrated=False, uncertainty=stated))).keys()
+    )
 
 
 @pytest.mark.parametrize("left_out", ["calibrated_length", "machine_temperature", "environmental_variation"])
 def test_what_is_not_stated_is_missing(tmp_path: Path, left_out: str) -> None:
     stated = {key: each for key, each in STATED.items() if key != left_out}
 
-    assert budget(job(tmp_path, uncertainty=stated)).missing == (left_out,)
+    assert make_budget_of(job(tmp_path, uncertainty=stated)).missing == (left_out,)
 
 
 def test_a_full_turn_tells_its_own_centre_and_an_arc_does_not(tmp_path: Path) -> None:
-    assert budget(job(tmp_path)).is_complete
-    assert budget(job(tmp_path, arc=200)).missing == ("centring",)
+    assert make_budget_of(job(tmp_path)).is_complete
+    assert make_budget_of(job(tmp_path, arc=200)).missing == ("centring",)
 
 
 @pytest.mark.parametrize(("deviation", "said"), [("0.16", "0.16"), ("0", "0")])
@@ -225,7 +217,7 @@ def test_a_centre_that_is_hardly_off_counts_and_has_no_more_digits_than_a_circle
     ]
     (tmp_path / "circle.csv").write_text("\n".join(["sense,run,angle,deviation", *turns]), encoding="utf-8")
 
-    found = budget(of)
+    found = make_budget_of(of)
 
     assert found.is_complete
     centring = named(found)["centring"]
@@ -236,7 +228,7 @@ def test_a_centre_that_is_hardly_off_counts_and_has_no_more_digits_than_a_circle
 def test_the_centre_of_an_arc_that_is_stated_shifts_its_path(tmp_path: Path) -> None:
     of_arc = job(tmp_path, arc=200, uncertainty={**STATED, "centring": 6})
 
-    found = named(budget(of_arc))["centring"]
+    found = named(make_budget_of(of_arc))["centring"]
 
     assert found.acts is Acts.OFF_CENTRE
     assert found.standard_uncertainty / MICROMETRE == pytest.approx(6 / math.sqrt(12))

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 
-from evaluation.uncertainty.budgets import contribution
+from evaluation.uncertainty.budgets import ISO as STANDARD, contribution, expanded
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin import DISPLACEMENT, Axis, MeasurementSet, Options
 from zlmreport.plugin.extension import Acts, of_the_reading
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Budget
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import simulated_test
 
 LINE = simulated_test(11)
-STANDARD = find_plugins().standard("iso230-2:2014")
 
 
 def scaled(line: MeasurementSet, share: float = 0.01) -> Budget:
@@ -28,17 +25,11 @@ def scaled(line: MeasurementSet, share: float = 0.01) -> Budget:
     return Budget((of_scale,))
 
 
-def expanded(budget: Budget, line: MeasurementSet) -> dict[str, float]:
-    evaluation = evaluate(STANDARD, line, Options(), {})
-    (found,) = propagate(budget, [(evaluation, partial(STANDARD.arithmetic, options=Options()))], 4000)
-    return {symbol: each.uncertainty for symbol, each in found.items()}
-
-
 def test_every_parameter_errs_by_the_same_share_of_itself() -> None:
     """All are homogeneous in the readings: y·(1 + g) for a scale of 1 + g, so that U = 2·u(g)·y."""
     evaluation = evaluate(STANDARD, LINE, Options(), {})
-    for symbol, uncertainty in expanded(scaled(LINE), LINE).items():
-        assert uncertainty == pytest.approx(2 * 0.01 * abs(evaluation.value(symbol) or 0.0), rel=0.02)
+    for symbol, found in expanded(scaled(LINE), LINE, trials=4000).items():
+        assert found.uncertainty == pytest.approx(2 * 0.01 * abs(evaluation.value(symbol) or 0.0), rel=0.02)
 
 
 def test_the_largest_reading_has_all_of_it_and_half_of_it_half() -> None:

@@ -4,23 +4,19 @@ from __future__ import annotations
 
 import json
 import subprocess
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
 from typing import Any
 
 from live.capture.operated import OperatedAxis
+from plugins.instruments.lines import plugged_in
 from processes import PATIENCE, ZLMREPORT, group
 from zlmreport.job.simulation import load_simulation
-from zlmreport.live.emulation.channels import PseudoTerminal, serve
-from zlmreport.live.emulation.troubles import Troubles
 from zlmreport.model.simulation.files import read_description_of
 from zlmreport.plugin.instrument import (
-    Emulator,
     JournalHistory,
     Scene,
     read_journal,
@@ -118,7 +114,12 @@ def killed_capture(folder: Path, kills: int, runs: int, seed: int = 1) -> Killed
     registry = find_plugins()
     axis = OperatedAxis(read_description_of(load_simulation(simulation, registry), registry.effect))
     done = Killed(axis, job, folder / "x.journal")
-    with _plugged_in(registry.instrument("umd1").emulator(Scene(axis))) as (port, now):
+    began = time.monotonic()
+
+    def now() -> float:
+        return time.monotonic() - began
+
+    with plugged_in(registry.instrument("umd1").emulator(Scene(axis)), clock=now) as port:
         job.write_text(_JOB.format(port=port, runs=runs), encoding="utf-8")
         while not (done.has_begun and done.history.progress.is_over):
             _sitting(done, now, random if done.kills < kills else None)
@@ -174,26 +175,3 @@ def _run_program(
             visit += 1
             done.axis.go_to(visit, now())
         time.sleep(_LOOK)
-
-
-@contextmanager
-def _plugged_in(emulator: Emulator) -> Iterator[tuple[str, Callable[[], float]]]:
-    """Put an emulated instrument on a pseudo-terminal; yield its path and its clock."""
-    ended = threading.Event()
-    channel = PseudoTerminal()
-    began = time.monotonic()
-
-    def now() -> float:
-        return time.monotonic() - began
-
-    def run() -> None:
-        with channel:
-            serve(emulator, channel, Troubles(), is_over=ended.is_set, clock=now)
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    try:
-        yield channel.address, now
-    finally:
-        ended.set()
-        thread.join(PATIENCE)

@@ -35,7 +35,6 @@ def test_everything_that_happened_is_read_as_it_was(tmp_path: Path) -> None:
             journal.append(event, 60.0)
             events.append(event)
     history = read_history(path)
-    assert history is not None
     assert history.header == header()
     assert [entry.event for entry in history.entries] == [
         event for event in events if type(event).__name__ not in {"Moving", "Settling"}
@@ -44,7 +43,6 @@ def test_everything_that_happened_is_read_as_it_was(tmp_path: Path) -> None:
 
 def test_numbers_lose_no_digit(journal: Path) -> None:
     history = read_history(journal)
-    assert history is not None
     assert history.entries[0].event.deviation == 0.0012345678e-3
 
 
@@ -64,7 +62,6 @@ def test_a_line_that_a_power_cut_tore_off_is_left_out_and_cut_away(journal: Path
     sound = b"".join(lines)
     journal.write_bytes(sound + last[:left])
     history = read_history(journal)
-    assert history is not None
     assert (history.progress.taken, history.file.size - history.sound) == (1, left)
     with Journal.resume(journal) as opened:
         opened.append(Resumed(), 100.0)
@@ -75,7 +72,6 @@ def test_a_line_that_a_power_cut_tore_off_is_left_out_and_cut_away(journal: Path
 def test_a_tail_of_zeros_that_a_file_system_leaves_is_torn_off_too(journal: Path) -> None:
     journal.write_bytes(journal.read_bytes() + bytes(512))
     history = read_history(journal)
-    assert history is not None
     assert (history.progress.taken, history.file.size - history.sound) == (2, 512)
 
 

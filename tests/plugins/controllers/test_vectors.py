@@ -106,14 +106,6 @@ def test_isg_counts_tenths_of_a_micrometre() -> None:
             assert int(found.split()[1]) == pytest.approx(value, abs=1 if row == 6 else 0)
 
 
-def test_isg_worked_example() -> None:
-    """TF5200, axis compensation: set 19866.7 µm, actual 19856.5 upwards and 19874.7 downwards."""
-    of = table([0.0, 19.8667], [0.0, 19856.5 - 19866.7], [0.0, 19874.7 - 19866.7])
-    text = written("isg", of)[".lis"]
-    assert "kw.ssfk.table[1].pos -102\n" in text
-    assert "kw.ssfk.table[1].neg 80\n" in text
-
-
 def test_fanuc_sums_what_its_manual_plots() -> None:
     """0i-PB parameter manual, p. 100: interval 50 mm from −400 mm, reference number 40."""
     steps = (2, 1, 1, -2, 0, -1, 0, -1, 2, 1, 0, -1, -1, -2, 0, 1, 2)

@@ -43,7 +43,6 @@ def waves(angle: float, v: Values) -> float:
 
 
 def interpolated(table: tuple[Sequence[float], Sequence[float]] | None, position: float) -> float:
-    assert table is not None
     at, values = table
     if position <= at[0]:
         return values[0]
@@ -87,7 +86,6 @@ def normal(r: Reading) -> float:
 
 
 def interval(r: Reading) -> float:
-    assert r.table is not None
     steps = sorted(b - a for a, b in zip(r.table[0], r.table[0][1:], strict=False))
     return steps[len(steps) // 2]
 

@@ -54,7 +54,6 @@ def test_shift_is_tried_to_both_sides() -> None:
     design = design_for("compensation-shift")
     one, other = (form.columns(design, NO_THETA) for form in EFFECTS["compensation-shift"].forms())
     table = design.axis.compensation_table
-    assert table is not None
     np.testing.assert_allclose(
         one[:, 0] - other[:, 0], table.at(design.position - 0.1) - table.at(design.position + 0.1), atol=1e-18
     )
@@ -99,7 +98,6 @@ def test_teeth_that_no_job_states_are_those_of_usual_wheels_too_and_that_is_said
     bare = replace(design, axis=replace(design.axis, screw_pitch=None))
     assert {60, 90, 120, 180, 360} < set(effect.grid(bare)[:, 0])
     said = effect.tried_in(bare)
-    assert said is not None
     assert "usual numbers of teeth" in said.in_language(Language.ENGLISH)
     assert effect.tried_in(design) is None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import zlmreport_plugins.effects
-from plugins.effects.installed import EFFECTS, design_for
+from plugins.effects.installed import EFFECTS
 from zlmreport.plugin import Language, measurands_of
 from zlmreport.plugin.effect import measurements_of_catalogue
 from zlmreport.testing import full_designs
@@ -32,11 +32,6 @@ def test_confusion_is_mutual_and_one_measurement_tells_both_apart(identifier: st
     for confusion in EFFECTS[identifier].confusions:
         back = {each.effect: each.told_apart_by for each in EFFECTS[confusion.effect].confusions}
         assert back[identifier] == confusion.told_apart_by
-
-
-@pytest.mark.parametrize("identifier", EFFECTS)
-def test_effect_can_be_tested_where_everything_is_known(identifier: str) -> None:
-    assert EFFECTS[identifier].untestable(design_for(identifier)) is None
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,6 @@ def test_size_is_recovered_within_its_uncertainty(identifier: str) -> None:
     empty = simulate(description).design
     random = np.random.default_rng(1)
     hidden = scaled_effect(EFFECTS[identifier], empty, np.zeros((len(empty.position), 1)), 3 * SIGMA, random)
-    assert hidden is not None
     test = simulate(replace(description, effects=(hidden,)))
     theta = np.array([hidden.fixed[each.name] for each in hidden.effect.searched])
     estimate, uncertainty, _ = _solved(hidden.effect, test.design, test.measurements.deviation, theta)

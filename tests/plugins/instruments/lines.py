@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from itertools import islice
 from typing import Any
@@ -17,23 +17,25 @@ from zlmreport.plugin.protocols import Instrument
 
 
 @contextmanager
-def plugged_in(emulator: Emulator, begins_at: float = 0.0) -> Iterator[str]:
+def plugged_in(
+    emulator: Emulator, begins_at: float = 0.0, clock: Callable[[], float] | None = None
+) -> Iterator[str]:
     """Put an emulated instrument on a pseudo-terminal; yield its path.
 
-    Its time begins at `begins_at`, s, and goes on from there.
+    Its time begins at `begins_at`, s, and goes on from there; or it is that of a clock.
     """
     ended = threading.Event()
     channel = PseudoTerminal()
     started = time.monotonic()
     first = [0.0]
 
-    def clock() -> float:
+    def own_clock() -> float:
         """Return the time since the start, the first time 0: `serve` counts from what it is told first."""
         return first.pop() if first else time.monotonic() - started + begins_at
 
     def run() -> None:
         with channel:
-            serve(emulator, channel, Troubles(), is_over=ended.is_set, clock=clock)
+            serve(emulator, channel, Troubles(), is_over=ended.is_set, clock=clock or own_clock)
 
     thread = threading.Thread(target=run, daemon=True)
     thread.start()

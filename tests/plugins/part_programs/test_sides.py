@@ -1,10 +1,9 @@
-"""On the path that a program leads the axis, every visit comes from its stated side."""
+"""What a program does beside the path and the feed that the kit looks at: its waits, a single run, rs274."""
 
 from __future__ import annotations
 
 import re
 import shutil
-from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -13,36 +12,10 @@ from plugins.part_programs.controls import CONTROLS, linuxcnc
 from plugins.part_programs.planned import written
 from processes import run
 from zlmreport.model.planning.methods import Method
-from zlmreport.plugin import Approach
 from zlmreport.testing import sample_motion
 
 controls = pytest.mark.parametrize("control", CONTROLS)
 methods = pytest.mark.parametrize("method", Method)
-
-
-@methods
-@controls
-def test_readings_of_a_run_are_those_of_the_visit_list(control: str, method: Method) -> None:
-    motion = sample_motion(method, runs=3)
-    stops = CONTROLS[control](written(control, motion)).stops
-    came = [
-        (here[0], Approach.POSITIVE if here[0] > before[0] else Approach.NEGATIVE)
-        for before, here in pairwise(stops)
-        if here[1]
-    ]
-    readings = [(stop.position, stop.reading.approach) for stop in motion.stops if stop.reading]
-    assert came == readings
-
-
-@controls
-def test_axis_rests_at_every_reading_and_nowhere_else(control: str) -> None:
-    stops = CONTROLS[control](written(control)).stops
-    assert [rest for _, rest in stops if rest] == [3.5] * 16
-
-
-@controls
-def test_all_motion_has_the_feed_of_the_plan(control: str) -> None:
-    assert CONTROLS[control](written(control)).feed == 1500.0
 
 
 @methods

@@ -62,7 +62,6 @@ def text(root: ET.Element, path: str) -> str:
 def values(root: ET.Element) -> Iterator[tuple[str, float, str]]:
     """The labelled values of the first standard: symbol, value, unit."""
     result = root.find(".//dcc:measurementResult/dcc:results/dcc:result", NAMES)
-    assert result is not None
     for real in result.iterfind("dcc:data/dcc:list/dcc:quantity/si:real", NAMES):
         yield text(real, "si:label"), float(text(real, "si:value")), text(real, "si:unit")
 
@@ -99,7 +98,6 @@ def test_a_document_that_lacks_its_identifier_is_not_valid(tmp_path):
 
     root = document(tmp_path)
     end = root.find(".//dcc:endPerformanceDate", NAMES)
-    assert end is not None
     end.text = "1999-01-01"
     found = SchematronValidator.for_dcc().validate_str(ET.tostring(root, encoding="unicode"))
 
@@ -132,11 +130,9 @@ def test_the_mean_deviations_have_the_uncertainties_of_the_results_file(tmp_path
     made = certificate(tmp_path, KEYS)
     unit = made.measurements.axis.deviation_unit
     uncertain = made.evaluations[0].mean_uncertainty
-    assert uncertain is not None
     root = ET.fromstring(registry().renderer("dcc").render(made))
     first = root.find(".//dcc:measurementResult[1]//si:valueExpandedMUXMLList", NAMES)
 
-    assert first is not None
     written = [float(each) for each in (first.text or "").split()]
     assert written == unit.from_si(uncertain.by_approach[0]).tolist()
 
@@ -252,7 +248,6 @@ def test_everything_that_a_dcc_must_state_is_demanded_at_once(tmp_path):
 
 def test_characters_that_xml_cannot_hold_become_visible(tmp_path):
     made = certificate(tmp_path, KEYS)
-    assert made.job is not None
     machine = made.job.keys.machine.model_copy(update={"model": "M\x00\x1b1"})
     keys = made.job.keys.model_copy(update={"machine": machine})
     root = ET.fromstring(registry().renderer("dcc").render(replace(made, job=replace(made.job, keys=keys))))

@@ -17,8 +17,8 @@ from document.certificate.documents import certificate, having
 from document.certificate.everything import EVERYTHING, write_tables
 from installed import registry
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
-from zlmreport.plugin import Axis, AxisKind, InputError, MeasurementSet, Place
-from zlmreport.plugin.protocols import SourceContext
+from plugins.sources.reading import File
+from zlmreport.plugin import Axis, AxisKind, InputError, MeasurementSet
 from zlmreport.plugin.renderer import (
     Certificate,
     Facts,
@@ -199,11 +199,8 @@ def test_a_parameter_has_the_interval_of_the_axis(tmp_path):
 def read_back(
     made: Certificate, folder: Path, state: str = "as left", kind: str = "linear"
 ) -> MeasurementSet:
-    path = folder / "certificate.xml"
-    path.write_bytes(registry().renderer("dcc").render(made))
-    source = registry().source("dcc")
-    options = source.options.model_validate({"file": path, "state": state})
-    return source.read(options, SourceContext(Axis("Y", AxisKind(kind)), Place("job.yaml", 1, 1)))
+    content = registry().renderer("dcc").render(made)
+    return File("dcc", folder / "x.xml").read(content, Axis("Y", AxisKind(kind)), state=state)
 
 
 @pytest.mark.parametrize("keys", [KEYS, ROTARY], ids=["linear", "rotary"])
@@ -229,7 +226,6 @@ def test_times_conditions_and_missing_readings_come_back(tmp_path):
     again = read_back(made, tmp_path)
 
     assert again.missing() == made.measurements.missing() != ()
-    assert again.time is not None
     assert again.time.tolist() == [0, 4, 8, 12, 16, 20, 24, 28]
     assert again.conditions.keys() == made.measurements.conditions.keys()
     for name, values in again.conditions.items():
@@ -270,13 +266,7 @@ def test_an_axis_of_another_kind_is_refused_with_the_cure(tmp_path):
     ],
 )
 def test_what_is_no_dcc_is_refused(content, message, tmp_path):
-    path = tmp_path / "x.xml"
-    path.write_text(content)
-    source = registry().source("dcc")
-    with pytest.raises(InputError, match=message):
-        source.read(
-            source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))
-        )
+    assert message in File("dcc", tmp_path / "x.xml").complaint(content)
 
 
 @pytest.mark.parametrize(
@@ -290,12 +280,6 @@ def test_what_is_no_dcc_is_refused(content, message, tmp_path):
 )
 def test_columns_that_do_not_fit_are_named(old, new, message, tmp_path):
     made = certificate(tmp_path, KEYS)
-    path = tmp_path / "x.xml"
     content = registry().renderer("dcc").render(made).decode()
     assert old in content
-    path.write_text(content.replace(old, new))
-    source = registry().source("dcc")
-    with pytest.raises(InputError, match=message):
-        source.read(
-            source.options.model_validate({"file": path}), SourceContext(Axis("Y"), Place("job.yaml", 1, 1))
-        )
+    assert message in File("dcc", tmp_path / "x.xml").complaints(content.replace(old, new))[0]

@@ -144,10 +144,5 @@ def test_it_is_printed_on_the_paper_asked_for(paper: str) -> None:
     assert f"size: {paper} }}" in render(samples.certificate(paper=paper, standards=0)).style
 
 
-def test_it_is_the_same_twice() -> None:
-    certificate = samples.certificate()
-    assert registry().renderer("html").render(certificate) == registry().renderer("html").render(certificate)
-
-
 def test_it_can_be_sent_by_mail() -> None:
     assert len(registry().renderer("html").render(samples.certificate())) < 1_000_000

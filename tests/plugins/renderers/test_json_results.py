@@ -13,7 +13,6 @@ import pytest
 
 from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
-from installed import registry
 from model.hidden_effect import example_diagnosis
 from plugins.renderers.results import VALIDATOR, results_of
 from zlmreport.document.certificate.attachments import Source, SourceRole
@@ -277,12 +276,6 @@ def test_symbols_and_units_are_ascii() -> None:
 @pytest.mark.parametrize("title", ["Ω 🙂 \u202e", "half a pair \ud83d", '"\\\x00'])
 def test_any_text_comes_out_as_it_went_in(title: str) -> None:
     assert results_of(samples.certificate(standards=0, title=title))["certificate"]["title"] == title
-
-
-def test_it_is_the_same_twice() -> None:
-    assert registry().renderer("json").render(samples.certificate()) == registry().renderer("json").render(
-        samples.certificate()
-    )
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,6 @@ def test_the_longest_number_stands_whole_on_every_page() -> None:
 
 def test_the_head_of_a_page_stands_within_its_margin_beside_a_laboratory_of_one_long_word() -> None:
     head = samples.certificate(standards=0).letterhead
-    assert head is not None
     laboratory = replace(head.laboratory, name="Präzisionsmaschinenvermessungs" * 4)
     section = Section("item", "Item, method and conditions", (Paragraph("Text"),), new_page=True)
     letterhead = replace(head, laboratory=laboratory)

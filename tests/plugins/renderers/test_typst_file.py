@@ -26,7 +26,6 @@ def test_it_claims_both_standards() -> None:
 
 def test_its_dates_are_the_date_of_issue() -> None:
     metadata = sample(press="pdf-typst").metadata
-    assert metadata is not None
     assert {metadata["/CreationDate"], metadata["/ModDate"]} == {"D:20261120000000Z"}
 
 

@@ -141,7 +141,6 @@ def test_many_readings_are_averaged_without_moving_the_path(file: File) -> None:
         found.deviation / UM, 30 * np.cos(angle) + 4 * np.sin(2 * angle), rtol=0, atol=1e-4
     )
     averaging = found.provenance.averaging
-    assert averaging is not None
     assert averaging.readings == 40_000
     assert averaging.amplitude == 0.0
 
@@ -156,7 +155,6 @@ def test_an_arc_in_which_a_turn_begins_and_ends_keeps_its_place_in_time(file: Fi
             for index in range(7_201)
         ]
     found = read(file, "\n".join(lines), readings_per_turn=144)
-    assert found.time is not None
     assert found.deviations().shape == (2, 144, 1)
     assert np.diff(found.time).min() > 0
 
@@ -165,7 +163,6 @@ def test_a_vibration_that_averages_hide_is_told(file: File) -> None:
     # 47 Hz at 0.6 µm, which averages over six readings still show in part; over arcs of 1° it is gone.
     found = read(file, many(noise=0.2, vibration=0.6, hertz=47.0), readings_per_turn=360)
     averaging = found.provenance.averaging
-    assert averaging is not None
     assert averaging.frequency == pytest.approx(47.0, abs=0.05)
     assert averaging.amplitude / UM == pytest.approx(0.6, abs=0.03)
     assert "47 Hz (by the stated feed)" in " ".join(said(found))
@@ -173,7 +170,6 @@ def test_a_vibration_that_averages_hide_is_told(file: File) -> None:
 
 def test_noise_alone_is_no_vibration(file: File) -> None:
     averaging = read(file, many(noise=0.2), readings_per_turn=360).provenance.averaging
-    assert averaging is not None
     assert averaging.amplitude == 0.0
     assert averaging.left_out / UM == pytest.approx(0.2, rel=0.05)
 

@@ -169,13 +169,11 @@ def test_a_known_condition_is_not_advised_to_be_ignored(file: File) -> None:
 
 def test_times_are_seconds(file: File) -> None:
     measurements = file.read("target,direction,run,deviation,time\n0,+,1,1,10.5\n10,+,1,1,12\n")
-    assert measurements.time is not None
     assert measurements.time.tolist() == [0.0, 1.5]
 
 
 def test_times_may_be_minutes(file: File) -> None:
     measurements = file.read("target,direction,run,deviation,time (min)\n0,+,1,1,0\n10,+,1,1,1.5\n")
-    assert measurements.time is not None
     assert measurements.time.tolist() == [0.0, 90.0]
 
 
@@ -190,7 +188,6 @@ def test_times_may_be_minutes(file: File) -> None:
 def test_times_may_be_iso_8601_across_midnight(file: File, first: str, second: str) -> None:
     table = f"target,direction,run,deviation,time\n0,+,1,1,{first}\n5,+,1,1,\n10,+,1,1,{second}\n"
     time = file.read(table).time
-    assert time is not None
     np.testing.assert_array_equal(time, [0.0, np.nan, 31.5])
 
 

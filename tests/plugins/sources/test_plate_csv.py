@@ -45,6 +45,18 @@ def test_a_station_that_is_left_out_is_told_with_what_to_write(file: File) -> No
     assert "an empty cell where a reading is missing" in complaint
 
 
+@pytest.mark.parametrize(
+    ("row", "complaint"),
+    [
+        (",2,4", "plate.csv:3:1: there is no line"),
+        ("NW-SE,,4", "plate.csv:3:7: there is no station"),
+        ("NW-SE,2,four", "plate.csv:3:9: 'four' stands where a number belongs"),
+    ],
+)
+def test_a_row_that_is_not_whole_is_refused_with_its_place(file: File, row: str, complaint: str) -> None:
+    assert file.complaints(PLATE.replace("NW-SE,2,4", row), NW_SE, foot=100)[0].startswith(complaint)
+
+
 def test_a_station_without_a_reading_is_missing_and_not_left_out(file: File) -> None:
     found = file.read(PLATE.replace("NW-SE,2,4", "NW-SE,2,"), NW_SE, foot=100)
     assert len(found.missing()) == 1

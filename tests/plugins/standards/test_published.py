@@ -48,7 +48,6 @@ def parameter(name: str, standard: str, symbol: str) -> float:
     """Return a parameter in µm (″)."""
     evaluation = evaluated(name, standard)
     value = evaluation.value(symbol)
-    assert value is not None
     return evaluation.measurements.axis.deviation_unit.from_si(value)
 
 

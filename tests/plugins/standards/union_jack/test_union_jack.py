@@ -41,7 +41,6 @@ def test_moodys_plate_of_1955() -> None:
 
 def test_moodys_corners() -> None:
     plate = find_plate_of(evaluated(moody()).statistics.tests)
-    assert plate is not None
     arc_seconds = {name: each.heights * 1e6 / 0.49257 for name, each in plate.profiles.items()}
     assert arc_seconds["NW-SE"][[0, -1]] == pytest.approx([-3.6, -3.6], abs=1e-4)
     assert arc_seconds["NE-SW"][[0, -1]] == pytest.approx([-5.3, -5.3], abs=1e-4)
