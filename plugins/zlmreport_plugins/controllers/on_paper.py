@@ -674,7 +674,6 @@ class Heidenhain(_OnPaper):
             "The .CMA file names this table for the axis alone: add its line to that of the control, "
             "which may name tables of other axes, and mark it active (*)."
         ),
-        Words("Positions count from the machine datum: those of this test must, too."),
     )
 
     def list_assumed(self, table: CompensationTable, options: Any) -> Iterator[Words]:

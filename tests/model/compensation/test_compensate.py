@@ -62,6 +62,7 @@ def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
         assert "Rows 11 (0 mm … 300 mm)" in text
         assert "If the deviation doubles, the sign is wrong" in text
         assert "The format was tried on LinuxCNC 2.9" in text
+        assert "they must be the control's machine coordinates" in text
 
 
 def test_a_table_for_no_control_was_tried_on_none(folder: Path) -> None:

@@ -51,6 +51,10 @@ _CONFIDENCE = {
     "documented": Words("documented by the maker, not tried on the control"),
     "unconfirmed": Words("not confirmed: sign or format may be another"),
 }
+_COORDINATES = Words(
+    "Positions are those of this test: they must be the control's machine coordinates, counted the same way. "
+    "With a zero offset the table acts at shifted positions, and counted the other way at those mirrored."
+)
 _CHECK = Words(
     "Load the table, reference the axis, and measure the worked row again: what is left must be no more than "
     "it says. If the deviation doubles, the sign is wrong: take the table out. A backlash parameter of the "
@@ -433,7 +437,9 @@ def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     )
     return (
         Paragraph(say(worked)),
-        Notice(say(Words("For who loads it")), (*map(say, made.controller.notes), say(_CHECK))),
+        Notice(
+            say(Words("For who loads it")), (*map(say, made.controller.notes), say(_COORDINATES), say(_CHECK))
+        ),
     )
 
 
