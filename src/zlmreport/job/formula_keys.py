@@ -172,7 +172,6 @@ class FormulaParameter(JobPart):
     meanings: tuple[Meaning, ...] = Field((), description="Values that have a name of their own.")
     possible: Possible | None = optional("Between which values physics allows it.")
     instead: Instead | None = optional("Values that are tried although a key states another.")
-    unstated: Phrase | None = optional("What is said where no key states it: which values are tried then.")
 
     @property
     def spelled(self) -> str:

@@ -265,10 +265,6 @@ class Effect(Protocol):
         """Return why physics and the log of a test forbid values of parameters, SI; None if they do not."""
         return None
 
-    def tried_in(self, design: Design) -> Words | None:  # noqa: ARG002 - of this one all that the test can tell
-        """Return which values of a parameter are tried on a design where not all are, or None."""
-        return None
-
     def expected(self, axis: Axis) -> dict[str, float]:  # noqa: ARG002 - of this one nothing is known
         """Return values of parameters that follow from the job (a stated Abbe offset), SI; mostly empty."""
         return {}

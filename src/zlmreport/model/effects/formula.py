@@ -257,12 +257,6 @@ class FormulaEffect(Effect):
                     return possible.because
         return None
 
-    def tried_in(self, design: Design) -> Words | None:
-        """Return which values of a parameter are tried where no key of the axis states it."""
-        known = self._read_axis(design.axis)
-        notes = (self.keys.parameters[each.name].unstated for each in self.searched if each.name not in known)
-        return next((note for note in notes if note is not None), None)
-
     def grid(self, design: Design) -> FloatArray:
         """Return values that a search begins with; those that are given or stated are known."""
         stated = self._read_axis(design.axis)

@@ -78,6 +78,5 @@ ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "repeated": form,
     "untestable": untestable,
     "forbids": untestable,
-    "tried_in": untestable,
     "expected": expected,
 }
