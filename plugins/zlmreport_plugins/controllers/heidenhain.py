@@ -68,7 +68,7 @@ class Heidenhain(OnPaper):
         refuse_more_than(self.most_rows, table)
         name = name_axis(table, options)
         assigned = ("BEGIN CONFIG .CMA", f"NR ACTIVE {name}", f"0  *      {table.number}.COM", "[END]")
-        lines = [f"BEGIN {name}AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
+        lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
         for row, (at, up, down) in enumerate(zip(*make_columns(table), strict=True)):
             back = float(down - (up if options.backlash == "play" else 0.0))
             lines.append(f"{row}     {at:+.4f}   {back + 0.0:+.4f}   {float(up) + 0.0:+.4f}")

@@ -96,7 +96,7 @@ def _read_cec(text: str, number: int) -> list[float]:
 def _read_cross_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTable:
     values = _read_cec(text, number)
     (moving,), (aside,) = (
-        re.findall(rf"{which}AXIS\[{number}\]=\((\w+?)1\)", text) for which in ("INPUT", "OUTPUT")
+        re.findall(rf"{which}_AXIS\[{number}\]=\((\w+?)1\)", text) for which in ("INPUT", "OUTPUT")
     )
     return replace(
         table,
