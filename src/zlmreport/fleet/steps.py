@@ -100,9 +100,8 @@ def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float
             base.append(index)
         else:
             change = values[index] - fmean(before)
-            steps.append(
-                ParameterStep(index, change, compute_chances([*before, values[index]], fleet).last_step)
-            )
+            chances = compute_chances([*before, values[index]], fleet)
+            steps.append(ParameterStep(index, change, chances.steps[-1]))
             if not is_latest:
                 first, base = index, [index]
     since = [values[each] for each in base]
@@ -160,11 +159,6 @@ class Chances:
     nothing: float
     steps: tuple[float, ...]
     drift: float
-
-    @property
-    def last_step(self) -> float:
-        """That the last test began a step."""
-        return self.steps[-1]
 
 
 def compute_chances(values: Sequence[float], fleet: ScatterLikelihood) -> Chances:

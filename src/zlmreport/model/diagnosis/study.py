@@ -165,15 +165,12 @@ class Study:
         self, model: AxisModel, tried: Sequence[Effect], told: Told, may_go: frozenset[str] = frozenset()
     ) -> AxisDiagnosis:
         """Return the diagnosis of a model of this job, with what earlier tests say where it names them."""
-        stated, expected = self.job.priors, self._find_expectation()
+        stated = self.job.priors
+        expected = PriorExpectation.of(stated, self.job.axis) if stated else None
         found = diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
         if stated is None:
             return found
         return replace(found, remarks=(*found.remarks, _EXPECTED.given(number=stated.tests)))
-
-    def _find_expectation(self) -> PriorExpectation | None:
-        """Return what the job says that earlier tests say."""
-        return PriorExpectation.of(self.job.priors, self.job.axis) if self.job.priors else None
 
     def list_titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
         """Return what installed effects and the formulas of the job are called, by identifier."""

@@ -46,10 +46,6 @@ class SurfaceLine:
         """Return the readings that stand off, by their places among those observed."""
         return find_outliers(self.observed.design, self.observed.deviation).readings
 
-    def drop_aside(self) -> Observations:
-        """Return the readings without those that stand off."""
-        return self.observed.without(self.list_aside())
-
 
 @dataclass(frozen=True, slots=True)
 class SurfaceReadings:
@@ -115,7 +111,7 @@ def _make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArra
 
 
 def _select_one_way(line: SurfaceLine, approach: Approach) -> Observations:
-    kept = line.drop_aside()
+    kept = line.observed.without(line.list_aside())
     chosen = np.flatnonzero(kept.design.direction == float(approach))
     return Observations(
         select_readings(kept.design, chosen),
