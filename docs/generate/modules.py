@@ -100,9 +100,8 @@ def _list_templates() -> Mapping[str, str]:
         for each in ast.parse(module.read_text(encoding="utf-8")).body
         if isinstance(each, ast.ClassDef)
         for node in each.body
-        if isinstance(node, ast.AnnAssign)
-        and isinstance(node.target, ast.Name)
-        and node.target.id == "template"
+        if isinstance(node, ast.Assign)
+        and ast.unparse(node.targets[0]) == "template"
         and isinstance(node.value, ast.Constant)
     }
 

@@ -110,7 +110,8 @@ def _collect_jobs(composition: Composition, path: Path, registry: Registry, form
             problems.extend(error.problems)
     if problems or first is None:
         raise InputError(sorted(set(problems)))
-    whole = replace(composition, keys=make_document_of(first, document))
+    # What a job must have, the document has of its first.
+    whole = replace(composition, keys=merge(first, document.without("extends")))
     job = _check_job(whole, path.parent, registry, formats)
     names = name_measurements_of((part.axis, file) for part, file in parts)
     files = dict.fromkeys((*composition.files, *(each for part, _ in parts for each in part.files)))
@@ -423,11 +424,6 @@ def make_part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
         group = make_keys_of(group.place, tuple(of_all[key] for key in _OF_CERTIFICATE if key in of_all))
     shared.append(KeyEntry("certificate", certificate.place, group))
     return merge(own.without("certificate"), make_keys_of(own.place, tuple(shared)))
-
-
-def make_document_of(first: Keys, document: Keys) -> Keys:
-    """Return the keys of a document of several jobs, with what a job must have from its first."""
-    return merge(first, document.without("extends"))
 
 
 def name_measurements_of(axes: Iterable[tuple[Axis, Path]]) -> tuple[str, ...]:

@@ -166,7 +166,8 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) ->
         return ()
     spread = find_repeats(design, deviation).squares
     # What the model explains already, no slip needs to.
-    by_effects = min((*map(_sum_squares_within, (fitted, *rivals)), spread))
+    left_by_models = (find_repeats(each.design, each.residual).squares for each in (fitted, *rivals))
+    by_effects = min((*left_by_models, spread))
     tried = [
         (kind, run, left, whole, count)
         for run in runs.tolist()
@@ -188,11 +189,6 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), changes: float = 0.0) ->
             )
             found.append((evidence, fault))
     return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
-
-
-def _sum_squares_within(fitted: Fit) -> float:
-    """Return the sum of squares that a model leaves within the repeats."""
-    return find_repeats(fitted.design, fitted.residual).squares
 
 
 def find_lagging_sensors(

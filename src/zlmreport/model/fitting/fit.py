@@ -187,18 +187,12 @@ def fit(
 ) -> Fit:
     """Fit a model to the readings of a test.
 
-    Raises `ModelError` if the model makes no sense on the design, or its columns depend on each other.
-
-    Parameters
-    ----------
-    deviation : (N,) array
-        x, m or rad.
-    start
-        Searched parameters near their best values; the whole grid is searched if they are not given.
-
-    Notes
-    -----
     A linear parameter that would lie beyond its bounds is held at the bound, one after another.
+
+    `deviation`, (N,): x, m or rad.
+    `start`: Searched parameters near their best values; the whole grid is searched if they are not given.
+
+    Raises `ModelError` if the model makes no sense on the design, or its columns depend on each other.
     """
     found = _fit(model, design, deviation, assumptions or Assumptions(), start)
     while (held := _hold_beyond_bound(found)) is not None:

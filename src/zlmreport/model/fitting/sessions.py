@@ -60,17 +60,11 @@ def add_zeros(model: AxisModel, design: Design) -> AxisModel:
 def hold_together(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
     """Return the readings of several tests below one another.
 
+    Targets are numbered anew, equal positions alike; readings of other sessions have the place −1.
+
+    `others`: The further sessions, each with a name for the remarks.
+
     Raises `ModelError` if some sessions tell their times and others do not.
-
-    Parameters
-    ----------
-    others
-        The further sessions, each with a name for the remarks.
-
-    Returns
-    -------
-    Observations
-        Targets are numbered anew, equal positions alike; readings of other sessions have the place −1.
     """
     if not others:
         return own

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from zlmreport.language import Words
 from zlmreport.model.effects.circle_effect import CircleTerm
 from zlmreport.plugin.boundary import Guarded
-from zlmreport.plugin.boundary.answers.required import require_all_of, require_finite, sentences
+from zlmreport.plugin.boundary.answers.required import accept_all_of, require_all_of, require_finite
 
 if TYPE_CHECKING:
     from zlmreport.model.effects.circle_design import CircleDesign
@@ -37,6 +38,6 @@ def starts(effect: Guarded, answer: Any, _design: CircleDesign) -> tuple[tuple[f
 ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "terms": terms,
     "grid": starts,
-    "findings": sentences,
-    "absence": sentences,
+    "findings": accept_all_of(Words),
+    "absence": accept_all_of(Words),
 }

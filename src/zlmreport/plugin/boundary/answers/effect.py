@@ -9,6 +9,7 @@ from zlmreport.language import Words
 from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import (
+    accept_one_or_none,
     require_all_of,
     require_finite,
     require_kind,
@@ -40,22 +41,17 @@ def form(effect: Guarded, answer: Any, _settings: Any) -> Effect:
     return effect.guard_another(require_kind(Effect, answer))  # type: ignore[no-any-return]
 
 
-def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
-    """Hand on the forms of an effect, behind the boundary too."""
-    found = tuple(effect.guard_another(each) for each in require_all_of(Effect, answer))
-    if not found:
-        raise Unacceptable("returns no form; there is one at least")
-    return found
-
-
-def forms_or_none(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
-    """Hand on further forms of an effect, if there are any."""
+def further_forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
+    """Hand on forms of an effect, if there are any, behind the boundary too."""
     return tuple(effect.guard_another(each) for each in require_all_of(Effect, answer))
 
 
-def untestable(_effect: Guarded, answer: Any, *_: Any) -> Any:
-    """Refuse a reason that is not said in words."""
-    return answer if answer is None else require_kind(Words, answer)
+def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
+    """Hand on the forms of an effect likewise; there is one at least."""
+    found = further_forms(effect, answer)
+    if not found:
+        raise Unacceptable("returns no form; there is one at least")
+    return found
 
 
 def expected(effect: Guarded, answer: Any, *_: Any) -> Mapping[str, float]:
@@ -74,9 +70,9 @@ ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "grid": grid,
     "with_settings": form,
     "forms": forms,
-    "further_forms": forms_or_none,
+    "further_forms": further_forms,
     "repeated": form,
-    "untestable": untestable,
-    "forbids": untestable,
+    "untestable": accept_one_or_none(Words),
+    "forbids": accept_one_or_none(Words),
     "expected": expected,
 }

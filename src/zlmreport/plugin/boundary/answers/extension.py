@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 from zlmreport.document.certificate.conditions import Described
 from zlmreport.evaluation.uncertainty.budget import Contribution
 from zlmreport.job.keys import JobKeys
+from zlmreport.language import Words
 from zlmreport.plugin.boundary import Guarded
-from zlmreport.plugin.boundary.answers.required import require_all_of, require_kind, sentences
+from zlmreport.plugin.boundary.answers.required import accept_all_of, accept_one_or_none, require_kind
 from zlmreport.plugin.extending import ExtensionPlan, LiveRun
-
-
-def contributions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
-    """Take every contribution."""
-    return require_all_of(Contribution, answer)
-
-
-def described(_extension: Guarded, answer: Any, *_: Any) -> Any:
-    """Refuse what is no description."""
-    return answer if answer is None else require_kind(Described, answer)
 
 
 def plan(extension: Guarded, answer: Any, *_: Any) -> Any:
@@ -41,11 +32,6 @@ def live(extension: Guarded, answer: Any, *_: Any) -> Any:
     return replace(of, run=extension.look_after("live", of.run))
 
 
-def contradictions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
-    """Take every contradiction now: a generator would run elsewhere."""
-    return require_all_of(tuple, answer)
-
-
 def completed(_extension: Guarded, answer: Any, *_: Any) -> Any:
     """Refuse what are no keys."""
     return require_kind(JobKeys, answer)
@@ -53,10 +39,10 @@ def completed(_extension: Guarded, answer: Any, *_: Any) -> Any:
 
 #: What is made of an answer, by method.
 ACCEPTED: Mapping[str, Callable[..., Any]] = {
-    "contributions": contributions,
-    "doubts": sentences,
-    "described": described,
-    "contradictions": contradictions,
+    "contributions": accept_all_of(Contribution),
+    "doubts": accept_all_of(Words),
+    "described": accept_one_or_none(Described),
+    "contradictions": accept_all_of(tuple),
     "completed": completed,
     "plan": plan,
     "live": live,

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from zlmreport.language import Words
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 
 if TYPE_CHECKING:
     from zlmreport.measurement.arrays import FloatArray
 
+#: Takes the guarded object, its answer and what was asked; returns what is handed on.
+Accept: TypeAlias = Callable[..., Any]
 
 _DOUBLE = np.dtype(np.float64)
 
@@ -77,6 +78,19 @@ def require_all_of(kind: type, answer: Any) -> tuple[Any, ...]:
     return found
 
 
-def sentences(_plugin: Guarded, answer: Any, *_: Any) -> tuple[Words, ...]:
-    """Take every sentence."""
-    return require_all_of(Words, answer)
+def accept_all_of(kind: type) -> Accept:
+    """Return what takes several answers of a kind, all of them now: a generator would run elsewhere."""
+
+    def accept(_plugin: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Any, ...]:
+        return require_all_of(kind, answer)
+
+    return accept
+
+
+def accept_one_or_none(kind: type) -> Accept:
+    """Return what takes an answer of a kind, or None, and refuses any other."""
+
+    def accept(_plugin: Guarded, answer: Any, *_: Any, **__: Any) -> Any:
+        return answer if answer is None else require_kind(kind, answer)
+
+    return accept

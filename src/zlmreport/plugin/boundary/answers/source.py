@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.plugin.boundary import Guarded, Unacceptable
-from zlmreport.plugin.boundary.answers.required import real, require_all_of, require_finite, require_kind
+from zlmreport.plugin.boundary.answers.required import accept_all_of, real, require_finite, require_kind
 from zlmreport.plugin.protocols import SourceProposal
 
 
@@ -29,11 +29,6 @@ def read(source: Guarded, answer: Any, _options: Any, context: Any) -> Measureme
     for log in of.conditions.values():
         log.setflags(write=False)
     return of
-
-
-def proposals(_source: Guarded, answer: Any, *_: Any) -> tuple[Any, ...]:
-    """Take every proposal now: a generator would run elsewhere."""
-    return require_all_of(SourceProposal, answer)
 
 
 def whole(of: MeasurementSet) -> None:
@@ -71,5 +66,5 @@ def _require_designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
 #: What is made of an answer, by method.
 ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "read": read,
-    "proposals": proposals,
+    "proposals": accept_all_of(SourceProposal),
 }

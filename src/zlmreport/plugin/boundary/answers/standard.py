@@ -13,7 +13,13 @@ from zlmreport.evaluation.uncertainty.budget import Contribution
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.boundary import Guarded, Unacceptable
-from zlmreport.plugin.boundary.answers.required import name_answer, real, require_all_of, require_kind
+from zlmreport.plugin.boundary.answers.required import (
+    accept_all_of,
+    name_answer,
+    real,
+    require_all_of,
+    require_kind,
+)
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.statistics import PositionStatistics
@@ -69,16 +75,11 @@ def of_lines(_standard: Guarded, answer: Any, measurements: MeasurementSet, *_: 
     return found
 
 
-def figures(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Any, ...]:
-    """Take every graph."""
-    return require_all_of(Figure, answer)
-
-
 #: What is made of an answer, by method.
 ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "arithmetic": arithmetic,
     "requirements": requirements,
-    "figures": figures,
+    "figures": accept_all_of(Figure),
     "of_error": of_error,
     "contributions": of_lines,
 }
