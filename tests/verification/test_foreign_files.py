@@ -271,7 +271,7 @@ def test_problems_with_an_attached_file_name_it_and_not_where_it_was_unpacked(
 ) -> None:
     readings = content_of(issued, "x-axis.csv").replace(b"2.9", b"much")
     (problem,) = refused(verified, with_source(issued, "x-axis.csv", readings)).problems
-    assert str(problem).startswith("x-axis.csv:4:9: ")
+    assert str(problem).startswith("certificate.pdf: x-axis.csv:4:9: ")
 
 
 @pytest.mark.parametrize("path", ["", "..", "/", "a\0b.yaml", "\ud800.yaml", "x" * 400, "../" * 5000])
@@ -343,6 +343,12 @@ def test_without_a_plugin_that_it_needs_a_verification_says_so(
     (tmp_path / "certificate.pdf").write_bytes(issued)
     with pytest.raises(InputError, match=f"no plugin provides format '{identifier}'"):
         verify(tmp_path / "certificate.pdf", find_plugins({DISABLE: identifier}))
+
+
+def test_a_place_in_what_a_certificate_carries_is_told_with_its_name(issued: bytes, tmp_path: Path) -> None:
+    (tmp_path / "certificate.pdf").write_bytes(issued)
+    with pytest.raises(InputError, match=r"certificate\.pdf: \S+\.yaml:\d+:\d+: no plugin provides"):
+        verify(tmp_path / "certificate.pdf", find_plugins({DISABLE: "laser-csv"}))
 
 
 def test_a_plugin_that_breaks_is_named_and_ends_nothing_with_a_traceback(

@@ -16,7 +16,7 @@ from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
-from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.files import demand
 from zlmreport.job.days import find_days_to_come, read_clock
 from zlmreport.job.job import Job
@@ -166,7 +166,7 @@ def verify(
             problems = layout.list_problems(ended)
             compared = attached.compare(sources, carrier.carried, None)
             if all(finding.verdict is not VerificationVerdict.DIFFERS for finding in compared):
-                raise type(ended)(problems) from error
+                raise type(ended)([_place_within(carrier, each) for each in problems]) from error
             reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
             return replace(found, files=(*compared, CheckedStatement.of("readings", reason)))
     complete = _compare(found, carrier, stated, again)
@@ -174,6 +174,14 @@ def verify(
         return complete
     digital = check_digital_certificates(carrier.carried, dcc_schema)
     return replace(complete, files=(*complete.files, *digital))
+
+
+def _place_within(carrier: Carrier, problem: Problem) -> Problem:
+    """Return a problem of an attached file in the name of the certificate, too: only that is at hand."""
+    if problem.place.file not in carrier.carried:
+        return problem
+    file = f"{Path(carrier.place.file).name}: {problem.place.file}"
+    return replace(problem, place=replace(problem.place, file=file))
 
 
 def _make_unforeseen(place: Place, error: Exception) -> ZlmreportError:
