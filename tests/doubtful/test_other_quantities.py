@@ -15,12 +15,11 @@ import pytest
 from document.certificate.documents import text_of
 from doubtful.doubtful_jobs import cover
 from environments import ROOT
-from installed import registry
+from installed import load_job, registry
 from zlmreport import pipeline
 from zlmreport.evaluation import likely_units, traceability
 from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
 from zlmreport.evaluation.evidence import find_evidence, find_lines_read_twice
-from zlmreport.job.loading import load
 from zlmreport.plugin import InputError, Language, MeasurementSet, Words
 from zlmreport.plugin.extension import Job
 
@@ -33,7 +32,7 @@ def say(found: Iterable[Words]) -> str:
 
 @cache
 def measured(example: str) -> tuple[Job, MeasurementSet]:
-    job = load(ROOT / "configs" / example, registry())
+    job = load_job(ROOT / "configs" / example)
     return job, pipeline.read(job, registry())
 
 
@@ -99,7 +98,7 @@ def test_a_certificate_without_any_result_is_refused(tmp_path: Path) -> None:
     (tmp_path / "job.yaml").write_text(text, encoding="utf-8")
 
     with pytest.raises(InputError, match="states results, and these readings give none"):
-        pipeline.compose(load(tmp_path / "job.yaml", registry()), registry())
+        pipeline.compose(load_job(tmp_path / "job.yaml"), registry())
 
 
 def spoilt(folder: Path, example: str, **texts: str) -> Job:
@@ -111,7 +110,7 @@ def spoilt(folder: Path, example: str, **texts: str) -> Job:
         assert old in text
         text = text.replace(old, new)
     path.write_text(text, encoding="utf-8")
-    return load(path, registry())
+    return load_job(path)
 
 
 def findings(job: Job) -> str:
@@ -124,7 +123,7 @@ def findings(job: Job) -> str:
 @pytest.mark.parametrize(("error", "angle"), [("72", "90.02"), ("90", "90.025"), ("-45", "89.9875")])
 def test_an_angle_of_no_square_is_found(error: str, angle: str, tmp_path: Path) -> None:
     example = "machine/xy-squareness.yaml"
-    assert findings(load(ROOT / "configs" / example, registry())) == ""
+    assert findings(load_job(ROOT / "configs" / example)) == ""
 
     job = spoilt(tmp_path, example, error=("square: {error: 0,", f"square: {{error: {error},"))
 
@@ -133,7 +132,7 @@ def test_an_angle_of_no_square_is_found(error: str, angle: str, tmp_path: Path) 
 
 def test_diagonals_over_a_part_of_the_work_space_are_found(tmp_path: Path) -> None:
     example = "whole-machine/diagonals.yaml"
-    assert findings(load(ROOT / "configs" / example, registry())) == ""
+    assert findings(load_job(ROOT / "configs" / example)) == ""
 
     job = spoilt(tmp_path, example, axes=("X: [0, 500]", "X: [0, 900]"))
 
@@ -160,7 +159,7 @@ def test_a_diagonal_that_is_shorter_than_the_others_is_found(tmp_path: Path) -> 
 def test_an_artefact_with_this_document_as_its_certificate_is_no_link(
     example: str, old: str, said: str, tmp_path: Path
 ) -> None:
-    number = load(ROOT / "configs" / example, registry()).keys.certificate.number
+    number = load_job(ROOT / "configs" / example).keys.certificate.number
     job = spoilt(tmp_path, example, certificate=(old, number))
 
     assert f"{said}: the calibration certificate named, {number}, is this document" in say(

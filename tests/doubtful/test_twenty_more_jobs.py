@@ -35,10 +35,10 @@ from doubtful.doubtful_jobs import (
     refusals,
     write,
 )
+from installed import load_job
 from zlmreport import pipeline
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
-from zlmreport.job.loading import load
 from zlmreport.plugin import InputError, Language
 from zlmreport.plugin.renderer import Certificate
 
@@ -246,7 +246,7 @@ def test_a_square_without_a_calibration_certificate_is_marked(tmp_path: Path) ->
 
 
 def _doubts_of(path: Path) -> list[str]:
-    job = load(path, documents.registry())
+    job = load_job(path)
     found = traceability.find_doubts(job, pipeline.read(job, documents.registry()))
     return [each.in_language(Language.ENGLISH) for each in found]
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import given, strategies as st
 
+from plugins.sources.reading import missing_in
 from refusals import refused
-from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.plugin import Approach, Axis, AxisKind, InputError, Language, MeasurementSet, Place, Problem
 from zlmreport.plugin.source import Provenance, Reading, collect_readings
 
@@ -89,7 +89,7 @@ def test_a_missing_reading_stays_missing_and_is_named() -> None:
     readings[1] = dataclasses.replace(readings[1], deviation=math.nan)
     measurements = collected(readings)
     assert np.isnan(measurements.deviation).tolist() == [False, True, False, False, False, False]
-    assert measurements.missing() == (MissingReading(0.1, Approach.POSITIVE, 1),)
+    assert missing_in(measurements) == [(0.1, Approach.POSITIVE, 1)]
 
 
 def test_times_count_from_the_first_that_was_logged() -> None:

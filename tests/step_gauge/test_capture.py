@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from installed import load_job
 from processes import ZLMREPORT, started
 from step_gauge.emulated import on_a_port
 from step_gauge.jobs import write_job
 from zlmreport.cli import main
-from zlmreport.job.loading import load
-from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.machines.emulated import PRETRAVEL, make_machine_of_job
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
 from zlmreport_step_gauge.paths.plan import plan_path_of_job
@@ -35,7 +34,7 @@ def write_live_job(folder: Path, port: int, orientation: str = "y") -> Path:
 
 def emulated(folder: Path, orientation: str = "y", **faults: PointFault) -> DmeServer:
     """Return the machine of a job, with a scale error of 20 µm/m."""
-    job = load(write_live_job(folder, 1294, orientation), find_plugins())
+    job = load_job(write_live_job(folder, 1294, orientation))
     machine = make_machine_of_job(job, scale_error=20e-6, noise=0.0)
     return DmeServer(machine, faults={int(number[1:]): fault for number, fault in faults.items()})
 
@@ -48,7 +47,7 @@ def test_captured_points_show_the_machines_scale_error_in_any_orientation(
         write_live_job(folder, port, orientation)
         assert main(["capture", "job.yaml"]) == 0
     rows = np.genfromtxt(folder / "raw.csv", delimiter=",", names=True, skip_header=2)
-    job = load(folder / "job.yaml", find_plugins())
+    job = load_job(folder / "job.yaml")
     planned = plan_path_of_job(job, job.own_keys("step_gauge"))
     centres = np.stack([rows["x"], rows["y"], rows["z"]], axis=-1) * 1e-3
     along = planned.frame.to_gauge(centres)[:, 0]

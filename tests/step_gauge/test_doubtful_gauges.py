@@ -11,9 +11,8 @@ import pytest
 
 from document.certificate.documents import lines_of
 from environments import ROOT
-from installed import registry
+from installed import load_job, registry
 from zlmreport import pipeline
-from zlmreport.job.loading import load
 from zlmreport.plugin import InputError
 from zlmreport.plugin.renderer import Certificate
 
@@ -31,7 +30,7 @@ def composed(folder: Path, *changes: tuple[str, str], file: str = "gauge.yaml") 
         assert line in text
         text = text.replace(line, other)
     path.write_text(text, encoding="utf-8")
-    return pipeline.compose(load(folder / "step-gauge" / "job.yaml", registry()), registry(), trials=50)
+    return pipeline.compose(load_job(folder / "step-gauge" / "job.yaml"), registry(), trials=50)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +87,7 @@ def test_a_gauge_is_held_against_logged_air_where_none_is_stated(tmp_path: Path)
         path.read_text(encoding="utf-8").replace("  air_temperature: 20.5\n", "  remarks: none\n"),
         encoding="utf-8",
     )
-    job = load(path, registry())
+    job = load_job(path)
     measurements = pipeline.read(job, registry())
     (choice,) = job.extensions
     extension = registry().extension(choice.identifier)

@@ -10,15 +10,15 @@ from typing import Any
 
 import pytest
 
+from installed import registry
 from step_gauge.languages import LANGUAGES, LanguageError, dmis, ippdme, mv_ms
 from step_gauge.paths import PLACE, planned
 from zlmreport.plugin import InputError
 from zlmreport.plugin.program import PartProgram
-from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, sample_path
 
-REGISTRY = find_plugins()
+REGISTRY = registry()
 DATA = Path(__file__).parents[1] / "data"
 
 
@@ -116,7 +116,7 @@ def test_mv_ms_has_the_digits_that_are_asked_for() -> None:
     assert "MS    300.0000    195.0000    200.0000 ;" in written("mv-ms", {"decimals": 4})
 
 
-PROGRAMS = find_plugins().list_programs_for(ProbingPath)
+PROGRAMS = registry().list_programs_for(ProbingPath)
 
 
 @pytest.mark.parametrize("program", PROGRAMS, ids=lambda program: program.identifier)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from installed import registry
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
 from zlmreport.plugin import Axis, Language, MeasurementSet, Options
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.standard import evaluate, no_missing_readings
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.measurements import (
@@ -23,7 +23,7 @@ from zlmreport_step_gauge.set_up import GaugeSetUp, StatedRadius
 
 GAUGE = gauge()
 STATED = StatedRadius(RADIUS, 0.2e-6)
-ISO = find_plugins().standard("iso230-2:2014")
+ISO = registry().standard("iso230-2:2014")
 
 
 def lost(_: float, side: Side) -> float:
@@ -147,7 +147,7 @@ def test_what_is_not_compensated_is_said() -> None:
 
 
 def test_the_evaluation_of_pahk_and_kim_has_the_reversal_with_their_sign() -> None:
-    own = find_plugins().standard("step-gauge")
+    own = registry().standard("step-gauge")
     found = evaluate(own, measured(), Options(), {})
     assert found.value("XR_mean") == pytest.approx(4e-6, rel=1e-6)
     assert found.value("B_mean") == pytest.approx(-4e-6, rel=1e-6)

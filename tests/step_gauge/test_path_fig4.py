@@ -20,8 +20,8 @@ from dataclasses import replace
 
 import pytest
 
+from installed import registry
 from step_gauge.paths import PLACE, SETTINGS, location, step_gauge
-from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
 from zlmreport_step_gauge.paths.plan import plan_path
 
@@ -74,7 +74,7 @@ def path(slope: float, beside: float = BESIDE) -> ProbingPath:
 
 def written(planned: ProbingPath) -> list[list[str]]:
     """Return the words of the program, statement by statement: the figure's blanks follow no rule."""
-    program = find_plugins().part_program("mv-ms", takes=ProbingPath)
+    program = registry().part_program("mv-ms", takes=ProbingPath)
     return [line.split() for line in program.write(planned, program.options()).splitlines()]
 
 

@@ -8,9 +8,8 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
-from zlmreport.job.loading import load
+from installed import load_job, registry
 from zlmreport.pipeline import compose
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Certificate
 
 
@@ -20,8 +19,7 @@ def composed(folder: Path, sign: str) -> Certificate:
     job = folder / "step-gauge" / "job.yaml"
     text = job.read_text(encoding="utf-8")
     job.write_text(text.replace("file: probed.csv", f"file: probed.csv\n    sign: {sign}"), encoding="utf-8")
-    registry = find_plugins()
-    return compose(load(job, registry), registry)
+    return compose(load_job(job), registry())
 
 
 @pytest.mark.parametrize(

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from environments import ROOT
+from installed import registry
 from refusals import refusal
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.plugin import (
@@ -22,7 +23,6 @@ from zlmreport.plugin import (
     Place,
 )
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import InitialPoints
@@ -31,7 +31,7 @@ from zlmreport_step_gauge.set_up import GaugeSetUp
 
 DATA = ROOT / "tests" / "data" / "step_gauge"
 RAW, LOG, CALYPSO = DATA / "stepgauge_raw.csv", DATA / "stepgauge.res", DATA / "STEPGAUGE_1_chr.txt"
-SOURCE = find_plugins().source("step-gauge")
+SOURCE = registry().source("step-gauge")
 CALIBRATED = read_calibration(DATA / "stepgauge_cal.csv")
 HERE = Place("job.yaml", 12, 5)
 #: The line of the recorded run, and the centre of the front face of its first block: half a micrometre would

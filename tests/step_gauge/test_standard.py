@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from installed import registry
 from zlmreport.plugin import FloatArray
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.standard import position_statistics
 
-STANDARD = find_plugins().standard("step-gauge")
+STANDARD = registry().standard("step-gauge")
 NAN = float("nan")
 FORWARD = [[0.0, 2.0], [NAN, NAN], [4.0, 6.0], [NAN, NAN]]
 BACKWARD = [[NAN, NAN], [1.0, 1.0], [NAN, NAN], [2.0, 6.0]]

@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from installed import registry
+from installed import load_job, registry
 from zlmreport import pipeline
-from zlmreport.job.loading import load
 from zlmreport.plugin import Approach, InputError
 from zlmreport.plugin.extension import Job
 
@@ -41,7 +40,7 @@ def made(tmp_path: Path) -> Any:
             f"evaluate: [nmtba]\n{more}",
             encoding="utf-8",
         )
-        return load(tmp_path / "job.yaml", registry())
+        return load_job(tmp_path / "job.yaml")
 
     return make
 

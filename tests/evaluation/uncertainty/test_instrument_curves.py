@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
+from installed import registry
 from zlmreport.evaluation.uncertainty.instrument_curves import CurveForm, list_forms, sample_waves
 from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
 from zlmreport.plugin import STRAIGHTNESS, Axis, Evaluation, FloatArray, Measurand, error_named
 from zlmreport.plugin.extension import Acts
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Budget
 from zlmreport.plugin.standard import evaluate
 from zlmreport.testing import bidirectional_test
@@ -27,7 +27,7 @@ def evaluate_straightness(
     """Return the straightness of a line and its U; `error`: u of the body it is held against, µm."""
     readings = deviation[:, np.newaxis]
     line = bidirectional_test(at, readings, readings, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
-    standard = find_plugins().standard("iso230-1:2012").of_error(error_named("EYX"))
+    standard = registry().standard("iso230-1:2012").of_error(error_named("EYX"))
     options = standard.options()
     evaluation = evaluate(standard, line, options, {})
     mirror = replace(contribution(error, Acts.AT_EACH_POSITION), contributor="instrument")
@@ -83,7 +83,7 @@ def test_u_of_a_range_holds_an_instrument_that_errs_by_a_wave() -> None:
     curve = 4.0 * np.sin(2 * np.pi * at / 1000 + 0.3)
     readings = curve[:, np.newaxis]
     test = bidirectional_test(at, readings, readings)
-    standard = find_plugins().standard("iso230-2:2014")
+    standard = registry().standard("iso230-2:2014")
     options = standard.options()
     laser = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor="instrument")
     (found,) = propagate(

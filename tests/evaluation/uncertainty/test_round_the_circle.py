@@ -12,11 +12,10 @@ import yaml
 
 from document.certificate.documents import COMPLETE, job as job_of_axis
 from evaluation.uncertainty.budgets import make_budget_of
-from installed import registry
+from installed import load_job, registry
 from refusals import refused
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.round_the_circle import is_round, smooth_curves
-from zlmreport.job.loading import load
 from zlmreport.plugin import Evaluation, InputError, Language
 from zlmreport.plugin.extension import Acts, Contribution, Job
 from zlmreport.plugin.renderer import Budget
@@ -69,7 +68,7 @@ def job(folder: Path, *, calibrated: bool = True, arc: float = 360.0, **groups: 
     }
     path = folder / "job.yaml"
     path.write_text(yaml.safe_dump(keys, sort_keys=False), encoding="utf-8")
-    return load(path, registry())
+    return load_job(path)
 
 
 def named(found: Budget) -> dict[str, Contribution]:

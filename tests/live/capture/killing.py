@@ -11,6 +11,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+from installed import registry
 from live.capture.operated import OperatedAxis
 from plugins.instruments.lines import plugged_in
 from processes import PATIENCE, ZLMREPORT, group
@@ -21,7 +22,6 @@ from zlmreport.plugin.instrument import (
     Scene,
     read_journal,
 )
-from zlmreport.plugin.registry import find_plugins
 
 #: The share of kills before a capture follows the axis, and how long it takes until then, s.
 _KILLED_EARLY, _BEGINNING = 0.25, 1.0
@@ -111,15 +111,14 @@ def killed_capture(folder: Path, kills: int, runs: int, seed: int = 1) -> Killed
     random = Random(seed)
     simulation, job = folder / "simulation.yaml", folder / "job.yaml"
     simulation.write_text(_SIMULATION.format(runs=runs), encoding="utf-8")
-    registry = find_plugins()
-    axis = OperatedAxis(read_description_of(load_simulation(simulation, registry), registry.effect))
+    axis = OperatedAxis(read_description_of(load_simulation(simulation, registry()), registry().effect))
     done = Killed(axis, job, folder / "x.journal")
     began = time.monotonic()
 
     def now() -> float:
         return time.monotonic() - began
 
-    with plugged_in(registry.instrument("umd1").emulator(Scene(axis)), clock=now) as port:
+    with plugged_in(registry().instrument("umd1").emulator(Scene(axis)), clock=now) as port:
         job.write_text(_JOB.format(port=port, runs=runs), encoding="utf-8")
         while not (done.has_begun and done.history.progress.is_over):
             _sitting(done, now, random if done.kills < kills else None)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from installed import registry
 from refusals import refused
 from zlmreport import pipeline
 from zlmreport.job.loading import load
@@ -22,9 +23,8 @@ from zlmreport.live.capture.of_job import (
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin import AccessError, InputError, Place
 from zlmreport.plugin.extension import Job
-from zlmreport.plugin.registry import find_plugins
 
-REGISTRY = find_plugins()
+REGISTRY = registry()
 JOB = """\
 schema: zlmreport/job/1
 certificate: {number: CAP-1, kind: report}

@@ -4,15 +4,15 @@ import re
 
 import pytest
 
+from installed import registry
 from zlmreport.model.effects.circle_effect import title_parameter
 from zlmreport.plugin import Language
 from zlmreport.plugin.circle_effect import CircleEffect
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import circle_designs
 
 #: Words that are no language's: functions, and the names of the tests of which a design consists.
 _NO_LANGUAGE = re.compile(r"\b(sin|cos|circle-\d)\b")
-EFFECTS = find_plugins().circle_effects
+EFFECTS = registry().circle_effects
 
 
 def titles(effect: CircleEffect, language: Language) -> list[str]:

@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
+from installed import registry
 from machines.simulated import circle, nothing
 from zlmreport.machines.design import clear_of_reversals, make_thinned_design
 from zlmreport.plugin import MICROMETRE, Language
 from zlmreport.plugin.circle_effect import Estimate
-from zlmreport.plugin.registry import find_plugins
 
 
 def said(*estimates: tuple[str, float, float], of: str = "circle-backlash") -> list[str]:
     """Return the sentences on what an effect found, of values with their U in µm."""
-    effect = next(each for each in find_plugins().circle_effects if each.identifier == of)
+    effect = next(each for each in registry().circle_effects if each.identifier == of)
     found = [Estimate(name, MICROMETRE, value * 1e-6, u * 1e-6) for name, value, u in estimates]
     return [each.in_language(Language.ENGLISH) for each in effect.findings(found)]
 
@@ -47,7 +47,7 @@ def test_lateral_play_is_said_with_its_axis_whichever_way_it_shifts() -> None:
 def test_an_axis_that_turned_in_the_feed_in_has_its_spike_at_the_beginning_of_a_turn(first: float) -> None:
     """X turns at 0° and 180°: each turn shows two spikes of it, though no reading lies at 0° itself."""
     design = make_thinned_design([clear_of_reversals(circle(nothing, noise=0.0, first=first))]).fine
-    effect = next(each for each in find_plugins().circle_effects if each.identifier == "reversal-spikes")
+    effect = next(each for each in registry().circle_effects if each.identifier == "reversal-spikes")
     column = next(each for each in effect.terms(design, effect.grid(design)[0]) if each.name == "X").column
     for turn in design.turns.tolist():
         own = design.turn == turn

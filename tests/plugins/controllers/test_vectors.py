@@ -10,9 +10,9 @@ from decimal import Decimal
 import numpy as np
 import pytest
 
+from installed import registry
 from zlmreport.plugin import Axis, InputError, Place, read_only_floats
 from zlmreport.plugin.controller import CompensationTable
-from zlmreport.plugin.registry import find_plugins
 
 PLACE = Place("job.yaml", 1)
 #: A screw every 30 mm, µm moving forward; moving back 12 µm more. The files below are of this curve.
@@ -39,12 +39,12 @@ def curve() -> CompensationTable:
 
 
 def written(name: str, of: CompensationTable, **keys) -> dict[str, str]:
-    controller = find_plugins().controller(name)
+    controller = registry().controller(name)
     return dict(controller.files(of, controller.options.model_validate(keys)))
 
 
 def decoded(name: str, files: dict[str, str], of: CompensationTable, **keys) -> CompensationTable:
-    controller = find_plugins().controller(name)
+    controller = registry().controller(name)
     return controller.read(files, of, controller.options.model_validate(keys))
 
 

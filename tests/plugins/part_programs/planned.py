@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from installed import registry
 from zlmreport.plugin.program import Motion
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import sample_motion
 
-REGISTRY = find_plugins()
+REGISTRY = registry()
 
 
 def written(identifier: str, motion: Motion | None = None, **keys: Any) -> str:

@@ -8,10 +8,9 @@ from typing import Any
 import pytest
 
 from environments import ROOT
-from installed import registry
+from installed import load_job, registry
 from plugins.renderers.results import VALIDATOR, results_of
 from zlmreport import pipeline
-from zlmreport.job.loading import load
 
 AMENDED = {"number": "EXAMPLE-0", "kind": "replacement", "reason": "Wrong serial number."}
 
@@ -26,7 +25,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
         "certificate: {number: EXAMPLE-1, amends: {number: EXAMPLE-0, kind: replacement, "
         "reason: Wrong serial number.}}\n"
     )
-    return results_of(pipeline.compose(load(path, registry()), registry()))
+    return results_of(pipeline.compose(load_job(path), registry()))
 
 
 def test_it_fits_its_schema(results: Any) -> None:

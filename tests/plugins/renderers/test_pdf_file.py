@@ -17,12 +17,11 @@ from weasyprint import HTML
 
 from document.typesetting import samples
 from environments import ROOT
-from installed import registry
+from installed import load_job, registry
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import ATTACHED, fonts, read, sample, specifications
 from processes import PYTHON, ZLMREPORT, run
 from zlmreport import pipeline
-from zlmreport.job.loading import load
 from zlmreport.plugin import AccessError, Language
 from zlmreport_plugins.renderers.pdf import press
 
@@ -141,7 +140,7 @@ def test_the_file_opens_without_a_complaint() -> None:
 
 @pytest.mark.long
 def test_a_certificate_with_a_diagnosis_conforms() -> None:
-    loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry(), formats=("pdf",))
+    loaded = load_job(Path(ROOT, "configs", "hidden-effect", "job.yaml"), formats=("pdf",))
     (document,) = pipeline.run(loaded, registry()).documents
     assert complaints(document.content) == []
 

@@ -13,11 +13,10 @@ from pypdf import PdfReader
 
 from document.typesetting import samples
 from environments import ROOT
+from installed import load_job, registry
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers, read, sample, texts, unspaced
 from zlmreport import pipeline
-from zlmreport.job.loading import load
 from zlmreport.plugin import InputError, Language
-from zlmreport.plugin.registry import find_plugins
 from zlmreport.plugin.renderer import Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
 from zlmreport_plugins.renderers.pdf_typst.words import AS_WORDS, MARKED, SYMBOL, fit_text_with_symbols
 
@@ -85,12 +84,11 @@ def test_it_says_what_the_other_says_letter_for_letter(language: Language) -> No
 @pytest.mark.long
 @pytest.mark.parametrize("job", ["german/messbericht.yaml", "as-found/certificate.yaml"])
 def test_every_number_and_every_sentence_of_a_real_certificate_stands_in_both(job: str) -> None:
-    registry = find_plugins()
-    certificate = pipeline.compose(load(Path(ROOT, "configs", job), registry, ("pdf",)), registry)
+    certificate = pipeline.compose(load_job(Path(ROOT, "configs", job), ("pdf",)), registry())
     sentences = list(_sentences(certificate))
     assert len(sentences) > 20
     for identifier in ("pdf", "pdf-typst"):
-        reader = PdfReader(BytesIO(registry.renderer(identifier).render(certificate)))
+        reader = PdfReader(BytesIO(registry().renderer(identifier).render(certificate)))
         body = _body(reader, _running(certificate))
         assert [sentence for sentence in sentences if unspaced(sentence) not in body] == []
         assert not numbers_of(certificate) - printed_numbers("\n".join(texts(reader)))

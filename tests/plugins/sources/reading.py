@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from installed import registry
-from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
+from zlmreport.plugin import Approach, Axis, InputError, Language, MeasurementSet, Place
 from zlmreport.plugin.protocols import DataSource, SourceContext
 
 DATA = Path(__file__).parents[2] / "data"
@@ -58,6 +58,11 @@ class File:
 def said(measurements: MeasurementSet) -> list[str]:
     """Return the remarks on the readings, in English."""
     return [remark.in_language(Language.ENGLISH) for remark in measurements.provenance.remarks]
+
+
+def missing_in(measurements: MeasurementSet) -> list[tuple[float, Approach, int]]:
+    """Return target (m or rad), direction and run of each reading that is missing."""
+    return [astuple(each) for each in measurements.missing()]
 
 
 def assert_same_readings(first: MeasurementSet, second: MeasurementSet, tolerance: float = 0.0) -> None:

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
-from zlmreport.measurement.measurement_set import MissingReading
+from plugins.sources.reading import DATA, MM, File, assert_same_readings, missing_in, said
 from zlmreport.plugin import Approach, Axis, AxisKind
 
 SPECIMEN = (DATA / "sources" / "ecmc_13e6c326.dat").read_bytes()
@@ -100,10 +99,10 @@ def test_an_entry_that_is_empty_or_not_there_is_a_missing_reading(file: File) ->
     content = LOG.replace("REF_DATA_FWD[1,1]=-19.999", "REF_DATA_FWD[1,1]=").replace(
         "REF_DATA_BWD[2,1]=19.999\n", ""
     )
-    assert file.read(content).missing() == (
-        MissingReading(-20 * MM, Approach.POSITIVE, 1),
-        MissingReading(20 * MM, Approach.NEGATIVE, 1),
-    )
+    assert missing_in(file.read(content)) == [
+        (-20 * MM, Approach.POSITIVE, 1),
+        (20 * MM, Approach.NEGATIVE, 1),
+    ]
 
 
 def test_a_direction_without_any_entry_was_not_measured(file: File) -> None:

@@ -12,14 +12,14 @@ from hypothesis import given, strategies as st
 from openpyxl import Workbook
 from pydantic import ValidationError
 
+from installed import registry
 from plugins.sources.reading import UM, File, said
 from plugins.sources.test_any_file import WIDE, damaged
 from plugins.sources.untidy_files import FILES
 from zlmreport.looking import look_at
 from zlmreport.plugin import Axis, AxisKind, InputError
-from zlmreport.plugin.registry import find_plugins
 
-REGISTRY = find_plugins({})
+REGISTRY = registry()
 HEADER = "target;direction;run;deviation\n"
 #: What damage is done to.
 SAMPLES = [

@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from plugins.sources.reading import DATA, MM, UM, File, assert_same_readings, said
-from zlmreport.measurement.measurement_set import MissingReading
+from plugins.sources.reading import DATA, MM, UM, File, assert_same_readings, missing_in, said
 from zlmreport.plugin import Approach, Axis, AxisKind
 
 HEADER = "target,direction,run,deviation\n"
@@ -229,7 +228,7 @@ def test_a_file_without_runs_is_one_run(file: File) -> None:
 
 def test_a_missing_reading_is_an_empty_cell(file: File) -> None:
     measurements = file.read(f"{HEADER}0,+,1,\n100,+,1,2\n")
-    assert measurements.missing() == (MissingReading(0.0, Approach.POSITIVE, 1),)
+    assert missing_in(measurements) == [(0.0, Approach.POSITIVE, 1)]
 
 
 def test_all_but_the_reading_must_be_there(file: File) -> None:

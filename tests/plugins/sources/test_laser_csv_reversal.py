@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from installed import registry
 from zlmreport.plugin import (
     Axis,
     InputError,
@@ -17,7 +18,6 @@ from zlmreport.plugin import (
     error_named,
 )
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugin.registry import find_plugins
 
 POSITIONS = np.arange(0.0, 601.0, 100.0)
 AXIS = 2e-5 * POSITIONS * (600.0 - POSITIONS) + 0.004 * POSITIONS
@@ -35,7 +35,7 @@ def table(folder: Path, name: str, values: np.ndarray, order: int = 1) -> Path:
 
 
 def read(folder: Path, axis: Axis = STRAIGHTNESS, order: int = 1, **keys: Any) -> MeasurementSet:
-    source = find_plugins().source("laser-csv-reversal")
+    source = registry().source("laser-csv-reversal")
     first = table(folder, "first.csv", AXIS + MIRROR)
     second = table(folder, "second.csv", AXIS - MIRROR + 0.001 * POSITIONS, order)
     options = source.options.model_validate({"file": first, "reversed": second, **keys})

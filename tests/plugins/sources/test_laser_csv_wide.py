@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from plugins.sources.reading import File, assert_same_readings, said
-from zlmreport.measurement.measurement_set import MissingReading
+from plugins.sources.reading import File, assert_same_readings, missing_in, said
 from zlmreport.plugin import Approach, MeasurementSet
 
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
@@ -130,7 +129,7 @@ def test_units_are_of_each_column_or_stated_for_all(file: File) -> None:
 
 def test_an_empty_cell_is_a_missing_reading(file: File) -> None:
     measurements = wide(file, "target,1+,1-\n0,1,2\n100,,4\n")
-    assert measurements.missing() == (MissingReading(0.1, UP, 1),)
+    assert missing_in(measurements) == [(0.1, UP, 1)]
 
 
 def test_a_target_that_stands_in_two_rows_is_there_twice(file: File) -> None:

@@ -10,8 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from installed import registry
-from plugins.sources.reading import DATA, MM, File, assert_same_readings, said
-from zlmreport.measurement.measurement_set import MissingReading
+from plugins.sources.reading import DATA, MM, File, assert_same_readings, missing_in, said
 from zlmreport.plugin import Approach, Axis, AxisKind, Language
 
 SPECIMEN = (DATA / "sources" / "bidirectional.rtl").read_bytes()
@@ -67,7 +66,7 @@ def test_the_direction_is_that_of_the_positions_where_targets_are_listed_falling
 def test_targets_go_by_their_number_and_not_by_the_line(file: File) -> None:
     measurements = file.read(specimen("1 1 1\n1 3 3\n2 3 3.5\n2 2 2.5\n2 1 1.5"))
     assert measurements.target.tolist() == [0, 1, 2, 2, 1, 0]
-    assert measurements.missing() == (MissingReading(100 * MM, Approach.POSITIVE, 1),)
+    assert missing_in(measurements) == [(100 * MM, Approach.POSITIVE, 1)]
 
 
 def test_runs_may_be_interleaved(file: File) -> None:

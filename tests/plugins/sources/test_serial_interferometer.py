@@ -12,9 +12,8 @@ import pytest
 from installed import registry
 from live.capture.moves import MM, UM, Axis, listed, planned
 from live.capture.recording import recorded, written
-from plugins.sources.reading import DATA, JOB, said
+from plugins.sources.reading import DATA, JOB, missing_in, said
 from zlmreport.live.capture.journal import Journal
-from zlmreport.measurement.measurement_set import MissingReading
 from zlmreport.model.planning.methods import Method
 from zlmreport.plugin import (
     AccessError,
@@ -82,7 +81,7 @@ def test_the_datum_of_the_capture_is_that_of_the_readings() -> None:
 
 def test_a_missed_visit_is_a_missing_reading() -> None:
     measurements = read(LINEAR)
-    assert measurements.missing() == (MissingReading(100 * MM, Approach.NEGATIVE, 2),)
+    assert missing_in(measurements) == [(100 * MM, Approach.NEGATIVE, 2)]
     assert "1 of 12 visits of the plan has no reading." in said(measurements)
 
 

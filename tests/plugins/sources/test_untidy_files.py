@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from installed import registry
 from plugins.sources import untidy_files
 from plugins.sources.untidy_files import FILES, Untidy, german, rows, text
 from zlmreport.cli import main
 from zlmreport.looking import look_at
 from zlmreport.plugin import InputError
-from zlmreport.plugin.registry import find_plugins
 
-REGISTRY = find_plugins({})
+REGISTRY = registry()
 
 
 @pytest.fixture(params=FILES, ids=[each.__name__.lstrip("_") for each in FILES])
