@@ -21,7 +21,7 @@ _ROOT = Path(__file__).parents[2]
 _PICTURES = _ROOT / "docs" / "images"
 _ZLMREPORT = Path(sys.executable).with_name("zlmreport")
 _DOTS_PER_INCH = 110
-_COLOURS = 128
+_COLOURS = 256
 
 
 def make(name: str, pdf: Path, page: int) -> None:

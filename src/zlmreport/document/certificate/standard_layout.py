@@ -287,7 +287,7 @@ def _lay_out_in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> 
             blocks.append(replace(defined, caption=writer.say(caption)))
         # Below its own definitions: of "2 standard deviations" a reader must know which standard takes them.
         notes = (writer.say(note) for each in page for note in each.evaluation.notes)
-        blocks += map(Paragraph, dict.fromkeys(notes))
+        blocks += (Paragraph(note, fine=True) for note in dict.fromkeys(notes))
     if blocks:
         yield Section("definitions", writer.say(_DEFINITIONS), tuple(blocks))
 
