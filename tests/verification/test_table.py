@@ -9,12 +9,13 @@ from time import process_time
 from types import SimpleNamespace
 
 import pytest
+from pikepdf import String
 from pypdf.generic import DictionaryObject, NameObject, NumberObject
 
 from verification.altering import rewritten
 from verification.forgeries import plain
 from verification.issued import altered
-from verification.raw_forgeries import with_packed_table
+from verification.raw_forgeries import objects, together, with_packed_table
 from verification.test_trust import signed
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationVerdict
@@ -82,6 +83,41 @@ def test_a_packed_table_of_more_objects_than_any_certificate_is_not_unpacked(
     monkeypatch.setattr(table, "_MOST_OBJECTS", len(re.findall(rb"\d+ 0 obj\b", packed)) - 1)
     found = check_table(packed, is_signed=False)
     assert found.detail == "it holds more objects than any certificate"
+
+
+def _with_producer(whole: bytes, text: str) -> bytes:
+    return plain(rewritten(whole, lambda pdf: pdf.docinfo.__setitem__("/Producer", String(text))))
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (
+            lambda whole: together(whole, trailer=lambda end: re.sub(rb"/Size \d+", b"/Size 9", end)),
+            "its table states another number of objects than there are",
+        ),
+        (
+            lambda whole: whole.replace(b" 00000 n \n", b" 00000 f \n", 1),
+            "object 1 is free by the table, and stands there",
+        ),
+        (
+            lambda whole: re.sub(rb"\d{10} 00000 n ", b"0000000007 00000 n ", whole, count=1),
+            "object 1 is not where the table says",
+        ),
+        (
+            lambda whole: whole.replace(b"\n1 0 obj", b"\n1 1 obj", 1),
+            "object 1 stands there in another generation",
+        ),
+        (lambda whole: together(whole, objects(whole)[1]), "object 1 stands there twice"),
+        (lambda whole: _with_producer(whole, "endobj"), "endobj stands there where it marks nothing"),
+        (lambda whole: _with_producer(whole, "%PDF-"), "%PDF- stands there where it marks nothing"),
+        (lambda whole: _with_producer(whole, "\n9 0 obj"), "an object that is none begins at byte "),
+    ],
+)
+def test_a_table_that_is_not_that_of_the_objects_is_told(
+    change: Callable[[bytes], bytes], told: str, issued: bytes
+) -> None:
+    assert str(check_table(change(plain(issued)), is_signed=False).detail).startswith(told)
 
 
 @pytest.mark.long
