@@ -163,19 +163,25 @@ def test_what_two_readers_might_take_differently_is_no_object(text: bytes) -> No
         read_value(text, 0)
 
 
+_NO_END = "object 1 has no end, or data of a length that it does not state"
+
+
 @pytest.mark.parametrize(
-    "text",
+    ("text", "told"),
     [
-        b"1 0 obj 5 6 endobj",
-        b"1 0 obj << /Length 3 >> stream\nabcd\nendstream endobj",
-        b"1 0 obj << /Length 2 0 R >> stream\nabcd\nendstream\nendobj",
-        b"1 0 obj << >> stream\nabcd\nendstream\nendobj",
-        b"01 0 obj 5 endobj",
-        b"1 0 obj 5",
+        (b"1 0 obj 5 6 endobj", _NO_END),
+        (
+            b"1 0 obj << /Length 3 >> stream\nabcd\nendstream endobj",
+            "the data of object 1 are not as long as it states",
+        ),
+        (b"1 0 obj << /Length 2 0 R >> stream\nabcd\nendstream\nendobj", _NO_END),
+        (b"1 0 obj << >> stream\nabcd\nendstream\nendobj", _NO_END),
+        (b"01 0 obj 5 endobj", "no object begins at byte 0"),
+        (b"1 0 obj 5", _NO_END),
     ],
 )
-def test_an_object_ends_where_it_says(text: bytes) -> None:
-    with pytest.raises(OddError):
+def test_an_object_ends_where_it_says(text: bytes, told: str) -> None:
+    with pytest.raises(OddError, match=f"^{told}$"):
         read_object(text, 0)
 
 
