@@ -43,6 +43,25 @@ def test_a_jump_of_the_only_axis_of_a_fleet_is_seen_too() -> None:
     assert trend.step
 
 
+@pytest.mark.parametrize(
+    ("limits", "shares"),
+    [
+        ([20.0], [1.0]),
+        ([20.0, 20.0], [0.5, 0.5]),
+        ([20.0, None], [1.0, None]),
+        ([None, None], [1.0, None]),
+    ],
+)
+def test_parameters_with_a_limit_share_the_chance_of_a_false_alarm_of_their_axis(
+    limits: list[float | None], shares: list[float | None]
+) -> None:
+    entries = [
+        entry(day, *(parameter(8.0, symbol=f"A{at}", limit=limit) for at, limit in enumerate(limits)))
+        for day in quarters(5)
+    ]
+    assert [each.course.share if each.course else None for each in judged(entries)] == shares
+
+
 def test_what_came_before_a_step_that_was_borne_out_is_no_part_of_a_drift() -> None:
     trend = fleet_with([3.9, 3.6, 3.8, 3.9, 12.8, 12.6, 12.9, 12.7, 12.8])
     assert trend.course

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from environments import ROOT
-from fleet.histories import entry, parameter, quarters
+from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.trend import (
     DAYS_PER_YEAR,
     Series,
@@ -180,3 +180,8 @@ def test_a_limit_that_was_passed_has_its_date_in_the_past() -> None:
 def test_every_forecast_of_a_history_is_a_date() -> None:
     line = fit_line_through(series([1.0, 1.0, 1.0, 1.0, 1.0 + 1e-6]))
     assert forecast(line, 1e9, date(2026, 1, 1)) is None
+
+
+def test_a_history_is_read_from_the_ledger_as_it_stands() -> None:
+    (found,) = list_series_of(select_standing(history([1.0, 2.0, 3.0])))
+    assert fit_line_through(found).at(found.calibrations[1].measured) == pytest.approx(2.0, rel=1e-12)

@@ -92,6 +92,20 @@ def test_a_mistake_is_named_with_its_place_and_what_would_be_right(
     assert message in mistakes(tmp_path, line)
 
 
+@pytest.mark.parametrize(
+    "line",
+    ["output: {directory: ../out}", "ledger: ../x.db", "log: {file: ../x.log}", "priors: ../priors.yaml"],
+)
+def test_what_a_confined_fleet_keeps_elsewhere_is_told_where_it_stands(tmp_path: Path, line: str) -> None:
+    said = mistakes(tmp_path, "confine: .", line)
+    assert said.startswith("fleet.yaml:4:")
+    assert "to which this run is confined" in said
+
+
+def test_a_database_lies_in_no_folder_to_which_a_fleet_is_confined(tmp_path: Path) -> None:
+    assert loaded(tmp_path, "confine: .", "ledger: postgresql://server/fleet").ledger.startswith("postgresql")
+
+
 def test_a_job_is_no_fleet(tmp_path: Path) -> None:
     path = tmp_path / "job.yaml"
     path.write_text(SOUND, encoding="utf-8")

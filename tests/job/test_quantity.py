@@ -32,6 +32,10 @@ def of(measurement: str) -> str:
         ),
         ("{at: {Q: 3}, source: {plugin: exemplary-text, file: six.txt}}", "'Q' is no axis"),
         ("{at: {tool: 3}, source: {plugin: exemplary-text, file: six.txt}}", "tool is three offsets"),
+        (
+            "{error: ECC, source: {plugin: exemplary-text, file: six.txt}}",
+            "measurement.error: ECC belongs to a rotary axis; axis.kind: rotary",
+        ),
         ("{date: 2026-11-18}", "measurement.source: missing"),
     ],
 )

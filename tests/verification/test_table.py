@@ -9,12 +9,13 @@ from time import process_time
 from types import SimpleNamespace
 
 import pytest
+from pikepdf import String
 from pypdf.generic import DictionaryObject, NameObject, NumberObject
 
 from verification.altering import rewritten
 from verification.forgeries import plain
 from verification.issued import altered
-from verification.raw_forgeries import with_packed_table
+from verification.raw_forgeries import objects, together, with_packed_table
 from verification.test_trust import signed
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationVerdict
@@ -84,6 +85,41 @@ def test_a_packed_table_of_more_objects_than_any_certificate_is_not_unpacked(
     assert found.detail == "it holds more objects than any certificate"
 
 
+def _with_producer(whole: bytes, text: str) -> bytes:
+    return plain(rewritten(whole, lambda pdf: pdf.docinfo.__setitem__("/Producer", String(text))))
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (
+            lambda whole: together(whole, trailer=lambda end: re.sub(rb"/Size \d+", b"/Size 9", end)),
+            "its table states another number of objects than there are",
+        ),
+        (
+            lambda whole: whole.replace(b" 00000 n \n", b" 00000 f \n", 1),
+            "object 1 is free by the table, and stands there",
+        ),
+        (
+            lambda whole: re.sub(rb"\d{10} 00000 n ", b"0000000007 00000 n ", whole, count=1),
+            "object 1 is not where the table says",
+        ),
+        (
+            lambda whole: whole.replace(b"\n1 0 obj", b"\n1 1 obj", 1),
+            "object 1 stands there in another generation",
+        ),
+        (lambda whole: together(whole, objects(whole)[1]), "object 1 stands there twice"),
+        (lambda whole: _with_producer(whole, "endobj"), "endobj stands there where it marks nothing"),
+        (lambda whole: _with_producer(whole, "%PDF-"), "%PDF- stands there where it marks nothing"),
+        (lambda whole: _with_producer(whole, "\n9 0 obj"), "an object that is none begins at byte "),
+    ],
+)
+def test_a_table_that_is_not_that_of_the_objects_is_told(
+    change: Callable[[bytes], bytes], told: str, issued: bytes
+) -> None:
+    assert str(check_table(change(plain(issued)), is_signed=False).detail).startswith(told)
+
+
 @pytest.mark.long
 def test_every_byte_between_objects_counts(issued: bytes) -> None:
     """A byte that is put anywhere into the file is found: by its place, or by the place of what follows."""
@@ -127,19 +163,25 @@ def test_what_two_readers_might_take_differently_is_no_object(text: bytes) -> No
         read_value(text, 0)
 
 
+_NO_END = "object 1 has no end, or data of a length that it does not state"
+
+
 @pytest.mark.parametrize(
-    "text",
+    ("text", "told"),
     [
-        b"1 0 obj 5 6 endobj",
-        b"1 0 obj << /Length 3 >> stream\nabcd\nendstream endobj",
-        b"1 0 obj << /Length 2 0 R >> stream\nabcd\nendstream\nendobj",
-        b"1 0 obj << >> stream\nabcd\nendstream\nendobj",
-        b"01 0 obj 5 endobj",
-        b"1 0 obj 5",
+        (b"1 0 obj 5 6 endobj", _NO_END),
+        (
+            b"1 0 obj << /Length 3 >> stream\nabcd\nendstream endobj",
+            "the data of object 1 are not as long as it states",
+        ),
+        (b"1 0 obj << /Length 2 0 R >> stream\nabcd\nendstream\nendobj", _NO_END),
+        (b"1 0 obj << >> stream\nabcd\nendstream\nendobj", _NO_END),
+        (b"01 0 obj 5 endobj", "no object begins at byte 0"),
+        (b"1 0 obj 5", _NO_END),
     ],
 )
-def test_an_object_ends_where_it_says(text: bytes) -> None:
-    with pytest.raises(OddError):
+def test_an_object_ends_where_it_says(text: bytes, told: str) -> None:
+    with pytest.raises(OddError, match=f"^{told}$"):
         read_object(text, 0)
 
 

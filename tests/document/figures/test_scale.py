@@ -136,6 +136,7 @@ def test_labels_of_round_positions_keep_apart() -> None:
 def test_degrees_of_a_turn_are_told_by_its_parts(width: float, expected: list[float]) -> None:
     scale = make_position_scale(np.arange(0.0, 360.0, 0.7), width, 12.0, POINT, _width, of_a_turn=True)
     assert list(scale.ticks) == expected
+    assert list(scale.labels) == list(map(str, expected))
 
 
 def test_a_single_target_has_its_label() -> None:

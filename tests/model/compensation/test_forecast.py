@@ -21,8 +21,10 @@ TARGETS = np.array([0.0, 0.1, 0.3])
 HIGH = 2.2414
 
 
-def mean_range(*parts: DeviationPart, budget: Budget | None = None, single: float = SINGLE) -> ExpectedFigure:
-    """Return M of a second test in one direction, where a table leaves nothing that is known."""
+def second_test(
+    *parts: DeviationPart, budget: Budget | None = None, single: float = SINGLE
+) -> dict[str, ExpectedFigure]:
+    """Return what a second test shows in one direction, where a table leaves nothing that is known."""
     none = np.zeros((2, len(parts[0].directions)))
     targets = TARGETS[: none.shape[1]]
     curve = ErrorCurve(targets, none[0], none[1], np.full_like(none, single), RUNS, (Approach.POSITIVE,))
@@ -31,7 +33,11 @@ def mean_range(*parts: DeviationPart, budget: Budget | None = None, single: floa
         curve, lambda at: np.zeros((2, len(at))), none, parts, scatter, lambda _: np.zeros_like
     )
     table = CompensationTable(Axis("X"), "T", targets, none[0], none[0], Place("test"))
-    return forecast(basis, table, table, None, budget).second_test["M"]
+    return forecast(basis, table, table, None, budget).second_test
+
+
+def mean_range(*parts: DeviationPart, budget: Budget | None = None, single: float = SINGLE) -> ExpectedFigure:
+    return second_test(*parts, budget=budget, single=single)["M"]
 
 
 def known_by_means(targets: int) -> DeviationPart:
@@ -70,3 +76,14 @@ def test_what_fluctuates_in_the_set_up_is_in_the_scatter_already() -> None:
     noise = Contribution(same("noise"), 1e-6, Acts.AT_EACH_READING, Distribution.NORMAL, same(""), same(""))
     alone, more = (mean_range(known_by_means(3), budget=each) for each in (None, Budget((noise,))))
     assert more.high == pytest.approx(alone.high, rel=1e-6)
+
+
+def test_accuracy_of_a_second_test_is_that_of_tests_that_are_drawn_by_its_definition() -> None:
+    random = np.random.default_rng(2)
+    axes = OWN * random.standard_normal((100_000, 2, 1))
+    tests = axes + SINGLE * random.standard_normal((100_000, 2, RUNS))
+    mean, reach = tests.mean(axis=-1), 2 * tests.std(axis=-1, ddof=1)
+    accuracy = (mean + reach).max(axis=-1) - (mean - reach).min(axis=-1)
+    found = second_test(known_by_means(2))
+    assert (found["A"].low, found["A"].high) == pytest.approx(np.quantile(accuracy, [0.025, 0.975]), rel=0.04)
+    assert found["E"] == found["M"]  # one direction
