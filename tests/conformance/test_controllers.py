@@ -83,7 +83,7 @@ EXAMPLES = {
     "heidenhain": ControlExample(
         {
             ".COM": "BEGIN X_AXIS .COM\nNR AXISPOS  BACKLASH  X\n0     +0.0000   +0.0015   +0.0000\n"
-            "1     +50.2500   +0.0048   +0.0033\n2     +100.5000   -0.0010   -0.0025\n[END]\n",
+            "1     +50.2500   +0.0015   +0.0033\n2     +100.5000   +0.0015   -0.0025\n[END]\n",
             ".CMA": "BEGIN CONFIG .CMA\nNR ACTIVE X\n0  *      KIT-7.COM\n[END]\n",
         },
         ((0, 0, 1.5), (50.25, 3.3, 4.8), (100.5, -2.5, -1)),

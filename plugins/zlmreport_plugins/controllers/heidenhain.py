@@ -27,17 +27,17 @@ class HeidenhainOptions(NamedAxisOptions):
 
     backlash: Literal["reverse", "play"] | None = Field(
         None,
-        description="What the control wants in BACKLASH: the deviations moving back (reverse), or by how "
-        "much they differ from those moving forward (play). Without it reverse, which the sheet says.",
+        description="What the control wants in BACKLASH: by how much the deviations moving back differ from "
+        "those moving forward (play), or these themselves (reverse). Without it play, which the sheet says.",
     )
 
 
 class Heidenhain(OnPaper):
-    """HEIDENHAIN ``.COM`` and ``.CMA``: position, deviation back and forward, mm; which axis has which table.
+    """HEIDENHAIN ``.COM`` and ``.CMA``: position, play and deviation forward, mm; which axis has which table.
 
     The columns are documented (NR, AXISPOS, BACKLASH, the axis; NR, ACTIVE, the axis): at most 256 rows,
-    equally far apart, and BACKLASH has what was measured in the negative direction (technical manual
-    MANUALplus 620, 6.10). Head and sign are not confirmed.
+    equally far apart, and of one control BACKLASH has what was measured in the negative direction (technical
+    manual MANUALplus 620, 6.10). Of others it is not known, and neither head nor sign is confirmed.
     """
 
     identifier = "heidenhain"
@@ -58,9 +58,9 @@ class Heidenhain(OnPaper):
         """Yield what BACKLASH was taken for, where that makes a difference."""
         if options.backlash is None and np.any(table.forward != table.reverse):
             yield Words(
-                "Taken for granted: the column BACKLASH has the deviations moving back themselves, as the "
-                "maker's manual of the MANUALplus 620 says. A control that wants only their difference there "
-                "takes away too much: state compensation.backlash, reverse or play."
+                "Taken for granted: the column BACKLASH has by how much the deviations moving back differ "
+                "from those moving forward. The maker's manual of the MANUALplus 620 has the deviations "
+                "moving back themselves there: state compensation.backlash, play or reverse."
             )
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
@@ -70,7 +70,7 @@ class Heidenhain(OnPaper):
         assigned = ("BEGIN CONFIG .CMA", f"NR ACTIVE {name}", f"0  *      {table.number}.COM", "[END]")
         lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
         for row, (at, up, down) in enumerate(zip(*make_columns(table), strict=True)):
-            back = float(down - (up if options.backlash == "play" else 0.0))
+            back = float(down - (up if options.backlash != "reverse" else 0.0))
             lines.append(f"{row}     {at:+.4f}   {back + 0.0:+.4f}   {float(up) + 0.0:+.4f}")
         return {".COM": join_lines((*lines, "[END]")), ".CMA": join_lines(assigned)}
 
@@ -78,7 +78,7 @@ class Heidenhain(OnPaper):
         """Return the rows."""
         rows = [[float(each) for each in line.split()] for line in files[".COM"].splitlines()[2:-1]]
         _, positions, back, forward = zip(*rows, strict=True)
-        base = forward if options.backlash == "play" else (0.0,) * len(forward)
+        base = forward if options.backlash != "reverse" else (0.0,) * len(forward)
         return decode(table, positions, forward, [each + gap for each, gap in zip(base, back, strict=True)])
 
 

@@ -149,6 +149,8 @@ DIRECTIONAL = {"linuxcnc", "heidenhain"}
 
 #: Those that count their rows from the reference point.
 COUNTING = {"fanuc", "mitsubishi"}
+#: The keys of the control whose manual was read.
+KEYS: dict[str, dict[str, object]] = {"heidenhain": {"backlash": "reverse"}, "fanuc": {"magnification": 2}}
 
 
 def make_of(  # noqa: PLR0913, PLR0917 - a test, and what is asked for
@@ -199,7 +201,7 @@ REFERENCES = [0.0, -400.0, 35.0, 400.0, 520.0]
 @pytest.mark.parametrize("name", CONTROLS)
 def test_a_linear_axis_is_taken_to_its_lost_motion(name: str, reference: float) -> None:
     axis, targets = Axis("X"), np.arange(-400.0, 401.0, 25.0)
-    keys: dict[str, object] = {"reference_position": reference} if name in COUNTING else {}
+    keys = {"reference_position": reference} if name in COUNTING else dict(KEYS.get(name, {}))
     if name == "fanuc":
         keys["reference"] = 70
     made = make_of(name, targets, screw, axis, **keys)
@@ -225,8 +227,7 @@ def test_fanuc_in_both_directions_takes_the_lost_motion_too(reference: float) ->
 @pytest.mark.parametrize("name", CONTROLS)
 def test_an_axis_measured_in_one_direction_is_compensated_in_that(name: str, directions: str) -> None:
     axis, targets = Axis("X"), np.arange(0.0, 501.0, 50.0)
-    keys = {"magnification": 2} if name == "fanuc" else {}
-    made = make_of(name, targets, screw, axis, directions, **keys)
+    made = make_of(name, targets, screw, axis, directions, **KEYS.get(name, {}))
     rest = left(CONTROLS[name](made.files, 0.0), targets, screw, axis)[int(directions == "-")]
     assert np.ptp(rest) < 2.1
 
@@ -256,7 +257,7 @@ UNIT, LINES = 3.6, 9 * (1 - np.cos(np.radians(15))) + 2 * (1 - np.cos(np.radians
 @pytest.mark.parametrize("last", [330.0, 360.0])
 @pytest.mark.parametrize("name", CONTROLS)
 def test_a_table_goes_round_a_rotary_axis(name: str, last: float, reference: float) -> None:
-    keys: dict[str, object] = {"reference_position": reference} if name in COUNTING else {}
+    keys = {"reference_position": reference} if name in COUNTING else KEYS.get(name, {})
     made = make_of(name, np.arange(0.0, last + 1, 30.0), table_of_round, ROUND, **keys)
     control = CONTROLS[name](made.files, reference)
     open_part = np.arange(300.0, 361.0, 2.5)

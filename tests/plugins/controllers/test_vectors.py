@@ -178,14 +178,16 @@ def test_mitsubishi_doubles_what_an_interval_is_too_short() -> None:
         written("mitsubishi", table([0, 30], [0.0, 64.0]))
 
 
-@pytest.mark.parametrize(("wanted", "back"), [(None, 0.009), ("reverse", 0.009), ("play", 0.012)])
-def test_heidenhain_has_the_deviation_back_beside_that_forward(wanted: str | None, back: float) -> None:
+@pytest.mark.parametrize(("wanted", "back"), [(None, 0.012), ("play", 0.012), ("reverse", 0.009)])
+def test_heidenhain_has_the_play_or_the_deviation_back_beside_that_forward(
+    wanted: str | None, back: float
+) -> None:
     """Technical manual MANUALplus 620, 6.10: BACKLASH has what was measured in the negative direction."""
     files = written("heidenhain", curve(), backlash=wanted)
     rows = [line.split() for line in files[".COM"].splitlines()]
     assert rows[1] == ["NR", "AXISPOS", "BACKLASH", "X"]
     assert rows[2] == ["0", "+0.0000", f"{back:+.4f}", "-0.0030"]
-    assert rows[12] == ["10", "+300.0000", f"{back + (wanted != 'play') * 0.0534:+.4f}", "+0.0504"]
+    assert rows[12] == ["10", "+300.0000", f"{back + (wanted == 'reverse') * 0.0534:+.4f}", "+0.0504"]
     assert rows[-1] == ["[END]"]
     assert [line.split() for line in files[".CMA"].splitlines()][1:3] == [
         ["NR", "ACTIVE", "X"],
