@@ -12,7 +12,7 @@ from pydantic import Field
 
 from zlmreport.plugin import Options, Words, hookimpl, read_only_floats
 from zlmreport.plugin.controller import CompensationTable, Controller, CrossTable
-from zlmreport_plugins.controllers.on_paper import (
+from zlmreport_plugins.controllers.on_paper.formats import (
     AXIS,
     NO_TRIAL,
     NUMBER,

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from zlmreport.plugin import Options, Words, hookimpl
 from zlmreport.plugin.controller import CompensationTable, Controller
-from zlmreport_plugins.controllers.on_paper import (
+from zlmreport_plugins.controllers.on_paper.formats import (
     NO_TRIAL,
     NamedAxisOptions,
     OnPaper,

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from zlmreport.plugin import Options, Words, hookimpl
 from zlmreport.plugin.controller import CompensationTable, Controller
-from zlmreport_plugins.controllers.counted_rows import (
+from zlmreport_plugins.controllers.on_paper.counted_rows import (
     COUNTED,
     FROM_THE_REFERENCE,
     OnCountedRows,
@@ -19,7 +19,7 @@ from zlmreport_plugins.controllers.counted_rows import (
     make_increments,
     sum_increments,
 )
-from zlmreport_plugins.controllers.on_paper import OnPaper, join_lines, make_columns, write_short
+from zlmreport_plugins.controllers.on_paper.formats import OnPaper, join_lines, make_columns, write_short
 
 
 class MitsubishiOptions(ReferenceOptions):

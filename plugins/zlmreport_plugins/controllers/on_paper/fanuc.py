@@ -11,7 +11,7 @@ from pydantic import Field
 
 from zlmreport.plugin import AxisKind, InputError, Options, Words, hookimpl, read_only_floats
 from zlmreport.plugin.controller import CompensationTable, Controller
-from zlmreport_plugins.controllers.counted_rows import (
+from zlmreport_plugins.controllers.on_paper.counted_rows import (
     COUNTED,
     FROM_THE_REFERENCE,
     OnCountedRows,
@@ -21,7 +21,7 @@ from zlmreport_plugins.controllers.counted_rows import (
     make_increments,
     sum_increments,
 )
-from zlmreport_plugins.controllers.on_paper import (
+from zlmreport_plugins.controllers.on_paper.formats import (
     NO_TRIAL,
     join_lines,
     make_columns,

@@ -8,7 +8,7 @@ from typing import Any
 
 from zlmreport.plugin import Words, hookimpl
 from zlmreport.plugin.controller import CompensationTable, Controller
-from zlmreport_plugins.controllers.on_paper import NO_TRIAL, NUMBER, OnPaper, decode, make_columns
+from zlmreport_plugins.controllers.on_paper.formats import NO_TRIAL, NUMBER, OnPaper, decode, make_columns
 
 
 class Beckhoff(OnPaper):

@@ -14,7 +14,7 @@ from pydantic import Field
 
 from zlmreport.plugin import Axis, AxisKind, InputError, Options, Words, read_only_floats
 from zlmreport.plugin.controller import CompensationTable
-from zlmreport_plugins.controllers.on_paper import OnPaper, decode, make_columns
+from zlmreport_plugins.controllers.on_paper.formats import OnPaper, decode, make_columns
 
 #: The unit in which controls usually count, mm or °.
 COUNTED = 1e-3
