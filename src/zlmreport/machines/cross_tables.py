@@ -154,9 +154,10 @@ def compensate_machine(machine: MachineModel, tables: Iterable[CrossTable]) -> M
         values, factor = -table.at(nodes), np.zeros((len(nodes), 0))
         if own:
             values, factor = values + held @ own.values, held @ own.factor
-        curves[name] = AxisErrorCurve(
-            name, nodes, values, factor, own.line if own else ErrorLine({}), "table"
-        )
+        # Of an error that nobody measured the angles of its axis count from where they were.
+        angles = (each for each in machine.curves if each.axis == table.input and each.name[1] in "ABC")
+        line = next((each.line for each in (own, *angles) if each), ErrorLine({}))
+        curves[name] = AxisErrorCurve(name, nodes, values, factor, line, "table")
     return replace(machine, curves=tuple(curves.values()))
 
 

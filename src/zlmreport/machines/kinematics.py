@@ -1,7 +1,8 @@
 """What the errors of three linear axes do to the tool: one rule for every order of the axes.
 
 Errors are taken as they are measured: tool relative to workpiece, on a line whose place is known. With the
-errors E and ε of each axis a there, the others at q_m and the tool at t_m::
+errors E of each axis a there, the others at q_m and the tool at t_m, and its angles ε, which are the same on
+every line::
 
     Δ = Σ_a [E_a + ε_a × L_a] + squareness,   L_a = (t − t_m) + Σ over axes b between a and the tool of
                                               (q_b − q_b,m)·e_b
@@ -81,12 +82,19 @@ class ErrorLine:
 
 
 def weights(
-    error: str, chain: Chain, line: ErrorLine, position: FloatArray, tool: FloatArray | Point = _ORIGIN
+    error: str,
+    chain: Chain,
+    lines: Mapping[str, ErrorLine],
+    position: FloatArray,
+    tool: FloatArray | Point = _ORIGIN,
 ) -> FloatArray:
     """Return what one unit of an error (m or rad) makes of Δ at some positions, shape (N, 3).
 
     The error's own value there is the business of its curve; a squareness error has one value.
 
+    `lines`: By name, where each error was measured that was. The arm of an angle counts from the line of the
+        translation in which it shows, for that has what the angle makes there; where nobody measured it, from
+        the angle's own, and else from the origin.
     `position`, (N, 3): x, y, z, m; `tool`, (3,) or (N, 3): the tool's offset, m.
     """
     found = np.zeros((len(position), 3))
@@ -98,10 +106,12 @@ def weights(
     if error[1] in AXES:
         found[:, AXES.index(error[1])] = 1.0
         return found
-    arm = lever_arm(axis, chain, line, position, tool)
     turned = np.zeros(3)
     turned["ABC".index(error[1])] = 1.0
-    return np.asarray(np.cross(turned, arm), dtype=np.float64)
+    for index, shown_in in enumerate(AXES):
+        line = lines.get(f"E{shown_in}{axis}") or lines.get(error) or ErrorLine({})
+        found[:, index] = np.cross(turned, lever_arm(axis, chain, line, position, tool))[:, index]
+    return found
 
 
 def lever_arm(
@@ -130,6 +140,5 @@ def deviation(
     """
     found = np.zeros((len(position), 3))
     for name, value in errors.items():
-        line = (lines or {}).get(name, ErrorLine({}))
-        found += weights(name, chain, line, position, tool) * np.reshape(value, (-1, 1))
+        found += weights(name, chain, lines or {}, position, tool) * np.reshape(value, (-1, 1))
     return found

@@ -65,6 +65,11 @@ class MachineModel:
         return next((each for each in self.curves if each.name == name), None)
 
     @property
+    def lines(self) -> Mapping[str, ErrorLine]:
+        """Where each error was measured, by name."""
+        return {each.name: each.line for each in self.curves}
+
+    @property
     def square_doubts(self) -> tuple[SquareDoubt, ...]:
         """What angles that nobody measured leave open of the squareness errors."""
         bounds = {each.name: each.bound for each in self.unmeasured}
@@ -104,7 +109,7 @@ def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
     shares: dict[str, FloatArray] = {}
     factors = [np.zeros((count, 0))]
     for curve in machine.curves:
-        gain = _compute_gain(curve.name, machine, curve, course, tool)
+        gain = _compute_gain(curve.name, machine, course, tool)
         if not np.any(gain):
             continue
         index = AXES.index(curve.axis)
@@ -116,7 +121,7 @@ def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
         outside |= curve.find_outside(place) & (np.abs(gain) > 0)
     bound = np.zeros(count)
     for each in machine.unmeasured:
-        bound += each.variance * _compute_gain(each.name, machine, None, course, tool) ** 2
+        bound += each.variance * _compute_gain(each.name, machine, course, tool) ** 2
     return TestPrediction(
         values,
         _compress(np.concatenate(factors, axis=1)),
@@ -127,15 +132,10 @@ def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
 
 
 def _compute_gain(
-    name: str,
-    machine: MachineModel,
-    curve: AxisErrorCurve | None,
-    course: ToolCourse,
-    tool: FloatArray | Point,
+    name: str, machine: MachineModel, course: ToolCourse, tool: FloatArray | Point
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
-    line = curve.line if curve else ErrorLine({})
-    moved = weights(name, machine.chain, line, course.position, tool)
+    moved = weights(name, machine.chain, machine.lines, course.position, tool)
     return np.asarray(np.sum(moved * course.sensing, axis=1), dtype=np.float64)
 
 

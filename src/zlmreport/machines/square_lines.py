@@ -85,7 +85,7 @@ def list_square_doubts(
                 continue
             place = _find_place(curve, straightness)
             arms = {
-                name: abs(float(_weigh(name, place, straightness.line, np.zeros(1), chain)[0, direction]))
+                name: abs(float(_weigh(name, place, known, np.zeros(1), chain)[0, direction]))
                 for name in ROTATIONS
                 if name[2] == axis and name in bounds
             }
@@ -118,7 +118,7 @@ def _list_leans(
             if angle is None or angle.axis != axis:
                 continue
             nodes = angle.nodes if straightness is None else straightness.nodes
-            gain = _weigh(name, place, angle.line, nodes, chain)[:, direction]
+            gain = _weigh(name, place, known, nodes, chain)[:, direction]
             if not np.any(gain):
                 continue
             off = nodes - nodes.mean()
@@ -135,8 +135,11 @@ def _find_place(square: AxisErrorCurve, straightness: AxisErrorCurve | None) -> 
     return ErrorLine({**straightness.line.others, **square.line.others}, square.line.tool)
 
 
-def _weigh(name: str, place: ErrorLine, line: ErrorLine, nodes: FloatArray, chain: Chain) -> FloatArray:
-    """Return what a unit of an angle, counted from a line, makes of Δ along its axis at a place."""
+def _weigh(
+    name: str, place: ErrorLine, known: Mapping[str, AxisErrorCurve], nodes: FloatArray, chain: Chain
+) -> FloatArray:
+    """Return what a unit of an angle makes of Δ along its axis at a place."""
+    lines = {each.name: each.line for each in known.values()}
     places = np.tile([place.others.get(axis, 0.0) for axis in AXES], (len(nodes), 1))
     places[:, AXES.index(name[2])] = nodes
-    return weights(name, chain, line, places, place.tool)
+    return weights(name, chain, lines, places, place.tool)

@@ -11,7 +11,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, weights
+from zlmreport.machines.kinematics import SQUARENESS, weights
 from zlmreport.machines.machine import MachineModel
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_design import AXES
@@ -149,14 +149,14 @@ def _compute_relative(
     rest = np.zeros(len(together))
     values, factors = np.zeros((len(together), 3)), [np.zeros((len(together), 3, 0))]
     for curve in machine.curves:
-        gain = weights(curve.name, machine.chain, curve.line, together, machine.tool)
+        gain = weights(curve.name, machine.chain, machine.lines, together, machine.tool)
         reading = curve.weigh_nodes(together[:, AXES.index(curve.axis)], rest)
         values += gain * (reading @ curve.values)[:, np.newaxis]
         factors.append(gain[:, :, np.newaxis] * (reading @ curve.factor)[:, np.newaxis, :])
     factor = np.concatenate(factors, axis=2)
     unknown = np.zeros(len(points))
     for each in machine.unmeasured:
-        gain = weights(each.name, machine.chain, ErrorLine({}), together, machine.tool)
+        gain = weights(each.name, machine.chain, machine.lines, together, machine.tool)
         # A squareness error is one number at both places; of a curve each place has its own.
         from_there = gain[:-1] - gain[-1] if each.name in SQUARENESS else gain[:-1]
         unknown += each.variance * np.sum(from_there**2, axis=1)
