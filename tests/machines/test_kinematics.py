@@ -77,10 +77,17 @@ def test_two_orders_are_as_they_are_written_out(order, written_out, position, to
         assert found == pytest.approx(written_out(errors, position, tool), abs=1e-12)
 
 
-@given(st.sampled_from(_ORDERS), _point, _point, _point, st.sampled_from("XYZ"), st.integers(0, 2**32))
+@given(
+    st.sampled_from(_ORDERS),
+    st.tuples(_point, _point),
+    _point,
+    st.sampled_from("XYZ"),
+    st.integers(0, 2**32),
+)
 def test_an_error_is_itself_on_the_line_on_which_it_was_measured_wherever_angles_were(
-    order, position, tool, elsewhere, axis, seed
+    order, places, tool, axis, seed
 ):
+    position, elsewhere = places
     errors = {name: value for name, value in _sizes(seed).items() if name[2] == axis}
     line, other = (ErrorLine(dict(zip("XYZ", each, strict=True)), tool) for each in (position, elsewhere))
     lines = {name: line if name[1] in "XYZ" else other for name in errors}
