@@ -67,6 +67,27 @@ def test_many_names_that_one_curve_replaces_are_not_told() -> None:
 
 
 @pytest.mark.long
+@pytest.mark.parametrize(("number", "with_stranger"), [(44000, False), (43009, True)])
+def test_one_run_that_stands_off_has_a_name_and_runs_that_all_do_have_none(
+    number: int, with_stranger: bool
+) -> None:
+    drawn = drawn_axis(number, with_stranger=with_stranger)  # of three runs one, beside 0.05 µm; or all
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert ("run-displaced" in {each.identifier for each in found.together}) is not with_stranger
+    assert (found.remainder is not None) is with_stranger
+
+
+@pytest.mark.long
+def test_a_jump_of_the_zero_in_the_last_block_of_a_pendulum_test_is_no_noisy_end() -> None:
+    drawn = drawn_axis(45014, with_stranger=False)  # it comes after six of the ten readings of that block
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert {"datum-step", "compensation-shift", "passing-warmth"} <= {
+        each.identifier for each in found.together
+    }
+    assert found.error_after.rms < DOWN_TO_NOISE * drawn.sigma
+
+
+@pytest.mark.long
 def test_a_displaced_stretch_among_many_targets_is_no_joint_and_another_back() -> None:
     drawn = drawn_axis(33010, with_stranger=True, targets=101)
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)

@@ -64,6 +64,22 @@ def test_a_single_run_has_no_noise_floor() -> None:
     assert estimate_noise_floor(design, noise(design)) is None
 
 
+@pytest.mark.parametrize("target", [0, 10, 20])
+def test_a_jump_of_the_zero_while_one_target_is_measured_is_no_scatter(target: int) -> None:
+    block = np.flatnonzero(PENDULUM.target == target)
+    jump = 20 * SIGMA * (np.arange(len(PENDULUM.target)) > block[len(block) // 2])
+    readings = noise(PENDULUM) + jump
+    assert estimate_noise_floor(PENDULUM, readings) == pytest.approx(SIGMA, rel=0.1)
+    assert np.array_equal(compute_weights(PENDULUM, readings), np.ones(len(readings)))
+
+
+def test_a_last_digit_that_changes_while_one_target_is_measured_is_scatter() -> None:
+    block = np.flatnonzero(PENDULUM.target == 10)
+    readings = np.zeros(len(PENDULUM.target))
+    readings[block[len(block) // 2 :]] = 1e-7
+    assert estimate_noise_floor(PENDULUM, readings) > 0.0  # type: ignore[operator]
+
+
 WIDE = (DESIGN.target >= 8) & (DESIGN.target < 14)
 
 

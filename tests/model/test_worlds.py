@@ -176,6 +176,19 @@ def test_two_runs_that_stand_off_are_these_two_and_not_every_run(seed: int) -> N
     assert found.remainder is None
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_one_run_of_three_stands_off_beside_a_warmth_that_passes(seed: int) -> None:
+    """In time a curve that displaces every run is much like the warmth, and made it cheap."""
+    design, warmth = linear_test(21, 3, seed=seed), EFFECTS["passing-warmth"]
+    peak, spell = 0.1 * design.duration, 0.45 * design.duration
+    passing = warmth.columns(design, np.array([peak, spell]))[:, 0]
+    middle = np.unique(design.run)[1]
+    deviation = SIGMA * (5.0 * passing / np.std(passing) + 9.3 * (design.run == middle))
+    found = diagnosed(model_of("offset"), design, deviation + noise(design, seed=seed + 50))
+    assert {each.identifier for each in found.together} == {"passing-warmth", "run-displaced"}
+    assert found.remainder is None
+
+
 def test_values_of_a_set_are_those_beside_the_others_of_it() -> None:
     slope, kink = 15e-6, 20e-6
     deviation = slope * _DESIGN.position + kink * np.maximum(0.0, _DESIGN.position - 0.5) + noise(_DESIGN)

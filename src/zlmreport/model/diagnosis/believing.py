@@ -55,8 +55,7 @@ def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
         # Beside a few names it may be needless: what then explains all is as sure as any set of names.
         return _keep_sure(search, kept) if search.has_nameless(kept) else kept
     if search.has_nameless(found):
-        # Beside names a form or a curve has to be better than a toss-up with one name more.
-        alone = search.find_names_alone(kept, MENTION) if kept.named else None
+        alone = search.find_names_alone(kept, _find_least_lead(search, kept)) if kept.named else None
         if alone is None or search.find_irregular_instead(alone, _IRREGULAR) is not None:
             return _keep_sure(search, kept)
         kept = _drop_needless(search, alone)
@@ -66,6 +65,15 @@ def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
         kept = kept if fewer is None else _drop_needless(search, fewer)
     # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
     return kept
+
+
+def _find_least_lead(search: SetSearch, found: EffectSet) -> float:
+    """Return by what evidence a set must be better than one with a name for each form and curve in it.
+
+    They have to be better than a toss-up. That every run is another has to be sure: one that stands off is
+    the rule, by a knock, a new zero, a cold start.
+    """
+    return TOLD_APART if search.is_only_from_run_to_run(found) else MENTION
 
 
 def _keep_what_stands(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
@@ -127,7 +135,7 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
             needed = NAMED_BESIDE
         elif not search.has_nameless(found):
             # Where names explain all, none of them goes for a curve that is no better.
-            needed = -MENTION
+            needed = -_find_least_lead(search, rest)
     if 0.0 < lost < needed and is_named:
         # Each must be better than nothing by itself: many that are not make no cause together.
         rivals = search.list_rivals(found, rest, lost)

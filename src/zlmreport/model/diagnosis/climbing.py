@@ -40,6 +40,8 @@ PROMISING, _SHARE_OF_GAIN = 12.0, 0.3
 _MOST_MEMBERS, _MOST_MOVES = 10, 24
 #: Evidence that a move must gain, and more where it changes what a set means.
 GAIN, _CLEAR_GAIN = 0.01, 0.5
+#: The share of what a score lacks that a move must gain, or the climb is given up.
+_SLOW = 0.1
 #: Evidence of anything but white noise that is beyond doubt.
 _SURE = 6.0
 #: To how many digits searched parameters are the same.
@@ -83,13 +85,21 @@ class Climb:
         before = {each.identifier: find_one_before(each.effect) for each in self._contest.families}
         self._before = {name: one for name, one in before.items() if one in names}
 
-    def climb(self, start: EffectSet, scope: Scope, *, is_thorough: bool = False) -> EffectSet:
+    def climb(
+        self, start: EffectSet, scope: Scope, *, is_thorough: bool = False, goal: float = np.inf
+    ) -> EffectSet:
         """Return the best set that moves lead to, one after another.
 
         `is_thorough`: Whether effects also come in by pairs.
+        `goal`: The score that is to be passed; what moves too slowly towards it is given up.
         """
         now, passed = self._shrink(start, scope), set[_State]()
-        for _ in range(_MOST_MOVES):
+        before = now
+        for moves in range(_MOST_MOVES):
+            lack = now.score - goal
+            if moves and lack > PROMISING and before.score - now.score < _SLOW * lack:
+                return now
+            before = now
             state = _make_state(now, scope, is_thorough=is_thorough)
             if state in self._ends:
                 now = self._ends[state]
@@ -104,7 +114,7 @@ class Climb:
                 other = self._find_by_pairing(now, scope)
             if other is None:
                 # What its searched parameters cost was found beside another set.
-                before, now = now, self._sets.settle(now, scope.levels)
+                now = self._sets.settle(now, scope.levels)
                 if now.score >= before.score - GAIN:
                     break
                 other = now

@@ -203,6 +203,7 @@ class SetSearch:
                 self._climb(
                     self._sets.score_near(now.without(number).members, now.amplitudes, scope.levels),
                     scope.without(find_installed_name(each.effect)),
+                    goal=now.score,
                 )
                 for number, each in enumerate(now.members)
             )
@@ -270,6 +271,11 @@ class SetSearch:
     def has_nameless(self, found: EffectSet) -> bool:
         """Whether anything without a name is in a set, beyond what noise may be."""
         return self.count_nameless(found) > 0
+
+    def is_only_from_run_to_run(self, found: EffectSet) -> bool:
+        """Whether all that is in a set without a name is another from run to run."""
+        loud = [self.contest.parts[number].course.along for number in self._list_loud(found)]
+        return not found.unnamed and set(loud) == {Along.RUN}
 
     def count_nameless(self, found: EffectSet) -> int:
         """Return how many forms and curves without a name are in a set, beyond what noise may be."""

@@ -32,6 +32,9 @@ _STEPS, _LARGEST_STEP = 4, 1.0
 #: Decimal exponent of the finest step that is looked for, µm or ″, and what is a multiple of one.
 _FINEST, _MULTIPLE = -7, 1e-3
 _TRIALS = 1000
+#: Times the variance of single readings that a jump within one target's explains where it is beyond doubt: of
+#: some ten places in each of some twenty targets none is chance.
+_SURE_JUMP = 25.0
 #: Readings over which noise may last.
 _LASTS = 4
 #: Times the scatter of neighbours up to which it is noise.
@@ -107,8 +110,9 @@ def estimate_noise_floor(design: Design, deviation: FloatArray) -> float | None:
     """Return the standard deviation σ_f of a single reading, drift left out; None without repeats.
 
     Where the readings of a cell lie apart in time, neighbours within a run are compared: what drifts more
-    slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations
-    of ISO 230-2 contain the drift and are no floor.
+    slowly than a reading drops out. Otherwise the pure error is drift-free as it is, but for a jump of the
+    zero while one target is measured: where it is beyond doubt, it is left out. The standard deviations of
+    ISO 230-2 contain the drift and are no floor.
 
     `deviation`, (N,): x, m or rad.
     """
@@ -123,7 +127,19 @@ def estimate_noise_floor(design: Design, deviation: FloatArray) -> float | None:
         expected = (shares[1:] + shares[:-1])[neighbours].sum()
         if steps.size and expected > 0:
             return float(np.sqrt(np.sum(steps**2) / expected))
-    return float(np.sqrt(within.squares / within.degrees))
+    sure = _list_sure_jumps(design, deviation, within)
+    return float(np.sqrt((within.squares - sum(sure)) / (within.degrees - len(sure))))
+
+
+def _list_sure_jumps(design: Design, deviation: FloatArray, within: Repeats) -> list[float]:
+    """Return what jumps of the zero explain of the squares of repeats, one at most within each target's."""
+    left = within.centred[:, np.newaxis].copy()
+    explained = _remove_jumps(design, within.cell, left)
+    unit = design.axis.deviation_unit
+    resolution = float(unit.to_si(find_resolution(unit.from_si(deviation))))
+    # Of readings that are rounded, one step of the last digit is no jump.
+    variance = max(float(np.sum(left**2)) / within.degrees, (resolution / 2.0) ** 2)
+    return [float(each) for each in explained[:, 0] if each > _SURE_JUMP * variance]
 
 
 def estimate_lasting_floor(design: Design, deviation: FloatArray) -> float | None:
@@ -284,7 +300,9 @@ def _remove_drift(design: Design, values: FloatArray, variance: FloatArray | Non
     """Return the scatter of readings about their cells, and about offset and slope of their passes.
 
     A pass is what one run takes in one direction. Without it, an effect that grows with position and time
-    would pass for scatter, and be given little weight just where it shows.
+    would pass for scatter, and be given little weight just where it shows. So would a jump of the zero while
+    one target is measured again and again: where a target's readings follow one another, of each the best
+    jump goes, too.
 
     `values`, (N, B): Deviations of B sets.
     `variance`, (N,) array or None: Of each reading over the mean one; the readings of a cell share it.
@@ -294,6 +312,8 @@ def _remove_drift(design: Design, values: FloatArray, variance: FloatArray | Non
     root = np.ones(len(cell)) if variance is None else np.sqrt(variance)
     membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
     left = (values - (membership @ values)[cell]) / root[:, np.newaxis]
+    if not is_apart_in_time(design):
+        _remove_jumps(design, cell, left)
     kept = 1.0 - 1.0 / count[cell]
     _, passes = np.unique(2 * design.cycle + (design.direction > 0), return_inverse=True)
     for index in range(passes.max() + 1):
@@ -303,6 +323,32 @@ def _remove_drift(design: Design, values: FloatArray, variance: FloatArray | Non
         left[taken] -= base @ (base.T @ left[taken])
         kept[taken] *= np.maximum(1.0 - np.sum(base**2, axis=1), _LEAST_KEPT)
     return np.asarray(left * (root / np.sqrt(np.maximum(kept, 1e-3)))[:, np.newaxis], dtype=np.float64)
+
+
+def _remove_jumps(design: Design, cell: IntArray, left: FloatArray) -> FloatArray:
+    """Take from each target's readings, in place, the jump in time that explains most of their scatter.
+
+    Returns what it explains of their squares, shape (targets, B).
+
+    `left`, (N, B): Deviations of B sets less the means of their cells.
+    """
+    targets = np.unique(design.target)
+    explained = np.zeros((len(targets), left.shape[1]))
+    for place, target in enumerate(targets):
+        taken = np.flatnonzero(design.target == target)
+        jumps = (taken[:, np.newaxis] > taken[:-1]).astype(np.float64)
+        for each in np.unique(cell[taken]):
+            own = cell[taken] == each
+            jumps[own] -= jumps[own].mean(axis=0)
+        lengths = np.linalg.norm(jumps, axis=0)
+        jumps = jumps[:, lengths > 0] / lengths[lengths > 0]
+        sizes = jumps.T @ left[taken]
+        if len(sizes):
+            best = np.argmax(np.abs(sizes), axis=0)
+            largest = np.take_along_axis(sizes, best[np.newaxis], axis=0)
+            left[taken] -= jumps[:, best] * largest
+            explained[place] = largest[0] ** 2
+    return explained
 
 
 def _compute_levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
