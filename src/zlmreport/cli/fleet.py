@@ -66,10 +66,10 @@ def _run(fleet: FleetFile, options: Namespace) -> int:
 def _let_signals_interrupt() -> Iterator[None]:
     """Let a signal to end be an interruption, so that the night still says what it came to."""
 
-    def interrupted(*_: object) -> None:
+    def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGTERM, interrupted)
+    before = signal.signal(signal.SIGTERM, interrupt)
     try:
         yield
     finally:

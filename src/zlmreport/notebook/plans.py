@@ -25,7 +25,7 @@ from zlmreport.model.planning.visibility import Sight
 from zlmreport.notebook.frames import Library, frame_of
 from zlmreport.notebook.layout import sections_html
 from zlmreport.notebook.readings import plain_value, registry
-from zlmreport.notebook.results import drawn
+from zlmreport.notebook.results import draw_on
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -105,7 +105,7 @@ class Plan:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the way of the axis over the visits on axes of matplotlib, and return them."""
-        return drawn(self._sequence, ax)[0]
+        return draw_on(self._sequence, ax)[0]
 
     def __repr__(self) -> str:
         """Return how large the test is."""

@@ -15,7 +15,7 @@ from starlette.routing import Route
 from zlmreport.document.typesetting.resources import find_page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import ZlmreportError
-from zlmreport.language import Language, accepted_language
+from zlmreport.language import Language, find_accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
 from zlmreport.web.commands import FileCommands, Wanted
 from zlmreport.web.diagnoses import Diagnoses
@@ -65,9 +65,9 @@ class PageAnswers:
         """Return the words of the page."""
         return collect_texts(language)
 
-    def warm_up(self) -> None:
+    def start_early(self) -> None:
         """Start what the first diagnosis need not wait for."""
-        self.diagnoses.warm_up()
+        self.diagnoses.start_early()
 
     def end(self) -> None:
         """End what is under way beside, and take its files away."""
@@ -141,22 +141,22 @@ class PageAnswers:
     async def answer_step(self, request: HttpRequest) -> Response:
         """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
 
-        def found() -> dict[str, Any]:
+        def compare() -> dict[str, Any]:
             wanted, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
             return self.compare_before_and_after(wanted, test, self.choose_language(request))
 
-        return await self.answer(request, found)
+        return await self.answer(request, compare)
 
     async def answer_diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the file, or with the seconds for which it has been under way."""
 
-        def found() -> dict[str, Any]:
+        def find_diagnosis() -> dict[str, Any]:
             answer = self.diagnoses.find(self.bench.load().content)
             if "diagnosis" in answer:
                 return {**answer, "diagnosis": answer["diagnosis"][self.choose_language(request).value]}
             return answer
 
-        return await self.answer(request, found)
+        return await self.answer(request, find_diagnosis)
 
     async def stop_diagnosis(self, _: HttpRequest) -> Response:
         """Let go of the diagnosis that is under way."""
@@ -198,11 +198,11 @@ class PageAnswers:
         except ValidationError:
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def changed() -> dict[str, Any]:
+        def change_file() -> dict[str, Any]:
             self.carry_out(wanted)
             return self.view(self.choose_language(request))
 
-        return await self.answer(request, changed)
+        return await self.answer(request, change_file)
 
     async def answer(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
         """Answer with what some work comes to, or with what stands against it."""
@@ -247,4 +247,6 @@ async def answer_with_file(request: HttpRequest) -> Response:
 def find_language_of(request: HttpRequest) -> Language | None:
     """Return the language that an address or a browser asks for; None where neither does."""
     stated = request.query_params.get("lang", "")
-    return accepted_language(stated) or accepted_language(request.headers.get("accept-language", ""))
+    return find_accepted_language(stated) or find_accepted_language(
+        request.headers.get("accept-language", "")
+    )

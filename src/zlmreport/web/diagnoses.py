@@ -135,7 +135,7 @@ class Diagnoses:
         with self._lock:
             self._end()
 
-    def warm_up(self) -> None:
+    def start_early(self) -> None:
         """Start the process, so that the first diagnosis need not wait for it."""
         with self._lock:
             self._start_process()

@@ -120,13 +120,13 @@ class MachineWorkbench(PageAnswers):
         except ValidationError:
             return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def made() -> dict[str, Any]:
+        def make() -> dict[str, Any]:
             view = self._make_view(self.choose_language(request))
             values, documents = make_tables(self.bench, view.loaded, wanted, view.names)
             self.commands.tables.update({each.path.name: each.path for each in documents})
             return values
 
-        return await self.answer(request, made)
+        return await self.answer(request, make)
 
     def _make_view(self, language: Language) -> MachineView:
         return MachineView(self.bench, self.bench.load(), language)

@@ -161,14 +161,14 @@ def _list_target_changes(
     spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
     overrun = min(plan.overrun, find_usual_overrun(spread_over))
 
-    def drawn(each: AxisPlan, count: int, own: float | None) -> AxisPlan:
+    def with_targets(each: AxisPlan, count: int, own: float | None) -> AxisPlan:
         return replace(each, targets=sample_targets(spread_over, count, overrun, own, seed))
 
     blind = find_periods_at_phases(axis, plan.targets, 1)
     if blind or period is not None:
         reason = _SAME_PHASE.given(periods=list_in_words(blind)) if blind else None
         count = len(plan.targets)
-        yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
+        yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: with_targets(each, count, period))
     if len(plan.targets) < many:
         advice = Words("take {count} targets with random fractions").given(count=many)
-        yield PlanChange("targets", None, advice, lambda each: drawn(each, many, period))
+        yield PlanChange("targets", None, advice, lambda each: with_targets(each, many, period))

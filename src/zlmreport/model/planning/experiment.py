@@ -249,19 +249,19 @@ def _compute_share_decided(
             continue
         share = rival.probability / weight
         # The same noise for every truth and plan of so many readings: what differs is what they see.
-        random = np.random.default_rng([*draws.seed, len(design.position)])
+        generator = np.random.default_rng([*draws.seed, len(design.position)])
         own = max(_FEWEST_SETS, round(share * draws.sets))
-        readings = question.simulate_readings(design, contest.space.parts, rival, own, random)
+        readings = question.simulate_readings(design, contest.space.parts, rival, own, generator)
         evidence, nameless = average_evidence(
             [Trials(contest, each, [], readings, question.known) for each in noises]
         )
-        lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
+        lead = _measure_lead(evidence, nameless, places, rival.effect.identifier, question.names)
         right += share * float(np.mean(lead > 0))
         margin = min(margin, float(np.quantile(lead, 0.1)))
     return (draws.sets * right + 1) / (draws.sets + 2), margin
 
 
-def _lead(
+def _measure_lead(
     evidence: FloatArray, nameless: FloatArray, places: Mapping[str, int], truth: str, rivals: Sequence[str]
 ) -> FloatArray:
     """Return by how much more evidence than it needs the truth leads in each set.

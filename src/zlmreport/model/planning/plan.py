@@ -90,15 +90,15 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     seed = make_seed_of(job.keys.certificate.number) if keys.seed is None else keys.seed
     period = None if keys.targets.fractions_of is None else to_si(keys.targets.fractions_of)
 
-    def drawn(count: int) -> FloatArray:
+    def sample(count: int) -> FloatArray:
         return sample_targets(axis, count, overrun, period, seed)
 
     try:
         if keys.targets.positions is not None:
             targets = read_only_floats(to_si(np.array(keys.targets.positions)))
         else:
-            count = keys.targets.count or choose_count(axis, method, keys.runs, drawn, standards)
-            targets = drawn(count)
+            count = keys.targets.count or choose_count(axis, method, keys.runs, sample, standards)
+            targets = sample(count)
     except ValueError as error:
         raise InputError.at(job.place_of("plan.targets"), f"plan.targets: {error}") from error
     runs = keys.runs or choose_runs(axis, method, targets, standards)
