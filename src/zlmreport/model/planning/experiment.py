@@ -20,6 +20,7 @@ from zlmreport.language import Words, list_in_words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis, find_usual_overrun
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.diagnosis.believing import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
@@ -54,7 +55,6 @@ _BEST, _COMBINED = 2, 4
 _MOST_READINGS = 1000
 #: Of the test as it was, no more are repeated.
 _MOST_TARGETS, _MOST_RUNS = 41, 10
-_SECONDS_PER_MINUTE = 60.0
 
 _AS_IT_IS = Words("measure by the plan as it is")
 _ADVICE = Words(
@@ -289,7 +289,7 @@ def _make_experiment(question: Question, expected: ExpectedTest, best: _Option, 
     advice = join_changes(best.changes).advice if best.changes else _AS_IT_IS
     if logs:
         advice = _LOG.given(advice=advice, logs=", ".join(logs))
-    minutes = best.plan.duration / _SECONDS_PER_MINUTE
+    minutes = best.plan.duration / SECONDS_PER_MINUTE
     statement = _ADVICE.given(
         aim=aim, advice=advice, minutes=number_words(max(1.0, minutes), 0), decides=share
     )

@@ -24,14 +24,13 @@ from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only
 from zlmreport.measurement.axis import Axis, AxisKind, find_usual_overrun
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
-from zlmreport.measurement.units import REFERENCE_TEMPERATURE
+from zlmreport.measurement.units import REFERENCE_TEMPERATURE, SECONDS_PER_MINUTE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, Visit, list_visits, plan_path
 from zlmreport.model.planning.targets import makes_whole_turns, sample_targets
 
 if TYPE_CHECKING:
     from zlmreport.plugin.protocols import Standard
 
-_SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0
 _USUAL_DWELL = 5.0
 #: In both directions together: a working day.
@@ -134,9 +133,9 @@ def _plan_motion(job: Job) -> AxisPlan:
         targets=read_only_floats([]),
         method=Method(measured.method or Method.LINEAR),
         overrun=to_si(keys.overrun) if keys.overrun else find_usual_overrun(axis),
-        feed=to_si(measured.feed or _USUAL_FEED) / _SECONDS_PER_MINUTE,
+        feed=to_si(measured.feed or _USUAL_FEED) / SECONDS_PER_MINUTE,
         dwell=measured.dwell or _USUAL_DWELL,
-        pause=Pause(pause.minutes * _SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
+        pause=Pause(pause.minutes * SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
     )
 
 
