@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
@@ -23,6 +23,9 @@ from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.making import draw_page
 from zlmreport.web.texts import NO_SCRIPT, TITLE, collect_texts
 from zlmreport.web.watched import LoadedFile, WatchedFile
+
+#: What a page sends.
+_Sent = TypeVar("_Sent", bound=BaseModel)
 
 OTHER_PAGE = "the request is none of a page of this version"
 
@@ -185,24 +188,26 @@ class PageAnswers:
         name = request.path_params["name"]
         if name not in self.commands.making:
             return Response(status_code=404)
-        try:
-            wanted = Wanted.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
-        return await self.answer(request, lambda: self.commands.begin(name, wanted))
+        return await self.answer_wanted(request, Wanted, lambda wanted: self.commands.begin(name, wanted))
 
     async def change(self, request: HttpRequest) -> Response:
         """Do what a click asks for, and answer with the file as it is then."""
-        try:
-            wanted = Request.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def change_file() -> dict[str, Any]:
+        def change_file(wanted: Request) -> dict[str, Any]:
             self.carry_out(wanted)
             return self.view(self.choose_language(request))
 
-        return await self.answer(request, change_file)
+        return await self.answer_wanted(request, Request, change_file)
+
+    async def answer_wanted(
+        self, request: HttpRequest, kind: type[_Sent], work: Callable[[_Sent], dict[str, Any]]
+    ) -> Response:
+        """Answer with what some work comes to on what a page sends; refuse what none of this version does."""
+        try:
+            wanted = kind.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
+        return await self.answer(request, lambda: work(wanted))
 
     async def answer(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
         """Answer with what some work comes to, or with what stands against it."""

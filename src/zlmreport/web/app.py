@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import uvicorn
-from pydantic import ValidationError
 from starlette.requests import Request as HttpRequest
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
 from zlmreport.errors import AccessError, InputError, Place
@@ -156,16 +155,12 @@ class Workbench(PageAnswers):
 
     async def change_capture(self, request: HttpRequest) -> Response:
         """Do what a click on the page of a capture asks for, and answer with how far it is then."""
-        try:
-            wanted = CaptureRequest.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def carry_out() -> dict[str, Any]:
+        def carry_out(wanted: CaptureRequest) -> dict[str, Any]:
             self.capture.carry_out(wanted)
             return self.capture.list_values(self.choose_language(request))
 
-        return await self.answer(request, carry_out)
+        return await self.answer_wanted(request, CaptureRequest, carry_out)
 
 
 def serve(
