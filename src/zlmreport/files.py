@@ -151,12 +151,12 @@ def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
         raise make_unwritable(path, error) from error
 
 
-def find_cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
+def find_cache_folder() -> Path | None:
     """Return the folder of this program among those that the user's system keeps for what can be made again.
 
     None where the user has no such folder.
     """
-    folders = (Path(environment.get("XDG_CACHE_HOME", "")), Path(environment.get("HOME", ""), ".cache"))
+    folders = (Path(os.environ.get("XDG_CACHE_HOME", "")), Path(os.environ.get("HOME", ""), ".cache"))
     return next((each / "zlmreport" for each in folders if each.is_absolute()), None)
 
 

@@ -103,16 +103,13 @@ class GridRules:
     is_closed: bool = False  #: Whether they go round a rotary axis.
 
 
-def make_grid_of(
-    basis: TableBasis, place: Place, *, step: float | None = None, rules: GridRules | None = None
-) -> Grid:
+def make_grid_of(basis: TableBasis, place: Place, *, step: float | None, rules: GridRules) -> Grid:
     """Return the grid of a table.
 
     `step`: Distance of the rows, m or rad; None for the rule.
 
     Raises `InputError` if the step is refused by `count_steps`, or does not go into a turn.
     """
-    rules = rules or GridRules()
     targets = basis.curve.positions
     first, last, count = float(targets[0]), float(targets[-1]), len(targets)
     places = np.union1d(np.linspace(first, last, 2 * _BETWEEN * count), targets)
