@@ -20,7 +20,7 @@ from zlmreport.live.capture.events import Recorded
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.journal import Journal, capture
 from zlmreport.live.capture.records import Header
-from zlmreport.live.capture.visits import Settings, visit_list
+from zlmreport.live.capture.visits import Settings, number_visits
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
 from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene
 from zlmreport.live.emulation.troubles import Troubles
@@ -111,7 +111,7 @@ def _latency(runs: int) -> Iterator[Measured]:
         "",
         settings,
         plan.stops[0].position,
-        visit_list(plan),
+        number_visits(plan),
     )
     late = []
     with TemporaryDirectory() as folder, _plugged_in(instrument.emulator(Scene(machine))) as (port, began):

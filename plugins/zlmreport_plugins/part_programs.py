@@ -235,7 +235,7 @@ class FanucProgram(_Dialect):
         yield "%"
 
 
-class Siemens840dOptions(ProgramOptions):
+class Siemens840dProgramOptions(ProgramOptions):
     """The keys of ``siemens-840d``."""
 
     axis: str | None = Field(
@@ -262,9 +262,9 @@ class Siemens840dProgram(_Dialect):
     identifier = "siemens-840d"
     title = Words("Siemens SINUMERIK 840D")
     suffix = ".mpf"
-    options: Any = Siemens840dOptions
+    options: Any = Siemens840dProgramOptions
 
-    def write_lines(self, motion: Motion, options: Siemens840dOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: Siemens840dProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options, _ADDRESS, "X or X1")
         yield from (f"; {text}" for text in program_heading(motion))
@@ -281,7 +281,7 @@ class Siemens840dProgram(_Dialect):
                 yield f"N{stop.reading.number} G4 F{dwell} ; {reading_remark(stop.reading)}"
         yield "M30"
 
-    def write_lines_of_circle(self, path: CirclePath, options: Siemens840dOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: Siemens840dProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         yield from (f"; {text}" for text in circle_heading(path, options))
         yield "G710 G90 G94 G40 D0 ; mm, absolute, feed per minute, no offsets"
@@ -294,7 +294,7 @@ class Siemens840dProgram(_Dialect):
         yield "M30"
 
 
-class HeidenhainOptions(ProgramOptions):
+class HeidenhainProgramOptions(ProgramOptions):
     """The keys of ``heidenhain``."""
 
     decimals: int = Field(4, ge=0, le=6, description="Digits after the decimal point of positions.")
@@ -315,18 +315,18 @@ class HeidenhainProgram(_Dialect):
     identifier = "heidenhain"
     title = Words("HEIDENHAIN Klartext")
     suffix = ".h"
-    options: Any = HeidenhainOptions
+    options: Any = HeidenhainProgramOptions
 
-    def write_lines(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
+    def write_lines(self, motion: Motion, options: HeidenhainProgramOptions) -> Iterator[str]:
         """Yield the lines: its blocks with their numbers."""
         yield from (f"{number} {block}" for number, block in enumerate(self._write_blocks(motion, options)))
 
-    def write_lines_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+    def write_lines_of_circle(self, path: CirclePath, options: HeidenhainProgramOptions) -> Iterator[str]:
         """Yield the lines: its blocks with their numbers."""
         blocks = self._write_blocks_of_circle(path, options)
         yield from (f"{number} {block}" for number, block in enumerate(blocks))
 
-    def _write_blocks_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+    def _write_blocks_of_circle(self, path: CirclePath, options: HeidenhainProgramOptions) -> Iterator[str]:
         name, feed = _NOT_IN_NAMES.sub("_", path.number), program_number(path.feed)
         first, second = path.circle.axes
         yield f"BEGIN PGM {name} MM"
@@ -350,7 +350,7 @@ class HeidenhainProgram(_Dialect):
                 yield "STOP"
         yield f"END PGM {name} MM"
 
-    def _write_blocks(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
+    def _write_blocks(self, motion: Motion, options: HeidenhainProgramOptions) -> Iterator[str]:
         axis = axis_address(motion, options)
         name = _NOT_IN_NAMES.sub("_", motion.number)
         feed = program_number(motion.feed)

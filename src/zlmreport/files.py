@@ -151,12 +151,12 @@ def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
         raise make_unwritable(path, error) from error
 
 
-def find_cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
+def find_cache_folder() -> Path | None:
     """Return the folder of this program among those that the user's system keeps for what can be made again.
 
     None where the user has no such folder.
     """
-    folders = (Path(environment.get("XDG_CACHE_HOME", "")), Path(environment.get("HOME", ""), ".cache"))
+    folders = (Path(os.environ.get("XDG_CACHE_HOME", "")), Path(os.environ.get("HOME", ""), ".cache"))
     return next((each / "zlmreport" for each in folders if each.is_absolute()), None)
 
 
@@ -179,7 +179,7 @@ def write_beside(
         for path, content in contents.items():
             with _name_in_errors(path):
                 _demand_inside(path.parent)
-                touched |= _made(path.parent)
+                touched |= _make_folder(path.parent)
                 names[path] = hidden(path)
                 with names[path].open("wb") as file:
                     file.write(content)
@@ -254,7 +254,7 @@ class Appended(Closable):
         self._path = path
         with _name_in_errors(path):
             _demand_inside(path)
-            folders = _made(path.parent)
+            folders = _make_folder(path.parent)
             self._handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _WITHOUT_WAITING, 0o666)
         try:
             for folder in folders:
@@ -399,7 +399,7 @@ def _hide_path(path: Path) -> Path:
     return path.with_name(f".{path.name[:_REPEATED]}.{os.urandom(4).hex()}")
 
 
-def _made(folder: Path) -> set[Path]:
+def _make_folder(folder: Path) -> set[Path]:
     """Make a folder, and return it with those in which a folder was made for it."""
     missing = [each for each in (folder, *folder.parents) if not each.exists()]
     try:

@@ -87,7 +87,7 @@ class Outcome:
     documents: tuple[Document, ...]  #: The files, one for each output format.
 
 
-def _unseen(_doing: str) -> AbstractContextManager[Callable[[float], object]]:
+def _show_nothing(_doing: str) -> AbstractContextManager[Callable[[float], object]]:
     return nullcontext(lambda _share: None)
 
 
@@ -123,7 +123,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
     job: Job,
     registry: Registry,
     made_by: Programs | None = None,
-    showing: Showing = _unseen,
+    showing: Showing = _show_nothing,
     trials: int = TRIALS,
     *,
     is_part: bool = False,
@@ -372,7 +372,7 @@ def draw_graphs(job: Job, evaluated: Sequence[Evaluated], registry: Registry) ->
 
 
 def fit_model(
-    job: Job, measurements: MeasurementSet, registry: Registry, showing: Showing = _unseen
+    job: Job, measurements: MeasurementSet, registry: Registry, showing: Showing = _show_nothing
 ) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
     from zlmreport.document.subjects.annex import Modelled  # noqa: PLC0415
@@ -405,7 +405,9 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
     ]
 
 
-def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
+def run(
+    job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _show_nothing
+) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     demand_days_past(job)
     renderers = [registry.renderer(identifier) for identifier in job.formats]

@@ -99,6 +99,19 @@ def test_every_place_that_the_page_on_the_architecture_sends_to_is_there() -> No
     assert not [place for each in places for place in each if not (ROOT / place).exists()]
 
 
+def test_every_module_that_the_page_on_the_architecture_names_beside_a_place_is_there() -> None:
+    text = (DOCS / "architecture.md").read_text("utf-8")
+    rows = text.partition("## Where to look")[2].partition("\n## ")[0].splitlines()
+    named = 0
+    for row in rows:
+        places = [ROOT / each for each in re.findall(r"`([^`]+/[^`]*)`", row)]
+        folders = [each if each.is_dir() else each.parent for each in places]
+        for module in re.findall(r"`(\w+\.(?:py|js|css|yaml))`", row):
+            named += 1
+            assert any(next(each.rglob(module), None) for each in folders), f"{module} in: {row}"
+    assert named > 100
+
+
 def test_the_page_of_modules_has_every_module() -> None:
     page = (DOCS / "reference" / "modules.md").read_text("utf-8")
     names = re.findall(r"^\| `([^`]+)` \|", page, re.MULTILINE)

@@ -15,7 +15,7 @@ from types import ModuleType
 
 import pytest
 
-from zlmreport.language import accepted_language
+from zlmreport.language import find_accepted_language
 from zlmreport.plugin import Language, PartRow, Words, named, same_in_all_languages
 
 _TOOL = Path(__file__).parents[2] / "docs/generate/translations.py"
@@ -128,7 +128,7 @@ def test_a_users_text_is_never_translated() -> None:
 def test_a_browser_is_answered_in_the_first_language_that_there_is(
     asked: str, language: Language | None
 ) -> None:
-    assert accepted_language(asked) is language
+    assert find_accepted_language(asked) is language
 
 
 def test_in_french_no_line_begins_with_a_sign_that_has_a_space_before_it() -> None:

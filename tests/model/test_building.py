@@ -9,7 +9,7 @@ import numpy as np
 
 from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
 from model.hidden_effect import example as study_of_example, example_diagnosis
-from zlmreport.cli.model_lines import build_lines
+from zlmreport.cli.model_lines import tell_build
 from zlmreport.measurement.arrays import read_only_integers
 from zlmreport.model.diagnosis.building import Built, build, is_outstanding, list_needless, name_steps
 from zlmreport.model.diagnosis.contest import Told
@@ -87,7 +87,7 @@ def test_what_came_in_and_is_no_more_than_likely_is_told_with_what_is_nearly_as_
 
     built = build(model_of("offset"), diagnosing)
     lines = " ".join(
-        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
+        " ".join(tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
     )
     assert "not sure: first-run 27 % and backlash 46 %; else another effect, or something without" in lines
     assert [each["effects"] for each in build_values(built)["doubts"]] == [["first-run"], ["backlash"]]
@@ -99,7 +99,7 @@ def test_what_only_takes_the_place_of_another_is_not_advised_again() -> None:
     (other,) = {"scale-kink", "first-run"} - {kept}
     assert build_values(built)["exchange"] == {"in": [other], "out": [kept]}
     lines = " ".join(
-        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=False)).split()
+        " ".join(tell_build(built, study_of_example().job, "job.yaml", None, is_tried=False)).split()
     )
     assert f"{other} in place of {kept} would do as well: the readings do not tell which it is" in lines
     assert "Missing effect" not in lines
@@ -145,7 +145,7 @@ def test_what_goes_out_for_what_comes_in_is_one_stair_with_it() -> None:
 
     built = build(model_of("offset", "cosine-error"), diagnosing)
     lines = " ".join(
-        " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
+        " ".join(tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True)).split()
     )
     stairs = re.sub(r" [0-9.]+(?= →| µm; noise)", "", lines.partition("; noise")[0] + "; noise")
     assert "→ − cosine-error, + scale-error → + scale-kink, − scale-error µm; noise" in stairs
@@ -198,7 +198,7 @@ def test_what_is_far_from_usual_is_asked_once_it_was_added() -> None:
     built = build(model_of("offset"), diagnosing)
     (question,) = build_values(built)["questions"]
     assert question.startswith("800 µm: 20 times what is usual for a screw;")
-    lines = build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True)
+    lines = tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True)
     assert question in " ".join(" ".join(lines).split())
 
 
@@ -214,7 +214,7 @@ def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None
     built = build(model_of("offset", "backlash", "first-run"), diagnosing)
     assert built.needless == ("first-run",)
     assert build_values(built)["needless"] == ["first-run"]
-    lines = " ".join(build_lines(built, study_of_example().job, "job.yaml", None, is_tried=True))
+    lines = " ".join(tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True))
     assert "zlmreport model remove job.yaml first-run" in " ".join(lines.split())
 
 

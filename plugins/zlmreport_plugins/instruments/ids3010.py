@@ -137,7 +137,7 @@ class IdsAnswer:
     is_unknown: bool = False  #: Whether the error is that there is no such method.
 
 
-def question(number: int, method: str, *parameters: int) -> bytes:
+def write_question(number: int, method: str, *parameters: int) -> bytes:
     """Return the bytes of a question."""
     message = {"jsonrpc": "2.0", "method": method, "params": parameters, "id": number, "api": _API}
     return json.dumps(message, separators=(",", ":")).encode("ascii")
@@ -221,7 +221,7 @@ class Client:
         self._number += 1
         number = self._number
         namespace = _ECU if of_ecu else self._namespace
-        asked = question(number, f"{namespace}.{method}", *parameters)
+        asked = write_question(number, f"{namespace}.{method}", *parameters)
         answer = ask_instrument(self._port, asked, lambda arrived: answer_to(number, arrived), self._wait)
         now = time.monotonic()
         if isinstance(answer, bytes):

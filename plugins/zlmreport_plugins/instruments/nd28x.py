@@ -32,14 +32,14 @@ from zlmreport.plugin.instrument import (
 ACK, NAK, STX, PRINT = b"\x06", b"\x15", b"\x02", b"\x02"
 
 
-def command(name: str) -> bytes:
+def write_command(name: str) -> bytes:
     """Return the bytes of a command such as ``A0200``."""
     return b"\x1b" + name.encode("ascii") + b"\r"
 
 
-IDENTIFICATION = command("A0000")
-CURRENT_POSITION = command("A0200")
-ERROR_TEXT = command("A0301")
+IDENTIFICATION = write_command("A0000")
+CURRENT_POSITION = write_command("A0200")
+ERROR_TEXT = write_command("A0301")
 
 
 class PrintedUnit(StrEnum):

@@ -233,11 +233,11 @@ class _WithoutFirst:
 
 def _answer(port: Port, request: bytes, decoder: TextDecoder, patience: Patience, wait: float) -> LiveReading:
 
-    def line_in(arrived: bytes) -> tuple[bytes] | None:
+    def find_line(arrived: bytes) -> tuple[bytes] | None:
         whole = arrived.lstrip(b"\r\n").splitlines(keepends=True)
         return (whole[0],) if whole and whole[0].endswith((b"\r", b"\n")) else None
 
-    answer = ask_instrument(port, request, line_in, wait)
+    answer = ask_instrument(port, request, find_line, wait)
     now = time.monotonic()
     if isinstance(answer, bytes):
         patience.hear(answer, now)

@@ -260,6 +260,7 @@ class _Graphs:
         self.diagram = Diagram(evaluation)
         self.mean, self.spread = evaluation.column("X"), evaluation.column("Ps")
         self.upper, self.lower = self.mean + self.spread / 2, self.mean - self.spread / 2
+        self.offset = evaluation.value("O")
 
     def draw_means(self) -> Figure:
         """Return means and limits by position, with P_sj/2 where the spread is largest."""
@@ -291,31 +292,28 @@ class _Graphs:
     def _draw_curve(self) -> Curve | None:
         approaches = self.diagram.approaches
         role = MEAN_ROLES[approaches[0]] if len(approaches) == 1 else Role.MEAN_BIDIRECTIONAL
-        return self.diagram.curve("X̄_{j}", role, self.mean)
+        return self.diagram.curve(_MEAN, role, self.mean)
 
     def _draw_band(self) -> Band | None:
-        return self.diagram.band("X̄_{j} ± ½P_{sj}", Role.SPREAD, self.lower, self.upper)
+        return self.diagram.band(f"{_MEAN} ± {_HALF_SPREAD}", Role.SPREAD, self.lower, self.upper)
 
     def _draw_middle(self) -> Level | None:
         """Return the line in the middle of the band, which lies at −O."""
-        offset = self.evaluation.value("O")
-        return None if offset is None else self.diagram.level("−O", Role.BAND_LIMIT, -offset)
+        return None if self.offset is None else self.diagram.level("−O", Role.BAND_LIMIT, -self.offset)
 
     def _draw_offset_arrow(self) -> Arrow | None:
         """Return the arrow from zero to the middle of the band, at the first target."""
-        offset = self.evaluation.value("O")
-        if offset is None:
+        if self.offset is None:
             return None
-        middle = np.full_like(self.mean, -offset)
+        middle = np.full_like(self.mean, -self.offset)
         return self.diagram.arrow("O", 0, np.zeros_like(middle), middle)
 
     def _say_offset(self) -> Words | None:
-        offset = self.evaluation.value("O")
-        if offset is None:
+        if self.offset is None:
             return None
         return Words("The band's middle lies at {middle}, so that O = {offset}.").given(
-            middle=deviation_in_words(self.diagram.axis, -offset),
-            offset=deviation_in_words(self.diagram.axis, offset),
+            middle=deviation_in_words(self.diagram.axis, -self.offset),
+            offset=deviation_in_words(self.diagram.axis, self.offset),
         )
 
     def _make_figure(self, key: str, title: Words, shown: Panel, *sentences: Words | None) -> Figure:

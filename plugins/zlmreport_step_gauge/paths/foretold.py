@@ -41,7 +41,7 @@ from zlmreport.plugin.page import (
 from zlmreport.plugin.standard import Role
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.keys import StepGaugeKeys
-from zlmreport_step_gauge.paths.path import PathKind, Point, Probing, ProbingPath
+from zlmreport_step_gauge.paths.path import Move, PathKind, Point, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path_of_job
 from zlmreport_step_gauge.paths.room import find_least_gap
 from zlmreport_step_gauge.paths.views import PlacedText, Touch, View, make_path_views
@@ -97,12 +97,15 @@ def _make_rows(path: ProbingPath) -> Iterator[str]:
     yield "# moves of the tip's centre, and the points of the surface that measuring moves lead to, mm"
     yield "move,kind,face,cycle,x,y,z,i,j,k"
     for number, move in enumerate(path.moves, start=1):
-        is_probing = isinstance(move, Probing)
-        point = move.target if isinstance(move, Probing) else move.to
-        normal = [f"{each:.7f}" for each in move.normal] if isinstance(move, Probing) else ["", "", ""]
-        kind = "measure" if is_probing else "move"
+        kind, point, normal = _split_move(move)
         which = [str(each or "") for each in (move.face, move.cycle)]
-        yield ",".join([str(number), kind, *which, *(f"{_write_mm(at):.5f}" for at in point), *normal])
+        along = [f"{each:.7f}" for each in normal] if normal else ["", "", ""]
+        yield ",".join([str(number), kind, *which, *(f"{_write_mm(at):.5f}" for at in point), *along])
+
+
+def _split_move(move: Move) -> tuple[str, Point, Point | None]:
+    """Return what a move is called, where it leads to, and the normal of the surface that it measures."""
+    return ("measure", move.target, move.normal) if isinstance(move, Probing) else ("move", move.to, None)
 
 
 def _say_of_gauge(planned: PlannedPath) -> Iterator[str]:
@@ -165,13 +168,14 @@ def _collect_values(planned: PlannedPath) -> dict[str, Any]:
         "least_gap": {"value": _write_mm(gap), "beside": name},
         "moves": [
             {
-                "kind": "measure" if isinstance(move, Probing) else "move",
+                "kind": kind,
                 "face": move.face or None,
                 "cycle": move.cycle or None,
-                "to": [_write_mm(at) for at in (move.target if isinstance(move, Probing) else move.to)],
-                "normal": list(move.normal) if isinstance(move, Probing) else None,
+                "to": [_write_mm(at) for at in point],
+                "normal": normal and list(normal),
             }
             for move in path.moves
+            for kind, point, normal in [_split_move(move)]
         ],
     }
 
@@ -242,7 +246,7 @@ def draw_path(planned: PlannedPath, language: Language) -> str:
         top += _HEADING
         _draw_heading(canvas, view, top, scale, language)
         placed = _Placed(view, scale, (GRAPH_WIDTH - scale * wide) / 2, top + height, lowest)
-        _draw(canvas, placed, language)
+        _draw_view(canvas, placed, language)
         top += height + _VIEW_GAP
     return canvas.image()
 
@@ -257,7 +261,7 @@ def _find_extent(view: View) -> tuple[tuple[float, float], tuple[float, float]]:
     return (float(low[0]), float(low[1])), (wide, tall)
 
 
-def _draw(canvas: Canvas, placed: _Placed, language: Language) -> None:
+def _draw_view(canvas: Canvas, placed: _Placed, language: Language) -> None:
     view = placed.view
     for kind, sides, style in (("base", view.base, _BASE), ("block", view.blocks, _BLOCK)):
         for side in sides:
@@ -271,7 +275,7 @@ def _draw(canvas: Canvas, placed: _Placed, language: Language) -> None:
         start, end = placed(arrow)
         _draw_arrow(canvas, "axis", start, end, _DIMENSION)
     for note in view.notes:
-        _note(canvas, placed, note, language)
+        _draw_note(canvas, placed, note, language)
 
 
 def _draw_touch(canvas: Canvas, placed: _Placed, touch: Touch) -> None:
@@ -295,7 +299,7 @@ def _draw_arrow(canvas: Canvas, kind: str, start: FloatArray, end: FloatArray, s
     canvas.outline(kind, [*_draw_polyline(corners), ("Z", ())], None, Fill(stroke.colour))
 
 
-def _note(canvas: Canvas, placed: _Placed, note: PlacedText, language: Language) -> None:
+def _draw_note(canvas: Canvas, placed: _Placed, note: PlacedText, language: Language) -> None:
     size = GRAPH_TEXT_SIZE if note.side is None else _NUMBER_SIZE
     label = plain_label(note.text.in_language(language), size)
     x, y = placed(note.at).tolist()

@@ -19,7 +19,7 @@ from zlmreport.cli.capture_display import (
     PlainLines,
     SteeredLines,
     is_watched,
-    visit_named,
+    read_visit,
 )
 from zlmreport.cli.jobs import tell_requirements
 from zlmreport.cli.terminal import Colour, make_visible, show_path
@@ -267,7 +267,7 @@ def _demand_answer(assignment: Assignment, answer: str) -> None:
     history = read_history(assignment.options.journal)
     if history is None or history.progress.question is None:
         raise InputError.at(Place("--answer"), "no question is open; leave it out")
-    visit_named(answer, history.progress, Place("--answer"))
+    read_visit(answer, history.progress, Place("--answer"))
 
 
 def _open_journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
@@ -276,7 +276,7 @@ def _open_journal(job: Job, assignment: Assignment, *, resume: bool, words: Type
         return Journal.begin(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
     journal = Journal.resume(path)
     if words.answer:
-        visit = visit_named(words.answer, journal.progress, Place("--answer"))
+        visit = read_visit(words.answer, journal.progress, Place("--answer"))
         now = _measure_elapsed(journal)
         for event in Follower(journal.progress, assignment.settings).take_answer(visit, now - journal.asked):
             journal.append(event, now)

@@ -58,7 +58,7 @@ _BAR = 24
 _NAME = re.compile(r"\d+\. |\S+ {2,}")
 
 
-def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | None:
+def read_visit(text: str, progress: Progress, place: Place) -> ListedVisit | None:
     """Return the visit that a question is answered with, None for none; raise `InputError` for no answer."""
     if text == _NO_VISIT:
         return None
@@ -72,7 +72,7 @@ def visit_named(text: str, progress: Progress, place: Place) -> ListedVisit | No
     return visit
 
 
-def order_of(line: str, progress: Progress) -> Order:
+def read_order(line: str, progress: Progress) -> Order:
     """Return what a line of the keyboard orders; raise `InputError` for nothing that can be done."""
     place = Place("keyboard")
     match line.strip().partition(" "):
@@ -240,7 +240,7 @@ class LiveDisplay(PlainLines):
             return
         for line in filter(str.strip, self._keyboard.list_lines()):
             try:
-                yield order_of(line, follower.progress)
+                yield read_order(line, follower.progress)
             except InputError as error:
                 self._say(error.problems[0].message)
         self._due = reading.time + _BEAT
@@ -268,7 +268,7 @@ class LiveDisplay(PlainLines):
         self._write_line("Stop the program and look where it is.")
         while True:
             try:
-                return visit_named(
+                return read_visit(
                     input("Number of the visit at which it stood, or none: ").strip(),
                     progress,
                     Place("answer"),
@@ -381,7 +381,7 @@ class SteeredLines(JsonLines):
             return
         for line in self._list_orders():
             try:
-                yield order_of(line, follower.progress)
+                yield read_order(line, follower.progress)
             except InputError as error:
                 self._say("refused", message=error.problems[0].message)
         self._due = reading.time + _TOLD_EVERY
@@ -409,7 +409,7 @@ class SteeredLines(JsonLines):
         while True:
             self._say("asks", message=say_halted(question, self._writer), event=to_record(question))
             try:
-                return visit_named(self._answer(), progress, Place("answer"))
+                return read_visit(self._answer(), progress, Place("answer"))
             except InputError as error:
                 self._say("refused", message=error.problems[0].message)
 

@@ -231,7 +231,7 @@ def _confirm(options: Namespace, registry: Registry) -> int:
 def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) -> Document:
     """Return the job of the axis as found, before its table, and as left."""
 
-    def told(value: object) -> str:
+    def write(value: object) -> str:
         return str(value) if not isinstance(value, Path) else os.path.relpath(value, folder)
 
     source = before.source.options.model_dump(exclude_unset=True, exclude={"instrument"})
@@ -245,7 +245,7 @@ def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: P
     }
     if before.keys.environment is not None:
         found["environment"] = before.keys.environment.model_dump(mode="json", exclude_unset=True)
-    keys = {"extends": told(path.resolve()), "as_found": json.loads(json.dumps(found, default=told))}
+    keys = {"extends": write(path.resolve()), "as_found": json.loads(json.dumps(found, default=write))}
     lines = ["# The axis as found and as left, before and after its compensation table.", *write_group(keys)]
     text = "".join(f"{line}\n" for line in lines)
     return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())

@@ -63,15 +63,15 @@ def _list_further_words(command: str) -> list[str]:
 
 
 def _complete_identifiers(kind: Kind[Any]) -> Callable[..., Iterable[str]]:
-    def found(prefix: str, **_: object) -> Iterable[str]:
+    def complete_begun(prefix: str, **_: object) -> Iterable[str]:
         begun, comma, _last = prefix.rpartition(",")  # of a list, such as that of the formats
         return [f"{begun}{comma}{identifier}" for identifier in find_plugins().list_identifiers(kind)]
 
-    return found
+    return complete_begun
 
 
 def _complete_files_or(words: Iterable[str], files: Callable[..., Iterable[str]]) -> Callable[..., list[str]]:
-    def found(prefix: str, **others: object) -> list[str]:
+    def complete_begun(prefix: str, **others: object) -> list[str]:
         return [*(word for word in words if word.startswith(prefix)), *files(prefix=prefix, **others)]
 
-    return found
+    return complete_begun

@@ -89,7 +89,7 @@ def make_parser_of(command: Command) -> CommandParser:
         settings: dict[str, Any] = {
             "metavar": option.metavar,
             "help": option.help,
-            "type": _type_reader(option.read),
+            "type": _make_type_of(option.read),
         }
         if option.several:
             parser.add_argument(f"--{option.name}", action="append", default=[], **settings)
@@ -101,14 +101,14 @@ def make_parser_of(command: Command) -> CommandParser:
     return parser
 
 
-def _type_reader(read: Callable[[str], Any]) -> Callable[[str], Any]:
-    def typed(text: str) -> Any:
+def _make_type_of(read: Callable[[str], Any]) -> Callable[[str], Any]:
+    def read_typed(text: str) -> Any:
         try:
             return read(text)
         except ValueError as error:
             raise argparse.ArgumentTypeError(str(error)) from error
 
-    return typed
+    return read_typed
 
 
 _PLUGIN_FILES.add_argument("--plugin", type=Path, action="append", default=[])

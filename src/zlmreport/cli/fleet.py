@@ -26,12 +26,12 @@ from zlmreport.fleet.plan import Due, PlannedJob
 from zlmreport.fleet.records import NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.language import Language
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.version import __version__
 
 SCHEMA = "zlmreport/night/1"
 
-_MINUTE = 60
 INTERRUPTED = 128 + signal.SIGINT
 #: What the bar counts: jobs that were due.
 _COUNTED = frozenset(What) - {What.UNCHANGED, What.VANISHED, What.OVERDUE, What.LEFT}
@@ -54,7 +54,7 @@ def _run(fleet: FleetFile, options: Namespace) -> int:
         return _foretell(fleet, plugins, options)
     with _open_logs(fleet, options) as logs:
         watcher = _Watcher(fleet, logs, options)
-        seconds = math.inf if options.max_time is None else _MINUTE * options.max_time
+        seconds = math.inf if options.max_time is None else SECONDS_PER_MINUTE * options.max_time
         with _let_signals_interrupt(), watcher:
             spend_night(fleet, Order(plugins, options.workers, seconds), watcher)
     if options.json:
@@ -66,10 +66,10 @@ def _run(fleet: FleetFile, options: Namespace) -> int:
 def _let_signals_interrupt() -> Iterator[None]:
     """Let a signal to end be an interruption, so that the night still says what it came to."""
 
-    def interrupted(*_: object) -> None:
+    def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    before = signal.signal(signal.SIGTERM, interrupted)
+    before = signal.signal(signal.SIGTERM, interrupt)
     try:
         yield
     finally:

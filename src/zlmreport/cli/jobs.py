@@ -233,7 +233,7 @@ def _name_measured_sets(result: JobResult) -> Iterator[tuple[str, MeasurementSet
             yield " ".join(filter(None, (name, line))), readings
 
 
-def report(result: JobResult) -> Iterator[str]:
+def tell_result(result: JobResult) -> Iterator[str]:
     """Yield the lines on a finished job."""
     job = result.job
     if job is None or not result.evaluations:

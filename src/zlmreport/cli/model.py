@@ -10,20 +10,20 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from zlmreport.cli.model_lines import (
-    build_lines,
-    change_lines,
-    fit_lines,
+    tell_build,
+    tell_change,
     tell_diagnosis,
+    tell_fit,
     tell_history,
-    write_point_lines,
+    tell_points,
 )
 from zlmreport.cli.model_values import (
     ModelChange,
-    change_values,
+    collect_change,
+    collect_fit,
     collect_history,
+    collect_points,
     find_points_of,
-    fit_values,
-    list_point_values,
 )
 from zlmreport.cli.terminal import lay_out_table, print_json, show_path, show_progress
 from zlmreport.document.subjects.diagnosis import write_effect_argument
@@ -114,12 +114,12 @@ def _fit(session: _Session, options: Namespace) -> _Answer:
     fitted = session.make_study().fit_whole()
     points = find_points_of(fitted.fit, options.at)
     lines = (
-        *fit_lines(fitted, session.job),
-        *write_point_lines(points, session.job.axis),
+        *tell_fit(fitted, session.job),
+        *tell_points(points, session.job.axis),
         "",
         _say_next(session),
     )
-    return lines, lambda: fit_values(fitted) | list_point_values(points, session.job.axis)
+    return lines, lambda: collect_fit(fitted) | collect_points(points, session.job.axis)
 
 
 def _diagnose(session: _Session, _: Namespace) -> _Answer:
@@ -180,7 +180,7 @@ def _build(session: _Session, options: Namespace) -> _Answer:
     if edit is not None and not options.dry_run:
         edit.write()
     job = edit.job if edit else session.job
-    lines = build_lines(built, job, session.shown_path, edit, is_tried=options.dry_run)
+    lines = tell_build(built, job, session.shown_path, edit, is_tried=options.dry_run)
     return lines, lambda: build_values(built)
 
 
@@ -231,8 +231,8 @@ def _try_change(session: _Session, named: WrittenEffect | None, removed: tuple[s
 
 def _write_change(session: _Session, change: ModelChange) -> _Answer:
     change.edit.write()
-    lines = change_lines(session.path, change, session.writer)
-    return lines, lambda: change_values(session.path, change)
+    lines = tell_change(session.path, change, session.writer)
+    return lines, lambda: collect_change(session.path, change)
 
 
 def _say_next(session: _Session) -> str:

@@ -53,13 +53,13 @@ from zlmreport.model.planning.experiment import Experiment
 _ENGLISH = Language.ENGLISH
 
 
-def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
+def tell_fit(fitted: Fitted, job: Job) -> Iterator[str]:
     """Yield the lines on a fitted model."""
     yield from _lay_out_heading(job, fitted.fit)
     yield from lay_out_sections(map(_drop_unused_columns, fit_sections(fitted, _ENGLISH)))
 
 
-def write_point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
+def tell_points(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
     """Yield a table of the deviation at the positions, a column for each direction."""
     if points is None:
         return
@@ -98,7 +98,7 @@ def tell_diagnosis(
     for each in sections:
         yield from lay_out_sections([_drop_unused_columns(each)])
         if each.key == "verdict":
-            yield from measure_lines(diagnosis, "  ")
+            yield from _tell_what_to_measure(diagnosis, "  ")
             yield f"  {following}"
     unseen = {each.effect for each in diagnosis.not_testable if not is_of_another_axis(each.reason)}
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
@@ -110,12 +110,12 @@ def tell_diagnosis(
             "",
         )
     yield ""
-    yield from write_needless_lines(list_needless(diagnosis), path)
-    yield from measure_lines(diagnosis)
+    yield from _tell_needless(list_needless(diagnosis), path)
+    yield from _tell_what_to_measure(diagnosis)
     yield following
 
 
-def write_needless_lines(effects: Iterable[str], path: str) -> Iterator[str]:
+def _tell_needless(effects: Iterable[str], path: str) -> Iterator[str]:
     """Yield how effects are taken out that may not be there; `path` is the job as the user types it."""
     for each in effects:
         yield from wrap(
@@ -125,7 +125,7 @@ def write_needless_lines(effects: Iterable[str], path: str) -> Iterator[str]:
         )
 
 
-def measure_lines(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
+def _tell_what_to_measure(diagnosis: AxisDiagnosis, indent: str = "") -> Iterator[str]:
     """Yield what to look at and to measure before the certificate, where nothing can be tried."""
     left = diagnosis.remainder
     if diagnosis.verdict is DiagnosisVerdict.UNEXPLAINED and left is not None and left.formula is None:
@@ -195,7 +195,7 @@ def _draw_fall(
         yield from wrap(f"{what}, predicted if the control corrects all effects so far")
 
 
-def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[str]:
+def tell_change(path: Path, change: ModelChange, writer: Writer) -> Iterator[str]:
     """Yield what became of the job, and how the error changed."""
     shown, after = show_path(path), change.history[-1]
     axis = after.fit.design.axis
@@ -230,7 +230,7 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
         yield from wrap(f"held together with {', '.join(held)}")
 
 
-def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
+def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
     names, last = name_steps(built.steps), built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
@@ -246,12 +246,12 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
         yield from wrap(f"not sure: {chances}; else another effect, or something without a name", "")
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
-    yield from write_needless_lines(built.needless, path)
+    yield from _tell_needless(built.needless, path)
     yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
     if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
     else:
-        yield from measure_lines(last)
+        yield from _tell_what_to_measure(last)
         yield f"next: {find_next_step(last, path)}"
 
 

@@ -60,7 +60,7 @@ def find_points_of(fit: Fit, positions: Sequence[float]) -> PredictedPoints | No
     )
 
 
-def fit_values(fitted: Fitted) -> dict[str, Any]:
+def collect_fit(fitted: Fitted) -> dict[str, Any]:
     """Return a fitted model with its parameters, how well they are known, its error and its residuals."""
     axis = fitted.fit.design.axis
     return {
@@ -86,7 +86,7 @@ def collect_history(history: Sequence[Fitted], forecasts: Sequence[StandardForec
     return {"schema": HISTORY, "steps": _list_steps(history, forecasts)}
 
 
-def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
+def collect_change(path: Path, change: ModelChange) -> dict[str, Any]:
     """Return what was changed, and the error before and after."""
     after = change.history[-1]
     axis = after.fit.design.axis
@@ -102,7 +102,7 @@ def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
     }
 
 
-def list_point_values(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
+def collect_points(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
     """Return the same for JSON, in full precision: positions in mm or degrees, deviations in µm or ″."""
     if points is None:
         return {}

@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.jobs import JobResult, do_all, load_all, report, tell_findings
+from zlmreport.cli.jobs import JobResult, do_all, load_all, tell_findings, tell_result
 from zlmreport.cli.terminal import show_progress
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
@@ -41,7 +41,7 @@ def run(options: Namespace) -> int:
 
 
 def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], signer: Signer | None) -> int:
-    def made(result: JobResult, job: Job) -> JobResult:
+    def make_job(result: JobResult, job: Job) -> JobResult:
         if signer:
             _demand_something_to_sign(job, registry)
         if job.source.instrument and not (options.quiet or options.json):
@@ -67,7 +67,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
         else result
         for result in load_all(options.jobs, registry, formats)
     ]
-    return do_all(loaded, made, report, options, fail_on_nonconformity=options.fail_on_nonconformity)
+    return do_all(loaded, make_job, tell_result, options, fail_on_nonconformity=options.fail_on_nonconformity)
 
 
 def _make_showing(options: Namespace) -> Showing:
@@ -124,7 +124,7 @@ def check(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
     trials = TRIALS if options.json else _FEW_TRIALS
 
-    def evaluated(result: JobResult, job: Job) -> JobResult:
+    def evaluate_job(result: JobResult, job: Job) -> JobResult:
         if "instrument" in type(job.source.options).model_fields:
             from zlmreport.cli.capture import awaits_capture, demand_capturable  # noqa: PLC0415 - only for live readings
 
@@ -142,11 +142,11 @@ def check(options: Namespace) -> int:
             budget=certificate.budget,
         )
 
-    def lines(result: JobResult) -> Iterator[str]:
+    def tell_job(result: JobResult) -> Iterator[str]:
         if result.job is None or result.evaluations:
             return tell_findings(result)
         from zlmreport.cli.capture import tell_planned  # noqa: PLC0415 - only for live readings
 
         return tell_planned(result.path, result.job, registry)
 
-    return do_all(load_all(options.jobs, registry), evaluated, lines, options)
+    return do_all(load_all(options.jobs, registry), evaluate_job, tell_job, options)

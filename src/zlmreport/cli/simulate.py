@@ -13,6 +13,7 @@ from zlmreport.files import Document, write
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
 from zlmreport.live.emulation.emulator import Scene
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.simulation.files import (
     read_description_of,
@@ -24,7 +25,6 @@ from zlmreport.model.simulation.simulate import StartedMachine, make_emulated_ma
 from zlmreport.plugin.registry import find_plugins
 
 _COMMAND = "zlmreport simulate"
-_SECONDS_A_MINUTE = 60
 #: Over so many seconds a reading is averaged unless the job says otherwise.
 _USUAL_DWELL = 1.0
 
@@ -71,7 +71,7 @@ def _run_live(options: Namespace) -> int:
     def announce(address: str) -> Sequence[str]:
         port = address if options.link is None else str(options.link.absolute())
         source = _make_source_keys(options, description.plan, {"plugin": instrument.identifier, "port": port})
-        last = machine.duration / _SECONDS_A_MINUTE
+        last = machine.duration / SECONDS_PER_MINUTE
         when = f"{options.start:g} s after somebody reads the port"
         head = list_remarks(file, "What a simulated axis really does; nothing here was measured.")
         return (

@@ -21,7 +21,7 @@ from zlmreport.language.formatting import round_pair, write_general_number, writ
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.model_error import ModelError
-from zlmreport.model.plane.plane import Plane, fit_plane, report
+from zlmreport.model.plane.plane import Plane, collect_plane, fit_plane
 from zlmreport.model.plane.surface import Surface
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -40,7 +40,7 @@ def run(options: Namespace) -> int:
     points = [(unit.to_si(along), unit.to_si(across)) for along, across in options.at] or _lay_grid(plane)
     try:
         if options.json:
-            print_json(report(plane, points))
+            print_json(collect_plane(plane, points))
         else:
             print(*_tell_lines(plane, points), sep="\n")
     except ModelError as error:

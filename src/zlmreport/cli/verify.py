@@ -134,7 +134,7 @@ def _tell_lines(path: Path, found: CheckedCertificate) -> Iterator[str]:
         yield from _tell_parameters(standard, found.values, say)
     if found.own_words:
         yield ""
-        yield from _own_words(found.own_words, say)
+        yield from _list_own_words(found.own_words, say)
 
 
 def _tell_verdict(found: CheckedCertificate, say: _Say) -> str:
@@ -187,7 +187,7 @@ def _tell_numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[
     yield say(Words("numbers")), say(given.given(of=_count_of(holding, numbers)))
     elsewhere = [
         CheckedStatement(
-            " ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value)
+            " ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _say_both(value)
         )
         for value in values
         if value.verdict is VerificationVerdict.DIFFERS and not _is_of_parameter(value)
@@ -195,7 +195,7 @@ def _tell_numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[
     yield from list(_say_summary("", elsewhere, given, say))[1:]
 
 
-def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
+def _list_own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
     """Yield the words that somebody else wrote, each once, with what nobody can tell by looking."""
     yield f"  {say(_OWN_WORDS)}"
     by_text: dict[str, list[QuotedText]] = {}
@@ -251,7 +251,7 @@ def _tell_parameters(standard: str, values: Sequence[ComparedValue], say: _Say) 
         own = {value.path[-1]: value for value in of_standard if value.path[3] == symbol}
         wrong = {key: value for key, value in own.items() if value.verdict is VerificationVerdict.DIFFERS}
         verdict = VerificationVerdict.DIFFERS if wrong else VerificationVerdict.HOLDS
-        others = "; ".join(f"{key}: {_both(value)}" for key, value in wrong.items() if key != "value")
+        others = "; ".join(f"{key}: {_say_both(value)}" for key, value in wrong.items() if key != "value")
         value = own.get("value")
         rows.append(
             (
@@ -269,7 +269,7 @@ def _is_of_parameter(value: ComparedValue) -> bool:
     return len(value.path) > 4 and value.path[0] == "evaluations" and value.path[2] == "parameters"
 
 
-def _both(value: ComparedValue) -> str:
+def _say_both(value: ComparedValue) -> str:
     stated, recomputed = _show_difference(value)
     return f"{stated} is stated, and {recomputed} recomputed"
 

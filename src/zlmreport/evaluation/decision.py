@@ -125,9 +125,9 @@ def with_decisions(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
         else replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
         for each in evaluation.parameters
     )
-    impossible = [_find_no_room(each, _NO_ROOM) for each in parameters if _is_accepting_nothing(each)]
+    impossible = [_make_finding(each, _NO_ROOM) for each in parameters if _is_accepting_nothing(each)]
     is_by_value = complete and not rule.factor
-    wide = [_find_no_room(each, _WIDE) for each in parameters if is_by_value and _is_wide(each)]
+    wide = [_make_finding(each, _WIDE) for each in parameters if is_by_value and _is_wide(each)]
     return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible, *wide))
 
 
@@ -141,7 +141,7 @@ def _is_wide(parameter: EvaluatedParameter) -> bool:
     return expanded is not None and parameter.limit is not None and expanded > parameter.limit
 
 
-def _find_no_room(parameter: EvaluatedParameter, found: Words) -> Finding:
+def _make_finding(parameter: EvaluatedParameter, found: Words) -> Finding:
     symbol = write_plain(parameter.quantity.notation)
     return Finding(_ROOM.given(symbol=symbol), found.given(symbol=symbol), met=False)
 

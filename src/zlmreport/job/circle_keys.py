@@ -10,13 +10,12 @@ from pydantic import Field
 from zlmreport.job.types import Finite, JobPart, Positive, Text, optional
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurand import CIRCLE, Measurand
-from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.measurement.units import MILLIMETRE, SECONDS_PER_MINUTE
 
 if TYPE_CHECKING:
     from zlmreport.job.keys import JobKeys
     from zlmreport.job.tree import Step
 
-_SECONDS_PER_MINUTE = 60.0
 #: Keys of `plan` that a circle has too.
 _OF_PLANNED_CIRCLES = frozenset({"circle", "runs", "programs"})
 
@@ -44,7 +43,7 @@ class CircleKeys(JobPart):
     def in_si(self) -> NominalCircle:
         """Return the circle in metres and seconds."""
         x, y, z = map(MILLIMETRE.to_si, self.centre)
-        feed = MILLIMETRE.to_si(self.feed) / _SECONDS_PER_MINUTE
+        feed = MILLIMETRE.to_si(self.feed) / SECONDS_PER_MINUTE
         return NominalCircle(
             self.plane, MILLIMETRE.to_si(self.radius), feed, (x, y, z), self.calibrated_length
         )
@@ -80,13 +79,6 @@ class CirclePlanKeys(JobPart):
     )
 
 
-#: Keys of `measurement` that speak of targets at which an axis stops, and what is to be done.
-_OF_TARGETS = {
-    "method": "a circle has no targets at which an axis stops; take it out",
-    "dwell": "a circle has no targets at which an axis stops; take it out",
-}
-
-
 def find_lack_of_circle(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield what would need a circle, of a job that states none."""
     if measurand.identifier == CIRCLE.identifier:
@@ -114,9 +106,9 @@ def find_circle_contradictions(
         )
     if keys.measurement.tests:
         yield ("measurement", "tests"), "a circle is one measurement; write a job for each circle"
-    for key, reason in _OF_TARGETS.items():
+    for key in ("method", "dwell"):
         if getattr(keys.measurement, key) is not None:
-            yield ("measurement", key), reason
+            yield ("measurement", key), "a circle has no targets at which an axis stops; take it out"
     feed = keys.measurement.feed
     if feed is not None and feed != circle.feed:
         yield (

@@ -48,7 +48,7 @@ def read_catalogue(content: bytes, file: str, beside: Callable[[str], bytes]) ->
     """
     problems: list[Problem] = []
     tree = parse(content, file, strictly=False)
-    measurements = _read_measurements(tree, beside, problems)
+    measurements = _find_measurements(tree, beside, problems)
     whole: dict[str, FormulaKeys] = {}
     for item in _list_items(tree, problems):
         entry = _make_entry(item, measurements.entries, problems)
@@ -75,7 +75,7 @@ def read_measurements(content: bytes, file: str, beside: Callable[[str], bytes])
     return keys.measurements
 
 
-def _read_measurements(tree: Keys, beside: Callable[[str], bytes], problems: list[Problem]) -> Keys:
+def _find_measurements(tree: Keys, beside: Callable[[str], bytes], problems: list[Problem]) -> Keys:
     """Return the measurements of a catalogue, or of the file that it names."""
     keys = validate(CatalogueKeys, tree.without("effects"), problems)
     if keys is None or "measurements" not in tree.entries:
@@ -87,7 +87,7 @@ def _read_measurements(tree: Keys, beside: Callable[[str], bytes], problems: lis
             sentence = f"measurements: there is no file {keys.measurements!r} beside this one"
             problems.append(Problem(place_of(tree, ("measurements",)), sentence))
             return make_keys_of(tree.place)
-        return _read_measurements(tree, beside, problems)
+        return _find_measurements(tree, beside, problems)
     listed = tree.entries["measurements"].value
     return listed if isinstance(listed, Keys) else make_keys_of(tree.place)
 

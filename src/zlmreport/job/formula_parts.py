@@ -216,7 +216,7 @@ class Formula:
             return None
         return float(compute(tree, values))  # type: ignore[arg-type]  # none of them is None
 
-    def bound(self, name: str, rise: float | None) -> tuple[float, float]:
+    def compute_bounds(self, name: str, rise: float | None) -> tuple[float, float]:
         """Return between which values, SI, physics allows a parameter; infinite where it does not care.
 
         `rise`: The largest logged rise of a temperature, K; None where none was logged: what depends on it
@@ -224,7 +224,7 @@ class Formula:
         """
         own = self.keys.parameters[name].possible if name in self.keys.parameters else None
         low, high = (own.least, own.most) if own else (None, None)
-        bounds = (_bound(low, rise), _bound(high, rise))
+        bounds = (_compute_bound(low, rise), _compute_bound(high, rise))
         least, most = (None if each is None else each / self.units[name].per_si for each in bounds)
         return -np.inf if least is None else least, np.inf if most is None else most
 
@@ -407,7 +407,7 @@ def _derive_units(
     return found
 
 
-def _bound(stated: float | str | None, rise: float | None) -> float | None:
+def _compute_bound(stated: float | str | None, rise: float | None) -> float | None:
     """Return a bound in the unit of its parameter; None where there is none."""
     if not isinstance(stated, str):
         return stated

@@ -60,7 +60,7 @@ def find_mistakes_in(error: ValidationError, keys: Keys) -> tuple[Mistake, ...]:
         refusal = Refusal(details["type"], details.get("ctx", {}))
         gathered.setdefault(_find_path(details, keys), []).append(refusal)
     return tuple(
-        Mistake(path, _place(keys, path, refusals), _find_node(keys, path), tuple(refusals))
+        Mistake(path, _find_place(keys, path, refusals), _find_node(keys, path), tuple(refusals))
         for path, refusals in gathered.items()
         if not _is_explained_below(path, gathered)
     )
@@ -80,7 +80,7 @@ def _list_steps_that_exist(location: tuple[Step, ...], keys: Keys) -> Iterator[S
             node = value
 
 
-def _place(keys: Keys, path: tuple[Step, ...], refusals: list[Refusal]) -> Place:
+def _find_place(keys: Keys, path: tuple[Step, ...], refusals: list[Refusal]) -> Place:
     """Return the place of a value, or of an unknown key."""
     if any(refusal.kind == UNKNOWN for refusal in refusals):
         return find_key_place(keys, path)
@@ -103,42 +103,37 @@ _NUMBER_AND_UNIT = re.compile(
     r"([-+]?\d+(?:\.\d+)?)\s*(?:mm|µm|μm|um|nm|m|in|°C?|deg|arcsec|″|%|hPa|s)(?:/min)?"
 )
 
+_DATE = "a date such as 2026-11-20"
 _CHOICE_KINDS = frozenset({"literal_error", "enum"})
 _SPOKEN_KINDS = frozenset({"value_error", "assertion_error"})
 
-#: What is expected instead, by the kind of refusal.
-_EXPECTED: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
-    "float_type": lambda _: "a number",
-    "float_parsing": lambda _: "a number",
-    "finite_number": lambda _: "a finite number",
-    "int_type": lambda _: "a whole number",
-    "int_parsing": lambda _: "a whole number",
-    "int_from_float": lambda _: "a whole number",
+#: What is expected instead, by the kind of refusal: the same words whatever its numbers are, or with them.
+_EXPECTED_KINDS: Mapping[str, str] = {
+    kind: words
+    for kinds, words in (
+        ({"float_type", "float_parsing"}, "a number"),
+        ({"finite_number"}, "a finite number"),
+        ({"int_type", "int_parsing", "int_from_float"}, "a whole number"),
+        ({"string_type"}, "text"),
+        ({"path_type"}, "the name of a file"),
+        ({"date_type", "date_parsing", "date_from_datetime_parsing", "date_from_datetime_inexact"}, _DATE),
+        ({"bool_type", "bool_parsing"}, "true or false"),
+        ({"list_type", "tuple_type", "set_type"}, "a list"),
+        (GROUP_EXPECTED, "a group of keys"),
+    )
+    for kind in kinds
+}
+_EXPECTED_SIZES: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
     "greater_than": lambda given: _say_bounds("greater than", given["gt"]),
     "greater_than_equal": lambda given: _say_bounds("of at least", given["ge"]),
     "less_than": lambda given: _say_bounds("less than", given["lt"]),
     "less_than_equal": lambda given: _say_bounds("of at most", given["le"]),
     "multiple_of": lambda given: f"a multiple of {given['multiple_of']}",
-    "string_type": lambda _: "text",
     "string_too_short": lambda given: f"text of at least {count_in_words(given['min_length'], 'character')}",
     "string_too_long": lambda given: f"text of at most {count_in_words(given['max_length'], 'character')}",
     "string_pattern_mismatch": lambda given: f"text of the form {given['pattern']}",
-    "path_type": lambda _: "the name of a file",
-    "date_type": lambda _: "a date such as 2026-11-20",
-    "date_parsing": lambda _: "a date such as 2026-11-20",
-    "date_from_datetime_parsing": lambda _: "a date such as 2026-11-20",
-    "date_from_datetime_inexact": lambda _: "a date such as 2026-11-20",
-    "bool_type": lambda _: "true or false",
-    "bool_parsing": lambda _: "true or false",
-    "list_type": lambda _: "a list",
-    "tuple_type": lambda _: "a list",
-    "set_type": lambda _: "a list",
     "too_short": lambda given: f"a list of at least {count_in_words(given['min_length'], 'value')}",
     "too_long": lambda given: f"a list of at most {count_in_words(given['max_length'], 'value')}",
-    "dict_type": lambda _: "a group of keys",
-    "mapping_type": lambda _: "a group of keys",
-    "model_type": lambda _: "a group of keys",
-    "model_attributes_type": lambda _: "a group of keys",
 }
 
 
@@ -175,8 +170,8 @@ def _write_dotted(within: str, path: tuple[Step, ...]) -> str:
 
 def _say_missing(mistake: Mistake, name: str, field: FieldInfo | None) -> str:
     if isinstance(mistake.path[-1], int):
-        return f"{name}: a value is missing in the list{_find_example(field)}"
-    return f"{name} is missing{_say_description(field)}{_find_example(field)}"
+        return f"{name}: a value is missing in the list{_say_example(field)}"
+    return f"{name} is missing{_say_description(field)}{_say_example(field)}"
 
 
 def _say_unknown(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> str:
@@ -201,7 +196,7 @@ def _say_unfit(mistake: Mistake, model: type[BaseModel], name: str, field: Field
         choices = [choice for refusal in mistake.refusals for choice in _list_choices(refusal, field)]
         return f"{prefix}{quoted(node.text)} is unknown; {did_you_mean(node.text, choices)}"
     expected = " or ".join(dict.fromkeys(_say_expectation(refusal, field) for refusal in mistake.refusals))
-    hint = _say_hint(node) or _say_keys_hint(model, mistake) or _find_example(field)
+    hint = _say_hint(node) or _say_keys_hint(model, mistake) or _say_example(field)
     if isinstance(node, Scalar) and node.is_nothing:
         return f"{name} has no value; {expected} is expected{hint.replace('; for', ', for')}"
     return f"{prefix}{show_value(node)} is not {expected}{hint}"
@@ -210,9 +205,9 @@ def _say_unfit(mistake: Mistake, model: type[BaseModel], name: str, field: Field
 def _say_expectation(refusal: Refusal, field: FieldInfo | None) -> str:
     if refusal.kind in _CHOICE_KINDS:
         return f"one of {', '.join(_list_choices(refusal, field))}"
-    if refusal.kind in _EXPECTED:
-        return _EXPECTED[refusal.kind](refusal.context)
-    return f"what is expected{_say_description(field)}"
+    if refusal.kind in _EXPECTED_SIZES:
+        return _EXPECTED_SIZES[refusal.kind](refusal.context)
+    return _EXPECTED_KINDS.get(refusal.kind, f"what is expected{_say_description(field)}")
 
 
 def _list_choices(refusal: Refusal, field: FieldInfo | None) -> list[str]:
@@ -247,7 +242,7 @@ def _say_description(field: FieldInfo | None) -> str:
     return f": {first if rest[:1].isupper() else first.lower()}{rest}"
 
 
-def _find_example(field: FieldInfo | None) -> str:
+def _say_example(field: FieldInfo | None) -> str:
     return f"; for example {_write_as_in_a_job(field.examples[0])}" if field and field.examples else ""
 
 

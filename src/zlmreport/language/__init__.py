@@ -183,7 +183,7 @@ def _write_in(value: str | float | Said, language: Language) -> str:
     return str(value)
 
 
-def accepted_language(asked: str) -> Language | None:
+def find_accepted_language(asked: str) -> Language | None:
     """Return the first language of a row such as ``fr-CH, de;q=0.8`` that there is, or None."""
     wanted = [part.strip()[:2] for part in asked.split(",")]
     return next((Language(each) for each in wanted if each in set(Language)), None)

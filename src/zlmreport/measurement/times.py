@@ -47,7 +47,7 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         return lambda row: cells.number(row, column, _ADVICE)
     days, before = 0.0, 0.0
 
-    def seconds(row: TextRow) -> float | None:
+    def read_seconds(row: TextRow) -> float | None:
         nonlocal days, before
         text = row.cells[index]
         if cells.is_missing(text):
@@ -63,7 +63,7 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         before = time
         return time
 
-    return seconds
+    return read_seconds
 
 
 def find_days(cells: Cells, column: TextColumn | None) -> ReadingDays | None:

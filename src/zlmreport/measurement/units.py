@@ -18,6 +18,7 @@ from zlmreport.measurement.arrays import FloatArray
 ZERO_CELSIUS = 273.15
 #: 20 °C in kelvin, the standard reference temperature of ISO 1.
 REFERENCE_TEMPERATURE = 293.15
+SECONDS_PER_MINUTE = 60.0
 
 _Value = TypeVar("_Value", float, FloatArray)
 

@@ -42,7 +42,7 @@ from zlmreport.model.fitting.observations import Observations, make_observations
 from zlmreport.notebook.frames import frame_of
 from zlmreport.notebook.layout import sections_html
 from zlmreport.notebook.readings import Readings, readings_of, registry, tree_of
-from zlmreport.notebook.results import drawn
+from zlmreport.notebook.results import draw_on
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -452,7 +452,7 @@ class Model:
         """Draw the estimate with its uncertainty over the travel on axes of matplotlib, and return them."""
         from zlmreport.document.figures.model_diagram import ModelDiagram, estimate  # noqa: PLC0415 - drawn on demand
 
-        return drawn(estimate(ModelDiagram(self.fit, self._error)), ax)[0]
+        return draw_on(estimate(ModelDiagram(self.fit, self._error)), ax)[0]
 
     def plots(self) -> dict[str, list[Axes]]:
         """Draw all graphs of the model, each in a figure of its own.
@@ -469,7 +469,7 @@ class Model:
 
         diagram = ModelDiagram(self.fit, self._error)
         figures = [each(diagram) for each in (draw_over_position, estimate, draw_over_run, draw_over_time)]
-        return {figure.key: drawn(figure, None) for figure in figures}
+        return {figure.key: draw_on(figure, None) for figure in figures}
 
     def to_dict(self) -> dict[str, Any]:
         """Return effects, parameters and error as the results file has them."""

@@ -19,13 +19,14 @@ from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import is_for
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.planning.planned_test import describe_planned_test
 from zlmreport.model.planning.programs import plan_motion_of
 from zlmreport.model.planning.visibility import Sight
 from zlmreport.notebook.frames import Library, frame_of
 from zlmreport.notebook.layout import sections_html
 from zlmreport.notebook.readings import plain_value, registry
-from zlmreport.notebook.results import drawn
+from zlmreport.notebook.results import draw_on
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,7 +35,6 @@ _NAME = "plan"
 _NO_TARGETS = (
     "a circular test has a path and no targets; zlmreport plan prints it and writes its part programs"
 )
-_SECONDS = 60.0
 #: How far a plan sees an effect that is not hidden, or that this axis cannot have.
 _SEEN_OR_ELSEWHERE = frozenset({Sight.VISIBLE.value, Sight.OTHER_AXIS.value})
 #: What a plan needs of a job that nobody has written yet.
@@ -79,7 +79,7 @@ class Plan:
     @property
     def minutes(self) -> float:
         """How long it takes, motion and rest together."""
-        return float(self._values["duration"]) / _SECONDS
+        return float(self._values["duration"]) / SECONDS_PER_MINUTE
 
     @property
     def hidden(self) -> dict[str, str]:
@@ -105,7 +105,7 @@ class Plan:
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the way of the axis over the visits on axes of matplotlib, and return them."""
-        return drawn(self._sequence, ax)[0]
+        return draw_on(self._sequence, ax)[0]
 
     def __repr__(self) -> str:
         """Return how large the test is."""

@@ -211,14 +211,14 @@ class Result:
         known = {figure.key: figure for figure in self._figures}
         if graph and graph not in known:
             raise KeyError(f"{self.standard} has no graph {graph!r} (it has: {', '.join(known)})")
-        return drawn(known[graph] if graph else self._figures[0], ax)[0]
+        return draw_on(known[graph] if graph else self._figures[0], ax)[0]
 
     def plots(self) -> dict[str, list[Axes]]:
         """Draw all graphs that the standard prescribes, each in a figure of its own.
 
         Returns the axes of their panels by the keys of `graphs`.
         """
-        return {figure.key: drawn(figure, None) for figure in self._figures}
+        return {figure.key: draw_on(figure, None) for figure in self._figures}
 
     def __repr__(self) -> str:
         """Return the parameters in one line."""
@@ -318,7 +318,7 @@ def _find_known_standard(
     return registry().standard(identifier), found[0].options
 
 
-def drawn(figure: Figure, ax: Axes | None) -> list[Axes]:
+def draw_on(figure: Figure, ax: Axes | None) -> list[Axes]:
     """Return axes with the panels of a figure on them: those given, or axes of a new figure of matplotlib."""
     from zlmreport.document.figures import on_axes  # noqa: PLC0415 - it brings matplotlib
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
@@ -15,7 +15,7 @@ from starlette.routing import Route
 from zlmreport.document.typesetting.resources import find_page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import ZlmreportError
-from zlmreport.language import Language, accepted_language
+from zlmreport.language import Language, find_accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
 from zlmreport.web.commands import FileCommands, Wanted
 from zlmreport.web.diagnoses import Diagnoses
@@ -23,6 +23,9 @@ from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.making import draw_page
 from zlmreport.web.texts import NO_SCRIPT, TITLE, collect_texts
 from zlmreport.web.watched import LoadedFile, WatchedFile
+
+#: What a page sends.
+_Sent = TypeVar("_Sent", bound=BaseModel)
 
 OTHER_PAGE = "the request is none of a page of this version"
 
@@ -65,9 +68,9 @@ class PageAnswers:
         """Return the words of the page."""
         return collect_texts(language)
 
-    def warm_up(self) -> None:
+    def start_early(self) -> None:
         """Start what the first diagnosis need not wait for."""
-        self.diagnoses.warm_up()
+        self.diagnoses.start_early()
 
     def end(self) -> None:
         """End what is under way beside, and take its files away."""
@@ -141,22 +144,22 @@ class PageAnswers:
     async def answer_step(self, request: HttpRequest) -> Response:
         """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
 
-        def found() -> dict[str, Any]:
+        def compare() -> dict[str, Any]:
             wanted, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
             return self.compare_before_and_after(wanted, test, self.choose_language(request))
 
-        return await self.answer(request, found)
+        return await self.answer(request, compare)
 
     async def answer_diagnosis(self, request: HttpRequest) -> Response:
         """Answer with the diagnosis of the file, or with the seconds for which it has been under way."""
 
-        def found() -> dict[str, Any]:
+        def find_diagnosis() -> dict[str, Any]:
             answer = self.diagnoses.find(self.bench.load().content)
             if "diagnosis" in answer:
                 return {**answer, "diagnosis": answer["diagnosis"][self.choose_language(request).value]}
             return answer
 
-        return await self.answer(request, found)
+        return await self.answer(request, find_diagnosis)
 
     async def stop_diagnosis(self, _: HttpRequest) -> Response:
         """Let go of the diagnosis that is under way."""
@@ -185,24 +188,26 @@ class PageAnswers:
         name = request.path_params["name"]
         if name not in self.commands.making:
             return Response(status_code=404)
-        try:
-            wanted = Wanted.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
-        return await self.answer(request, lambda: self.commands.begin(name, wanted))
+        return await self.answer_wanted(request, Wanted, lambda wanted: self.commands.begin(name, wanted))
 
     async def change(self, request: HttpRequest) -> Response:
         """Do what a click asks for, and answer with the file as it is then."""
-        try:
-            wanted = Request.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def changed() -> dict[str, Any]:
+        def change_file(wanted: Request) -> dict[str, Any]:
             self.carry_out(wanted)
             return self.view(self.choose_language(request))
 
-        return await self.answer(request, changed)
+        return await self.answer_wanted(request, Request, change_file)
+
+    async def answer_wanted(
+        self, request: HttpRequest, kind: type[_Sent], work: Callable[[_Sent], dict[str, Any]]
+    ) -> Response:
+        """Answer with what some work comes to on what a page sends; refuse what none of this version does."""
+        try:
+            wanted = kind.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
+        return await self.answer(request, lambda: work(wanted))
 
     async def answer(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
         """Answer with what some work comes to, or with what stands against it."""
@@ -247,4 +252,6 @@ async def answer_with_file(request: HttpRequest) -> Response:
 def find_language_of(request: HttpRequest) -> Language | None:
     """Return the language that an address or a browser asks for; None where neither does."""
     stated = request.query_params.get("lang", "")
-    return accepted_language(stated) or accepted_language(request.headers.get("accept-language", ""))
+    return find_accepted_language(stated) or find_accepted_language(
+        request.headers.get("accept-language", "")
+    )

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import uvicorn
-from pydantic import ValidationError
 from starlette.requests import Request as HttpRequest
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
 from zlmreport.errors import AccessError, InputError, Place
@@ -115,24 +114,24 @@ class Workbench(PageAnswers):
     async def answer_folded(self, request: HttpRequest) -> Response:
         """Answer with an effect that repeats, on one period; with nothing for any other effect."""
 
-        def found() -> dict[str, Any]:
+        def fold_wave() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
             wave = fold(self.bench, self.bench.load(), wanted, self.choose_language(request))
             return {"wave": wave}
 
-        return await self.answer(request, found)
+        return await self.answer(request, fold_wave)
 
     async def answer_closer(self, request: HttpRequest) -> Response:
         """Answer with the curves of the model on the part of the travel that a page shows."""
 
-        def found() -> dict[str, Any]:
+        def look_closer() -> dict[str, Any]:
             try:
                 ends = float(request.query_params["low"]), float(request.query_params["high"])
             except (KeyError, ValueError) as error:
                 raise InputError.at(PLACE, OTHER_PAGE) from error
             return collect_closer(self.bench, self.bench.load(), ends)
 
-        return await self.answer(request, found)
+        return await self.answer(request, look_closer)
 
     async def answer_tests(self, request: HttpRequest) -> Response:
         """Answer with the other tests of the axis beside that of the job."""
@@ -141,14 +140,14 @@ class Workbench(PageAnswers):
     async def answer_effect(self, request: HttpRequest) -> Response:
         """Answer with what there is to say of an effect."""
 
-        def found() -> dict[str, Any]:
+        def describe_effect() -> dict[str, Any]:
             effect = request.path_params["effect"]
             values = make_effect_page(self.bench, self.bench.load(), effect, self.choose_language(request))
             if values is None:
                 raise InputError.at(PLACE, f"there is no effect {effect[:60]!r}")
             return values
 
-        return await self.answer(request, found)
+        return await self.answer(request, describe_effect)
 
     async def answer_capture(self, request: HttpRequest) -> Response:
         """Answer with how far the capture of the readings is."""
@@ -156,16 +155,12 @@ class Workbench(PageAnswers):
 
     async def change_capture(self, request: HttpRequest) -> Response:
         """Do what a click on the page of a capture asks for, and answer with how far it is then."""
-        try:
-            wanted = CaptureRequest.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def done() -> dict[str, Any]:
+        def carry_out(wanted: CaptureRequest) -> dict[str, Any]:
             self.capture.carry_out(wanted)
             return self.capture.list_values(self.choose_language(request))
 
-        return await self.answer(request, done)
+        return await self.answer_wanted(request, CaptureRequest, carry_out)
 
 
 def serve(
@@ -181,7 +176,7 @@ def serve(
             server = uvicorn.Server(
                 uvicorn.Config(workbench.make_app(door), log_level="warning", access_log=False)
             )
-            workbench.warm_up()
+            workbench.start_early()
             ready(door.address)  # the socket listens already: who comes early waits
             if open_browser:
                 webbrowser.open(door.address)

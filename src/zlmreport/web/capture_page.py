@@ -27,13 +27,12 @@ from zlmreport.live.capture.operator_texts import (
 )
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import Record, from_record
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.capturing import CaptureProcess, CaptureRequest
 from zlmreport.web.watched import make_stamp_of
-
-_SECONDS_A_MINUTE = 60
 
 
 @dataclass(slots=True)
@@ -92,7 +91,7 @@ class CapturePage:
             "visits": list(_list_rows(progress, history, writer)),
             "next": None if progress.is_over or progress.has_all else progress.next.number,
             "taken": progress.taken,
-            "minutes": round(rest / _SECONDS_A_MINUTE),
+            "minutes": round(rest / SECONDS_PER_MINUTE),
             "steps": []
             if progress.is_over
             else list(map(_write_sentence, list_what_to_do(progress, writer))),

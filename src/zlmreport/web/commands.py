@@ -89,27 +89,21 @@ class Commands(FileCommands):
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
         """Begin to make something, and return how far it is."""
         loaded, path = self.bench.load(), self.bench.path
+        file = path.resolve()
         if name == "certificate":
             arguments = [
-                str(path.resolve()),
+                str(file),
                 *self._make_sheet_job(loaded.job, wanted),
                 *list_demanded_formats(wanted, self.bench.registry.renderers),
             ]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
-            arguments = ["compensate", str(path.resolve()), *self._choose_control(wanted), "--output", folder]
+            arguments = ["compensate", str(file), *self._choose_control(wanted), "--output", folder]
         elif name == "build":
-            arguments = ["model", "build", str(path.resolve()), "--dry-run"]
+            arguments = ["model", "build", str(file), "--dry-run"]
         elif name == "experiment":
             decide = ",".join(self._choose_effects(wanted))
-            arguments = [
-                "plan",
-                str(path.resolve()),
-                "--decide",
-                decide,
-                "--output",
-                str(path.resolve().parent),
-            ]
+            arguments = ["plan", str(file), "--decide", decide, "--output", str(file.parent)]
         else:
             _demand(wanted.after, list_siblings(path), "job")
             tests = (str(each.resolve()) for each in (path, path.with_name(wanted.after)))

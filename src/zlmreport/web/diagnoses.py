@@ -1,9 +1,10 @@
-"""Keeps one diagnosis under way, in a process of its own: ``python -m zlmreport.web.diagnoses JOB.yaml``.
+"""Keeps one diagnosis under way, in a process of its own, and in the user's cache those that were made.
 
 A diagnosis keeps a processor busy for a second, or for minutes on thousands of readings. Apart, it slows no
-page down, and is ended when the job has changed or nobody waits for it. A line of standard input asks for a
-diagnosis of the job as it is on the disk; a line of JSON answers. What was answered once is remembered by the
-content of the files, in the user's cache folder: taking a step back asks nothing anew.
+page down, and is ended when the job has changed or nobody waits for it. A line of standard input of that
+process, ``python -m zlmreport.web.diagnoses JOB.yaml``, asks for a diagnosis of the job as it stands; a
+line of JSON answers. What was answered once is remembered by the content of the files: taking a step back
+asks nothing anew.
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ class Diagnoses:
         with self._lock:
             self._end()
 
-    def warm_up(self) -> None:
+    def start_early(self) -> None:
         """Start the process, so that the first diagnosis need not wait for it."""
         with self._lock:
             self._start_process()

@@ -14,6 +14,7 @@ from zlmreport.language.formatting import write_general_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.effects.design import Design, place_at_positions
 from zlmreport.model.effects.effect import Effect, Parameter, Shape, find_unit_of
 from zlmreport.model.fitting.curve import lay_effect_positions
@@ -39,13 +40,13 @@ def make_effect_page(
     bench: Bench, loaded: Loaded, identifier: str, language: Language
 ) -> dict[str, Any] | None:
     """Return what there is to say of an effect; None if it is not installed."""
-    fit = bench.fit_whole(loaded).fit
+    whole = bench.fit_whole(loaded)
+    fit = whole.fit
     known = (*bench.registry.effects, *(term.effect for term in fit.model.terms))
     effect = next((each for each in known if each.identifier == identifier), None)
     if effect is None:
         return None
-    names = make_naming(bench.fit_whole(loaded), bench.registry.effects, language)
-    present = identifier in fit.model.identifiers
+    names = make_naming(whole, bench.registry.effects, language)
     return {
         "effect": identifier,
         "called": names.name_in(identifier),
@@ -76,7 +77,7 @@ def make_effect_page(
             for each in effect.confusions
         ],
         "containsNames": [names.name_in(each) for each in effect.contains],
-        "present": present,
+        "present": identifier in fit.model.identifiers,
         "sketch": draw_sketch(effect, loaded.study.observed.design, language),
     }
 
@@ -165,7 +166,7 @@ def _choose_along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]
         return unit.from_si(design.position), _POSITION, unit.symbol
     if design.time_is_counted:
         return 1.0 + design.time, _READING, ""
-    return design.time / 60.0, _TIME, "min"
+    return design.time / SECONDS_PER_MINUTE, _TIME, "min"
 
 
 def _describe(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]:

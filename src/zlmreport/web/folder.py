@@ -312,7 +312,7 @@ class FolderWorkbench:
     _opened: dict[str, tuple[Workbench | MachineWorkbench, Starlette]] = field(default_factory=dict)
     _lock: Lock = field(default_factory=Lock)
 
-    def warm_up(self) -> None:
+    def start_early(self) -> None:
         """Begin to look at the jobs, so that the page need not wait."""
         self.folder.list_rows()
 
@@ -347,7 +347,7 @@ class FolderWorkbench:
     async def answer_jobs(self, request: HttpRequest) -> Response:
         """Answer with the jobs, the worst first."""
 
-        def found() -> dict[str, Any]:
+        def list_jobs() -> dict[str, Any]:
             return {
                 "jobs": [
                     collect_row(each, self._choose_language(request)) for each in self.folder.list_rows()
@@ -355,7 +355,7 @@ class FolderWorkbench:
             }
 
         try:
-            return JSONResponse(await run_in_threadpool(found))
+            return JSONResponse(await run_in_threadpool(list_jobs))
         except ZlmreportError as error:
             return JSONResponse({"problems": [str(each) for each in error.problems]}, 422)
 

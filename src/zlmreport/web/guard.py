@@ -18,7 +18,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from zlmreport.language import Language, Words, accepted_language
+from zlmreport.language import Language, Words, find_accepted_language
 
 HOST = "127.0.0.1"
 _NAMES = (HOST, "localhost")
@@ -110,7 +110,7 @@ class DoorKeeper:
         if offered is not None and request.url.path == "/" and self.door.is_opened_by(offered):
             return self._admit(request)
         if not self.door.is_opened_by(request.cookies.get(self.door.cookie, "")):
-            language = accepted_language(request.headers.get("accept-language", "")) or Language.ENGLISH
+            language = find_accepted_language(request.headers.get("accept-language", "")) or Language.ENGLISH
             return PlainTextResponse(_NO_TOKEN.in_language(language), 403)
         return None
 
@@ -143,11 +143,11 @@ def _is_short(headers: Headers) -> bool:
 
 
 def _add_headers(send: Send) -> Send:
-    async def sending(message: Message) -> None:
+    async def send_with_headers(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
             for name, value in _HEADERS.items():
                 headers[name] = value
         await send(message)
 
-    return sending
+    return send_with_headers

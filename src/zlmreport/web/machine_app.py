@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
 from starlette.requests import Request as HttpRequest
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 from starlette.routing import Route
 
 from zlmreport.errors import InputError
@@ -20,7 +19,7 @@ from zlmreport.machines.editing import edit_effects, list_effects_with, list_eff
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.answers import OTHER_PAGE, PageAnswers
+from zlmreport.web.answers import PageAnswers
 from zlmreport.web.bench import PLACE
 from zlmreport.web.changes import ConflictError, Request, find_last_step
 from zlmreport.web.commands import FileCommands, Wanted, list_demanded_formats
@@ -115,18 +114,14 @@ class MachineWorkbench(PageAnswers):
 
     async def answer_tables(self, request: HttpRequest) -> Response:
         """Answer with the forecast of tables across axes, write them, or hold circles against them."""
-        try:
-            wanted = TablesWanted.model_validate_json(await request.body())
-        except ValidationError:
-            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
 
-        def made() -> dict[str, Any]:
+        def make(wanted: TablesWanted) -> dict[str, Any]:
             view = self._make_view(self.choose_language(request))
             values, documents = make_tables(self.bench, view.loaded, wanted, view.names)
             self.commands.tables.update({each.path.name: each.path for each in documents})
             return values
 
-        return await self.answer(request, made)
+        return await self.answer_wanted(request, TablesWanted, make)
 
     def _make_view(self, language: Language) -> MachineView:
         return MachineView(self.bench, self.bench.load(), language)

@@ -190,7 +190,7 @@ class Panels:
             (None, None) if forecast is None else (quantity.printed_sign * float(value) for value in forecast)
         )
 
-        def written(number: str) -> str:
+        def write(number: str) -> str:
             """Return a number with its unit, where that is another than the panel says."""
             is_usual = writer.deviation_unit == self.writer.deviation_unit
             return (
@@ -200,13 +200,13 @@ class Panels:
         return {
             "symbol": split_symbol(quantity.notation),
             "name": self.say(quantity.name),
-            "value": written(value),
-            "uncertainty": "" if uncertainty == NOTHING else written(uncertainty),
-            "limit": written(limit(parameter, self.writer)),
+            "value": write(value),
+            "uncertainty": "" if uncertainty == NOTHING else write(uncertainty),
+            "limit": write(limit(parameter, self.writer)),
             "verdict": "" if decision is None else self.say(STATEMENTS[decision.conformity][1]),
             "mark": "" if decision is None else STATEMENTS[decision.conformity][0].name.lower(),
-            "by_table": None if by_table is None else written(writer.deviation(by_table)),
-            "by_model": None if by_model is None else written(writer.deviation(by_model)),
+            "by_table": None if by_table is None else write(writer.deviation(by_table)),
+            "by_model": None if by_model is None else write(writer.deviation(by_model)),
         }
 
 

@@ -254,11 +254,11 @@ def make_stairs(
     unit, language = job.axis.deviation_unit, names.language
     largest = max((each["rms_before"] for each in steps), default=0.0) or 1.0
 
-    def written(value: float | None) -> str:
+    def write(value: float | None) -> str:
         number = write_deviation(None if value is None else unit.to_si(value), job.axis, language)
         return with_unit(number, unit.symbol)
 
-    def stair(each: Mapping[str, Any]) -> dict[str, Any]:
+    def make_stair(each: Mapping[str, Any]) -> dict[str, Any]:
         removed = bool(each.get("removed"))
         noise = each["noise_rms"]
         return {
@@ -266,13 +266,13 @@ def make_stairs(
             "argument": _write_argument(each["effect"], each["settings"], job, registry),
             "removed": removed,
             "name": f"{'−' if removed else '+'} {_name_one_of(each, names)}",
-            "before": written(each["rms_before"]),
-            "after": written(each["rms_after"]),
+            "before": write(each["rms_before"]),
+            "after": write(each["rms_after"]),
             "share": each["rms_after"] / largest,
             "floor": None if noise is None else min(1.0, noise / largest),
         }
 
-    return [stair(each) for each in steps]
+    return [make_stair(each) for each in steps]
 
 
 def _name_one_of(step: Mapping[str, Any], names: Naming) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.live.capture.events import Event, Moving, Recorded, Settling
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.visits import ListedVisit, Settings, visit_list
+from zlmreport.live.capture.visits import ListedVisit, Settings, number_visits
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin.instrument import LiveReading
@@ -27,7 +27,7 @@ def planned(method: Method = Method.LINEAR, targets=(0, 100, 200), runs: int = 1
 
 
 def listed(method: Method = Method.LINEAR, targets=(0, 100, 200), runs: int = 1) -> tuple[ListedVisit, ...]:
-    return visit_list(planned(method, targets, runs))
+    return number_visits(planned(method, targets, runs))
 
 
 @dataclass

@@ -10,7 +10,7 @@ from live.capture.moves import SETTINGS, planned
 from zlmreport.live.capture.events import Event
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.journal import Journal, capture
-from zlmreport.live.capture.visits import visit_list
+from zlmreport.live.capture.visits import number_visits
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import AxisKind
 from zlmreport.plugin.instrument import JournalHeader, LiveReading
@@ -32,7 +32,7 @@ def header(plan: AxisPlan | None = None, datum: float | None = None, **changes) 
         "method": str(plan.method),
         "settings": SETTINGS,
         "datum": datum,
-        "visits": visit_list(plan),
+        "visits": number_visits(plan),
     }
     return JournalHeader(**{**values, **changes})
 

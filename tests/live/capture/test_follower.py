@@ -29,7 +29,7 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.visits import visit_list
+from zlmreport.live.capture.visits import number_visits
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.plugin import Approach
@@ -557,8 +557,8 @@ def test_a_line_that_another_overtook_is_no_turn() -> None:
         late, other = readings[place : place + 2]
         overtaken = [other, replace(late, time=other.time + 0.01)]
         lines = [*readings[:place], *overtaken, *readings[place + 2 :]]
-        events = happened(lines, following(visit_list(plan), settings=settings))
-        assert [event.visit for event in events if isinstance(event, Recorded)] == list(visit_list(plan))
+        events = happened(lines, following(number_visits(plan), settings=settings))
+        assert [event.visit for event in events if isinstance(event, Recorded)] == list(number_visits(plan))
 
 
 def _read_with_lost_motion(

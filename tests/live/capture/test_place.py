@@ -13,7 +13,7 @@ import pytest
 from live.capture.moves import SETTINGS, Axis, following, happened, kinds, listed
 from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
-from zlmreport.live.capture.motion import Programme, Route
+from zlmreport.live.capture.motion import PlannedRoute, Route
 from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill
 from zlmreport.model.planning.methods import Method
 from zlmreport.plugin import Approach
@@ -125,13 +125,13 @@ def test_what_once_was_misfiled_or_lost_is_asked_about(method: Method, seed: int
 
 
 #: Targets 100 mm apart: 1 s of way and 3 s of rest from one to the next.
-PROGRAMME = Programme(listed(targets=range(0, 500, 100), runs=2), SETTINGS)
+PLANNED = PlannedRoute(listed(targets=range(0, 500, 100), runs=2), SETTINGS)
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
 
 
 def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> TargetStandstill:
     """Return a stop at the target of a visit, counted from 1."""
-    visit = PROGRAMME.visits[number - 1]
+    visit = PLANNED.visits[number - 1]
     return TargetStandstill(
         visit.target, heading, heading, visit.position, Mean(0.0, 0.0, 100, 0, time, 3.0, {})
     )
@@ -140,14 +140,14 @@ def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Targe
 def from_start(*turns: float) -> Route:
     """Return the way from the start of the program, with turning points."""
     route = Route(SETTINGS.tolerance)
-    for position in (PROGRAMME.start, PROGRAMME.start + 0.01, *turns, *(each - 0.01 for each in turns)):
+    for position in (PLANNED.start, PLANNED.start + 0.01, *turns, *(each - 0.01 for each in turns)):
         route.add(position)
     return route
 
 
 def at_first_visit(*, is_seen: bool = True) -> tuple[PlaceInProgram, Route]:
     """Return a program that made its first visit at 0 s; nobody sees what comes then, if it is not seen."""
-    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), from_start()
+    place, route = PlaceInProgram(PLANNED, SETTINGS, 0), from_start()
     place.add(stop(1), route)
     assert [index for _, index, _ in place.settle_stops()] == [0]
     if not is_seen:
@@ -162,8 +162,8 @@ def weigh(place: PlaceInProgram, number: int) -> float:
 
 
 def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> None:
-    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), Route(SETTINGS.tolerance)
-    route.add(PROGRAMME.start)
+    place, route = PlaceInProgram(PLANNED, SETTINGS, 0), Route(SETTINGS.tolerance)
+    route.add(PLANNED.start)
     place.add(stop(1), route)
     place.take_word(5)
     place.add(stop(7, DOWN, 4.0), route)
@@ -182,7 +182,7 @@ def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
 def test_the_first_visit_at_a_place_is_the_one_that_a_program_begins_with() -> None:
     """Told to begin, the axis came from anywhere: not with the second run while the first is to be read."""
     anywhere = Route(SETTINGS.tolerance)
-    first, second = (PlaceInProgram(PROGRAMME, SETTINGS, 0) for _ in range(2))
+    first, second = (PlaceInProgram(PLANNED, SETTINGS, 0) for _ in range(2))
     first.add(stop(1), anywhere)
     second.add(stop(2), anywhere)
     odds = first.list_odds()
@@ -196,7 +196,7 @@ def test_a_program_may_have_begun_in_a_silence_of_half_the_time_that_it_needs(
     silence: float, weight: float
 ) -> None:
     """From the first visit to the third it needs 8 s."""
-    place, route = PlaceInProgram(PROGRAMME, SETTINGS, 0), Route(SETTINGS.tolerance)
+    place, route = PlaceInProgram(PLANNED, SETTINGS, 0), Route(SETTINGS.tolerance)
     route.lose(silence)
     place.add(stop(3), route)
     assert weigh(place, 3) == pytest.approx(weight)
@@ -210,7 +210,7 @@ def test_a_program_may_have_begun_in_a_silence_of_half_the_time_that_it_needs(
 def test_the_way_from_the_start_with_its_turns_speaks_for_a_visit(
     number: int, turns: tuple[float, ...], weight: float
 ) -> None:
-    place = PlaceInProgram(PROGRAMME, SETTINGS, 0)
+    place = PlaceInProgram(PLANNED, SETTINGS, 0)
     place.add(stop(number, DOWN if turns else UP), from_start(*turns))
     assert weigh(place, number) == pytest.approx(weight)
 
@@ -251,7 +251,7 @@ def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
 
 def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_read() -> None:
     """Either the operator began it anew and three visits went unseen, or it ran on for their time."""
-    told, ran_on = (PlaceInProgram(PROGRAMME, SETTINGS, 1, last) for last in (None, 5.0))
+    told, ran_on = (PlaceInProgram(PLANNED, SETTINGS, 1, last) for last in (None, 5.0))
     for each in (told, ran_on):
         each.add(stop(5, time=5.0 + 4 * 4.0), Route(SETTINGS.tolerance))
     began = -3.0 - 6.0

@@ -13,7 +13,7 @@ from zlmreport.live.emulation.emulator import MovingAxis
 from zlmreport.live.emulation.troubles import Planned, Troubles
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.instrument import Fault, Scene, Trouble
-from zlmreport_plugins.instruments.ids3010 import Ids3010Emulator, IdsAnswer, answer_to, question
+from zlmreport_plugins.instruments.ids3010 import Ids3010Emulator, IdsAnswer, answer_to, write_question
 
 EXCHANGE = questions_and_answers()
 
@@ -21,7 +21,7 @@ EXCHANGE = questions_and_answers()
 @pytest.mark.parametrize(("asked", "answered"), EXCHANGE)
 def test_questions_are_those_that_are_published(asked: bytes, answered: bytes) -> None:  # noqa: ARG001
     message = json.loads(asked)
-    assert question(message["id"], message["method"], *message["params"]) == asked
+    assert write_question(message["id"], message["method"], *message["params"]) == asked
 
 
 @pytest.mark.parametrize(

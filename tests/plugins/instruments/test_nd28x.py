@@ -68,8 +68,8 @@ def test_the_emulated_display_waits_for_the_rest_of_a_command() -> None:
 
 
 def test_the_emulated_display_acknowledges_keys_and_refuses_what_it_does_not_know() -> None:
-    assert _at(0.0).answer(spoken.command("T0001"), 0.0) == spoken.ACK
-    assert _at(0.0).answer(spoken.command("X9999"), 0.0) == spoken.NAK
+    assert _at(0.0).answer(spoken.write_command("T0001"), 0.0) == spoken.ACK
+    assert _at(0.0).answer(spoken.write_command("X9999"), 0.0) == spoken.NAK
 
 
 def test_a_position_is_read_over_a_line() -> None:
@@ -89,7 +89,7 @@ def test_a_fault_voids_the_reading_with_the_text_of_the_display() -> None:
 def test_the_fault_stays_until_it_is_cleared() -> None:
     display = _at(5.0, Trouble.LOST_BEAM)
     assert display.answer(spoken.PRINT, 9.0)[12:13] == b"?"
-    display.answer(spoken.command("T0100"), 9.5)
+    display.answer(spoken.write_command("T0100"), 9.5)
     assert display.answer(spoken.PRINT, 10.0)[12:13] == b" "
 
 

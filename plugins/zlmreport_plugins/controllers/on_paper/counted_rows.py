@@ -107,9 +107,7 @@ def sum_increments(
     return decode(table, places.tolist(), sums.tolist(), sums.tolist())
 
 
-def list_assumed_of(
-    table: CompensationTable, options: Any, unit: float | None = None, key: str = ""
-) -> Iterator[Words]:
+def list_assumed_of(table: CompensationTable, options: Any, unit: float | None, key: str) -> Iterator[Words]:
     """Yield what was taken for granted: where the reference point is, in which unit the control counts."""
     if options.reference_position is None:
         yield _REFERENCE_ASSUMED

@@ -157,15 +157,15 @@ class Fanuc(OnCountedRows):
         shift = 0 if options.reverse is None else options.reverse - ahead[0]
         ahead = ahead[table.is_closed :]
 
-        def summed(shift: int) -> CompensationTable:
+        def sum_moved(shift: int) -> CompensationTable:
             steps = {number - options.reference: entered[number + shift] for number in ahead}
             return sum_increments(table, options, steps, quantum)
 
         if options.reverse is None:
-            return summed(0)
+            return sum_moved(0)
         (apart,) = re.findall(r"^3627 (-?\d+)", files["-parameters.txt"], re.MULTILINE)
         offset = table.axis.position_unit.to_si(-int(apart) * quantum)
-        return replace(summed(0), reverse=read_only_floats(summed(shift).forward + offset))
+        return replace(sum_moved(0), reverse=read_only_floats(sum_moved(shift).forward + offset))
 
 
 @hookimpl

@@ -55,6 +55,11 @@ def define_of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tupl
     return tuple(_define_straightness(symbol, notation)), _COLUMNS
 
 
+def _add_index(notation: str, word: str) -> str:
+    """Return a symbol with one more index: ``EYX_{run}``, ``E_{YX, run}``."""
+    return f"{notation[:-1]}, {word}}}" if notation.endswith("}") else f"{notation}_{{{word}}}"
+
+
 def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
     systematic = QuantityGroup.SYSTEMATIC
     formula = "max(d̄_{i}) − min(d̄_{i}), d̄_{i} = x̄_{i} − (y_{0} + m·P_{i})"
@@ -81,7 +86,7 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
         ),
         Quantity(
             f"{symbol}_run",
-            f"{notation}_{{run}}" if notation == symbol else f"{notation[:-1]}, run}}",
+            _add_index(notation, "run"),
             Words("Straightness error, worst single run"),
             QuantityGroup.COMPOSITE,
             "max_{j}[max(d_{ij}) − min(d_{ij})]",
@@ -90,7 +95,7 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
         ),
         Quantity(
             f"{symbol}_local",
-            f"{notation}_{{local}}" if notation == symbol else f"{notation[:-1]}, local}}",
+            _add_index(notation, "local"),
             Words("Straightness error over a part of the length"),
             systematic,
             "max_{k}[max(d̄_{i}) − min(d̄_{i})], P_{k} ≤ P_{i} ≤ P_{k} + w",
@@ -134,7 +139,7 @@ def _define_angles(symbol: str, notation: str) -> list[Quantity]:
         ),
         Quantity(
             f"{symbol}_both",
-            f"{notation}_{{both}}" if notation == symbol else f"{notation[:-1]}, both}}",
+            _add_index(notation, "both"),
             Words("Angular error over both directions"),
             systematic,
             "max(x̄_{i}↑; x̄_{i}↓) − min(x̄_{i}↑; x̄_{i}↓)",

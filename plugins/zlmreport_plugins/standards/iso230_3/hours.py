@@ -42,11 +42,8 @@ class Hours:
         `times`: Of the readings, s, rising. Of stated hours one interval of readings may be lacking, as
         averages stand in the middles of theirs, but no more than a fiftieth.
         """
-        if not self.are_stated:
-            return self.measure_extent(times)
-        if self.are_covered(times):
-            return self.length
-        return self.measure_extent(times)
+        is_whole = self.are_stated and self.are_covered(times)
+        return self.length if is_whole else self.measure_extent(times)
 
     def measure_extent(self, times: FloatArray) -> float:
         """Return the time from the first to the last reading in them, s."""

@@ -135,13 +135,13 @@ def compute_mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUnce
     least = max(budget.least, budget.of_the_instrument)
     known = _compute_known_of_means(evaluation, budget)
 
-    def expanded(variance: FloatArray, known: FloatArray | float) -> FloatArray:
+    def expand(variance: FloatArray, known: FloatArray | float) -> FloatArray:
         return np.asarray(known + np.maximum(COVERAGE_FACTOR * np.sqrt(variance), least))
 
     return MeanUncertainty(
         coverage_factor=COVERAGE_FACTOR,
-        by_approach=read_only_floats(expanded(by_approach, known[0])),
-        bidirectional=read_only_floats(expanded(bidirectional, known[1])),
+        by_approach=read_only_floats(expand(by_approach, known[0])),
+        bidirectional=read_only_floats(expand(bidirectional, known[1])),
     )
 
 

@@ -35,7 +35,7 @@ from zlmreport.live.capture.events import (
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.live.capture.motion import Programme, Route
+from zlmreport.live.capture.motion import PlannedRoute, Route
 from zlmreport.live.capture.place import WORTH_SAYING, PlaceInProgram, TargetStandstill
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.standstill import Pace, Track, Window, expect_deviation
@@ -92,7 +92,7 @@ class Follower:
     ) -> None:
         self.progress = progress  #: How far the capture has come.
         self._is_watched = is_watched
-        self._programme = Programme(progress.visits, settings)
+        self._planned = PlannedRoute(progress.visits, settings)
         #: Whether nothing more is taken: it is over, or an operator must see to something. Another follower
         #: goes on, from ``progress``.
         self.is_halted = progress.is_over
@@ -158,7 +158,7 @@ class Follower:
     def _begin_here(self, last: float | None = None) -> None:
         """Begin with the visit that is next, from wherever the axis is: the program starts there."""
         self._route = Route(self._settings.tolerance)
-        self._place = PlaceInProgram(self._programme, self._settings, self.progress.taken, last)
+        self._place = PlaceInProgram(self._planned, self._settings, self.progress.taken, last)
         self._place.left_out = self.progress.skipped
         self._ahead.begin()
 

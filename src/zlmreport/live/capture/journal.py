@@ -347,15 +347,15 @@ def capture(
         operator orders then.
     """
 
-    def kept(events: Iterable[Event], time: float) -> Iterator[Event]:
+    def keep(events: Iterable[Event], time: float) -> Iterator[Event]:
         for event in events:
             if not isinstance(event, MOMENTARY):
                 journal.append(event, elapsed(time))
             yield event
 
     for reading in readings:
-        yield from kept(follower.feed(reading), reading.time)
+        yield from keep(follower.feed(reading), reading.time)
         for order in show(reading):
-            yield from kept(follower.take_order(order), reading.time)
+            yield from keep(follower.take_order(order), reading.time)
         if follower.is_halted:
             return

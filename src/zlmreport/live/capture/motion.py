@@ -103,7 +103,7 @@ class TurningPoint(NamedTuple):
     beyond: float | None
 
 
-class Programme:
+class PlannedRoute:
     """The motion of the plan: where it turns round between two visits, and how long it takes."""
 
     def __init__(self, visits: Sequence[ListedVisit], settings: Settings) -> None:

@@ -22,7 +22,7 @@ from zlmreport.live.capture.visits import (
     SHARE_OF_OVERRUN,
     ListedVisit,
     Settings,
-    visit_list,
+    number_visits,
 )
 from zlmreport.measurement.axis import Axis, refuse_other_than_positions
 from zlmreport.model.planning.plan import AxisPlan
@@ -118,7 +118,7 @@ def make_assignment_of(job: Job, plan: AxisPlan) -> Assignment:
     problems = list(_find_problems(job, settings, plan))
     if problems:
         raise InputError(problems)
-    return Assignment(options, settings, _find_datum(options, plan, job.axis), plan, visit_list(plan))
+    return Assignment(options, settings, _find_datum(options, plan, job.axis), plan, number_visits(plan))
 
 
 def find_instrument_of(job: Job) -> Choice:

@@ -16,7 +16,7 @@ from math import exp, hypot, inf, log, pi, sqrt
 from statistics import median
 
 from zlmreport.live.capture.events import Mean
-from zlmreport.live.capture.motion import Programme, Route, TurningPoint
+from zlmreport.live.capture.motion import PlannedRoute, Route, TurningPoint
 from zlmreport.live.capture.visits import FASTEST, Settings
 from zlmreport.measurement.approach import Approach
 
@@ -101,13 +101,13 @@ class PlaceInProgram:
     """
 
     def __init__(
-        self, programme: Programme, settings: Settings, taken: int, last: float | None = None
+        self, planned: PlannedRoute, settings: Settings, taken: int, last: float | None = None
     ) -> None:
         #: The stops of which it is not clear which visit they are, first come first.
         self.undecided: list[TargetStandstill] = []
         #: Numbers of the visits that the operator leaves out: that they go unseen is no wonder.
         self.left_out: frozenset[int] = frozenset()
-        self._programme = programme
+        self._planned = planned
         self._settings = settings
         self._close = 2 * settings.tolerance
         self._paces: deque[float] = deque(maxlen=_STEPS)
@@ -148,7 +148,7 @@ class PlaceInProgram:
         """Return an explanation after the axis went on a little; now it may be seen how it came."""
         if before.heading is not None or stop.heading is None or guess.place < 0:
             return replace(guess, files=(*guess.files, guess.files[-1]))
-        visit = self._programme.visits[guess.place]
+        visit = self._planned.visits[guess.place]
         if (visit.target, visit.approach) == (stop.target, stop.heading):
             return replace(guess, files=(*guess.files, guess.place))
         return replace(guess, weight=guess.weight + _STRAY, files=(*guess.files, None))
@@ -199,7 +199,7 @@ class PlaceInProgram:
 
     def _explain(self, guess: _Guess, stop: TargetStandstill, route: Route) -> Iterator[_Guess]:
         """Yield the explanations that one becomes by a stop."""
-        candidates = self._programme.list_visits_at(stop.target, stop.heading)
+        candidates = self._planned.list_visits_at(stop.target, stop.heading)
         for index in candidates:
             weight = guess.weight + self._weigh(guess, index, stop, route, len(candidates))
             if weight > -inf:
@@ -220,7 +220,7 @@ class PlaceInProgram:
 
     def _weigh_stray(self, guess: _Guess, stop: TargetStandstill) -> float:
         """Return how probable it is that a stop is none of the program's."""
-        visits, following = self._programme.visits, guess.place + 1
+        visits, following = self._planned.visits, guess.place + 1
         if guess.is_told and following < len(visits):
             is_next = (visits[following].target, visits[following].approach) == (stop.target, stop.heading)
             return _STRAY if is_next else _BEFORE
@@ -233,10 +233,10 @@ class PlaceInProgram:
         self, guess: _Guess, index: int, stop: TargetStandstill, route: Route, candidates: int
     ) -> float:
         """Return how probable it is that the program, where a guess has it, comes to stop at a visit."""
-        programme, here = self._programme, guess.place
+        planned, here = self._planned, guess.place
         turns = route.turns[guess.turns :]
         is_seen = route.breaks == guess.breaks
-        jump = (_BEGUN_ANEW if programme.is_first_of_part(index) else _ANYWHERE) - log(candidates)
+        jump = (_BEGUN_ANEW if planned.is_first_of_part(index) else _ANYWHERE) - log(candidates)
         if guess.is_told:
             return max(jump, self._weigh_from_rest(here, index, turns, route))
         if not is_seen:
@@ -252,7 +252,7 @@ class PlaceInProgram:
             is_timed = guess.time is not None and self._settings.feed > 0
             skipped = _UNSEEN + (_EACH_UNSEEN if is_timed else _SKIPPED) * unseen if unseen else 0.0
             return max(jump, skipped + self._weigh_by_time(guess, index, stop))
-        went_back = unseen < _NEAR and len(turns) > len(programme.list_turns(here, index))
+        went_back = unseen < _NEAR and len(turns) > len(planned.list_turns(here, index))
         detour = _DETOUR + _SKIPPED * unseen if went_back else -inf
         return max(jump, detour, self._weigh_by_route(guess, index, turns))
 
@@ -263,7 +263,7 @@ class PlaceInProgram:
 
     def _weigh_new_beginning(self, index: int, turns: Sequence[float]) -> float:
         """Return how probable it is that a part began anew, by its own way; its first rests may be unseen."""
-        unseen, way = self._programme.look_back_to_beginning(index)
+        unseen, way = self._planned.look_back_to_beginning(index)
         known = _BEGUN_ANEW + _TURN * min(len(turns), _TURNS_TO_BEGIN)
         if not unseen:
             return known
@@ -272,12 +272,12 @@ class PlaceInProgram:
 
     def _weigh_from_rest(self, here: int, index: int, turns: Sequence[float], route: Route) -> float:
         """Return how probable a first visit is, after which the operator was told to begin."""
-        visits, unseen = self._programme.visits, self._count_unseen(here, index)
+        visits, unseen = self._planned.visits, self._count_unseen(here, index)
         if unseen < 0:
             return -inf
         skipped = _SKIPPED * unseen
         if here < 0 and self._has_left_start(turns, index, route):
-            expected = len(self._programme.list_turns(-1, index))
+            expected = len(self._planned.list_turns(-1, index))
             return skipped + _TURN * expected + (_WAY_TO_START if len(turns) > expected else 0.0)
         if unseen and self._may_have_begun_unseen(here, index, route):
             return _UNSEEN + _EACH_IN_SILENCE * unseen
@@ -292,15 +292,15 @@ class PlaceInProgram:
 
     def _may_have_begun_unseen(self, here: int, index: int, route: Route) -> bool:
         """Tell whether the program may have come so far while nobody saw it: most of that way, at least."""
-        needed = self._programme.compute_time(here, index) - self._programme.compute_time(here, here + 1)
+        needed = self._planned.compute_time(here, index) - self._planned.compute_time(here, here + 1)
         return route.breaks > 0 and route.silence >= needed / 2
 
     def _has_left_start(self, turns: Sequence[float], index: int, route: Route) -> bool:
         """Tell whether the axis came from the start of the program, as the program does."""
-        expected = self._programme.list_turns(-1, index)
+        expected = self._planned.list_turns(-1, index)
         before = turns[: max(0, len(turns) - len(expected))]
         came_from = before[-1] if before else route.first if not route.breaks else None
-        if came_from is None or abs(came_from - self._programme.start) > self._close:
+        if came_from is None or abs(came_from - self._planned.start) > self._close:
             return False
         return self._weigh_turns(turns[len(before) :], expected) == _TURN * len(expected)
 
@@ -309,9 +309,9 @@ class PlaceInProgram:
         here = guess.place
         unseen = self._count_unseen(here, index)
         skipped = _SKIPPED * unseen
-        expected = self._programme.list_turns(here, index)
+        expected = self._planned.list_turns(here, index)
         if not guess.is_heading_known and expected[:1] == [
-            TurningPoint(self._programme.visits[here].position, None)
+            TurningPoint(self._planned.visits[here].position, None)
         ]:
             expected = expected[1:]  # whether it turned round where it stood nobody could see
         return skipped + self._weigh_turns(turns, expected)
@@ -333,7 +333,7 @@ class PlaceInProgram:
 
     def _weigh_by_time(self, guess: _Guess, index: int, stop: TargetStandstill) -> float:
         """Return how probable the time is that the program took to a visit while nobody saw it."""
-        expected = self._programme.compute_time(guess.place, index)
+        expected = self._planned.compute_time(guess.place, index)
         if guess.time is None or not self._settings.feed:
             return _ANY_TIME
         seconds = max(stop.mean.time - guess.time, 1e-3)
@@ -347,7 +347,7 @@ class PlaceInProgram:
 
     def _weigh_hurry(self, here: int, there: int, seconds: float) -> float:
         """Return how probable it is that the program left out rests on its way to a visit."""
-        stay, planned = self._settings.stay, self._programme.compute_time(here, there)
+        stay, planned = self._settings.stay, self._planned.compute_time(here, there)
         if seconds < (planned - (there - here) * stay) / FASTEST:
             return 0.0
         return exp(_HURRIED + _EACH_REST * max(1.0, (planned - seconds) / stay))
@@ -359,7 +359,7 @@ class PlaceInProgram:
             return
         seconds = stop.mean.time - before[1]
         if seconds > 0:
-            self._paces.append(log(seconds / self._programme.compute_time(before[0], index)))
+            self._paces.append(log(seconds / self._planned.compute_time(before[0], index)))
 
     @property
     def _pace(self) -> float:

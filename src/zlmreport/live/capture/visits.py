@@ -24,8 +24,8 @@ class ListedVisit:
     travelled: float  #: The way of the axis since the visit before, m or rad.
 
 
-def visit_list(plan: AxisPlan) -> tuple[ListedVisit, ...]:
-    """Return the visits of a plan in their order."""
+def number_visits(plan: AxisPlan) -> tuple[ListedVisit, ...]:
+    """Return the visits of a plan in their order, numbered from 1."""
     return tuple(
         ListedVisit(
             number=number,

@@ -108,18 +108,20 @@ class FittedModel:
             if term.effect.shape in BY_TABLE and term.effect.identifier not in left_out
         ]
 
-        def one(positions: FloatArray, approach: Approach) -> FloatArray:
+        def sum_up(positions: FloatArray, approach: Approach) -> FloatArray:
             design = place_at_positions(self.fit.design, positions, approach)
             total = np.zeros(len(positions))
             for effect, theta, gamma in parts:
                 total += effect.columns(design, theta) @ gamma
             return self.sign * total
 
-        def both(positions: FloatArray) -> FloatArray:
+        def sum_up_both(positions: FloatArray) -> FloatArray:
             measured = self.measurements.approaches
-            return np.stack([one(positions, each if each in measured else measured[0]) for each in Approach])
+            return np.stack(
+                [sum_up(positions, each if each in measured else measured[0]) for each in Approach]
+            )
 
-        return both
+        return sum_up_both
 
 
 def find_waves_of(fit: Fit) -> dict[str, float]:

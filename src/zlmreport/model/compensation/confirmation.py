@@ -105,18 +105,18 @@ def confirm(  # noqa: PLR0913, PLR0917 - two tests, and the tables of both
     of_table = _compute_rms(_centre(taken)) * np.sqrt(taken.size)
     expanded = float(scatter / of_table) if of_table else np.inf
 
-    def told(verdict: ConfirmationVerdict, shift: float = 0.0) -> Confirmation:
+    def make_confirmation(verdict: ConfirmationVerdict, shift: float = 0.0) -> Confirmation:
         return Confirmation(verdict, ratio, applied, expanded, bool(by_backlash.any()), shift)
 
     if abs(applied - 1) < max(_NEAR, expanded) and left <= allowed:
-        return told(ConfirmationVerdict.HELD)
+        return make_confirmation(ConfirmationVerdict.HELD)
     for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
         if abs(applied - part) < _NEAR and _compute_rms(_centre(removed - part * taken)) <= 2 * allowed:
-            return told(verdict)
+            return make_confirmation(verdict)
     shift, rest = _fit_shift(removed, positions, table, common)
     if rest * _FAR_SMALLER < left:
-        return told(ConfirmationVerdict.SHIFTED, shift)
-    return told(ConfirmationVerdict.OTHER)
+        return make_confirmation(ConfirmationVerdict.SHIFTED, shift)
+    return make_confirmation(ConfirmationVerdict.OTHER)
 
 
 def _find_taken_play(removed: FloatArray, play: float) -> FloatArray:

@@ -136,7 +136,7 @@ def find_open_part(axis: Axis, targets: FloatArray) -> float | None:
     return max(0.0, left) if has_whole_turn(axis) and left > -_ALIKE else None
 
 
-def closes(axis: Axis, targets: FloatArray) -> bool:
+def can_go_round(axis: Axis, targets: FloatArray) -> bool:
     """Return whether a table of these targets can go round: no more is open than between two of them."""
     left = find_open_part(axis, targets)
     return left is not None and left <= float(np.diff(targets).max()) + _ALIKE
@@ -160,14 +160,14 @@ def reach_beyond(known: Function, targets: FloatArray, *, is_closed: bool) -> Fu
     apart = ends[:, :1] - ends[:, 1:]
     left = max(0.0, TURN - (last - first))
 
-    def closed(at: FloatArray) -> FloatArray:
+    def interpolate_round(at: FloatArray) -> FloatArray:
         within = wrap(at, first)
         values = known(np.minimum(within, last))
         if left > _ALIKE:
             return values + apart * np.clip((within - last) / left, 0.0, 1.0)
         return values + apart * np.interp(within, targets[[0, 1, -2, -1]], [-0.5, 0.0, 0.0, 0.5])
 
-    return closed
+    return interpolate_round
 
 
 def make_table_of(  # noqa: PLR0913, PLR0917 - what it holds, where, and of what

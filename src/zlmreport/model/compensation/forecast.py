@@ -156,15 +156,15 @@ def _simulate_second_tests(
     """
     scatter, curve = basis.scatter, basis.curve
     assert scatter is not None  # noqa: S101  # its caller asked
-    random = np.random.default_rng(_SEED)
-    single = _sample_deviation(scatter.single, scatter.degrees, random)
-    axes = left + _sample_unknown(basis, single / np.sqrt(curve.runs), random)
+    generator = np.random.default_rng(_SEED)
+    single = _sample_deviation(scatter.single, scatter.degrees, generator)
+    axes = left + _sample_unknown(basis, single / np.sqrt(curve.runs), generator)
     if budget is not None:
-        axes += _sample_set_up(budget, curve, random) - _sample_set_up(budget, curve, random)
+        axes += _sample_set_up(budget, curve, generator) - _sample_set_up(budget, curve, generator)
     shown = axes if curve.is_bidirectional else axes[:, :1]
-    common = _sample_deviation(scatter.run, curve.runs - 1, random)[..., np.newaxis, np.newaxis]
-    common = common * random.standard_normal((_DRAWS, 1, 1, curve.runs))
-    noise = random.standard_normal((*shown.shape, curve.runs)) * single[..., np.newaxis, np.newaxis]
+    common = _sample_deviation(scatter.run, curve.runs - 1, generator)[..., np.newaxis, np.newaxis]
+    common = common * generator.standard_normal((_DRAWS, 1, 1, curve.runs))
+    noise = generator.standard_normal((*shown.shape, curve.runs)) * single[..., np.newaxis, np.newaxis]
     tests = shown[..., np.newaxis] + common + noise
     drawn = _compute_drawn_figures(tests)
     return {
@@ -173,7 +173,7 @@ def _simulate_second_tests(
     }
 
 
-def _sample_unknown(basis: TableBasis, own: FloatArray, random: np.random.Generator) -> FloatArray:
+def _sample_unknown(basis: TableBasis, own: FloatArray, generator: np.random.Generator) -> FloatArray:
     """Draw by how much the axis differs from the estimate, shape (N, 2, m), m or rad.
 
     With means of variance u² the posterior of each part is that of universal kriging: along the model's
@@ -185,31 +185,31 @@ def _sample_unknown(basis: TableBasis, own: FloatArray, random: np.random.Genera
     """
     drawn = []
     for part in basis.parts:
-        unit = own * random.standard_normal((_DRAWS, len(part.directions)))
+        unit = own * generator.standard_normal((_DRAWS, len(part.directions)))
         along = unit @ part.directions @ part.directions.T
         drawn.append(along + np.sqrt(part.trust) * (unit - along))
     return join_directions(np.stack(drawn, axis=-2))
 
 
-def _sample_set_up(budget: Budget, curve: ErrorCurve, random: np.random.Generator) -> FloatArray:
+def _sample_set_up(budget: Budget, curve: ErrorCurve, generator: np.random.Generator) -> FloatArray:
     """Draw the errors of a set-up in the mean deviations, shape (N, 2, m), m or rad.
 
     What differs from reading to reading or drifts is left out: it is in the scatter of the readings.
     """
 
-    def drawn(acts: Acts, *shape: int) -> FloatArray:
-        return sample_singly(budget.acting(acts), (_DRAWS, *shape), random)
+    def sample(acts: Acts, *shape: int) -> FloatArray:
+        return sample_singly(budget.acting(acts), (_DRAWS, *shape), generator)
 
     targets = len(curve.positions)
-    errors = drawn(Acts.ALONG_THE_LENGTH, 1, 1) * compute_effect_along(curve.positions)
-    errors = errors + drawn(Acts.AT_EACH_POSITION, 1, targets) + drawn(Acts.AT_EACH_APPROACH, 2, targets)
-    errors[:, 1:] += drawn(Acts.BETWEEN_DIRECTIONS, 1, 1)
+    errors = sample(Acts.ALONG_THE_LENGTH, 1, 1) * compute_effect_along(curve.positions)
+    errors = errors + sample(Acts.AT_EACH_POSITION, 1, targets) + sample(Acts.AT_EACH_APPROACH, 2, targets)
+    errors[:, 1:] += sample(Acts.BETWEEN_DIRECTIONS, 1, 1)
     return errors
 
 
-def _sample_deviation(estimate: float, degrees: int, random: np.random.Generator) -> FloatArray:
+def _sample_deviation(estimate: float, degrees: int, generator: np.random.Generator) -> FloatArray:
     """Draw standard deviations, shape (N, 1), from which an estimate of so many degrees of freedom comes."""
-    drawn = random.chisquare(max(1, degrees), (_DRAWS, 1))
+    drawn = generator.chisquare(max(1, degrees), (_DRAWS, 1))
     return np.asarray(estimate * np.sqrt(max(1, degrees) / drawn))
 
 

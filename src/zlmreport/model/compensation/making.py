@@ -30,7 +30,7 @@ from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import (
     TURN,
     CompensationTable,
-    closes,
+    can_go_round,
     interpolate_rows,
     make_table_of,
     reach_beyond,
@@ -103,22 +103,19 @@ class GridRules:
     is_closed: bool = False  #: Whether they go round a rotary axis.
 
 
-def make_grid_of(
-    basis: TableBasis, place: Place, *, step: float | None = None, rules: GridRules | None = None
-) -> Grid:
+def make_grid_of(basis: TableBasis, place: Place, *, step: float | None, rules: GridRules) -> Grid:
     """Return the grid of a table.
 
     `step`: Distance of the rows, m or rad; None for the rule.
 
     Raises `InputError` if the step is refused by `count_steps`, or does not go into a turn.
     """
-    rules = rules or GridRules()
     targets = basis.curve.positions
     first, last, count = float(targets[0]), float(targets[-1]), len(targets)
     places = np.union1d(np.linspace(first, last, 2 * _BETWEEN * count), targets)
     allowed = basis.expanded_uncertainty
 
-    def judged(rows: FloatArray, reason: GridReason) -> Grid:
+    def judge_rows(rows: FloatArray, reason: GridReason) -> Grid:
         wanted = reach_beyond(basis.make_wanted(rows), targets, is_closed=rules.is_closed)
         lines = interpolate_rows(places, rows, wanted(rows), is_closed=rules.is_closed)
         inside = places <= (last if rules.is_closed else rows[-1]) + _NOTHING
@@ -126,15 +123,15 @@ def make_grid_of(
         return Grid(read_only_floats(rows), reason, missed if missed > _NOTHING else 0.0, allowed)
 
     if step is not None:
-        return judged(_lay_stated_rows(first, last, step, rules, place), GridReason.STATED)
+        return judge_rows(_lay_stated_rows(first, last, step, rules, place), GridReason.STATED)
     most = rules.most_rows or 2 * count
     grids = []
     if not rules.is_equidistant and count + rules.is_closed <= most:
         at_targets = targets
         if rules.is_closed:
             at_targets = np.append(targets[targets < first + TURN - _SAME], first + TURN)
-        grids.append(judged(at_targets, GridReason.TARGETS))
-    grids += [judged(rows, GridReason.UNCERTAINTY) for rows in _list_even_rows(targets, most, rules)]
+        grids.append(judge_rows(at_targets, GridReason.TARGETS))
+    grids += [judge_rows(rows, GridReason.UNCERTAINTY) for rows in _list_even_rows(targets, most, rules)]
     best = min(grids, key=lambda grid: (len(basis.list_left_out(grid.rows)), max(grid.added, allowed)))
     if best.added > max(allowed, _NOTHING):
         reason = GridReason.CONTROL if most < 2 * count - 1 else GridReason.SUPPORT
@@ -242,7 +239,7 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
         getattr(controller, "most_rows", None),
         find_reference(axis, own) if find_reference else None,
         axis.position_unit.to_si(_FINEST),
-        closes(axis, targets),
+        can_go_round(axis, targets),
     )
     grid = make_grid_of(basis, place, step=step, rules=rules)
     rows, left_out = grid.rows, basis.list_left_out(grid.rows)

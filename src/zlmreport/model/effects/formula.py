@@ -252,7 +252,7 @@ class FormulaEffect(Effect):
         for name, value in values.items():
             possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
             if possible is not None:
-                low, high = self.formula.bound(name, find_logged_rise(design))
+                low, high = self.formula.compute_bounds(name, find_logged_rise(design))
                 if not low <= value <= high:
                     return possible.because
         return None
@@ -387,7 +387,7 @@ _ORDERS: Any = Annotated[tuple[Annotated[int, Field(ge=1, le=4)], ...], AfterVal
 
 
 @cache
-def _made(
+def _make_options(
     usual: tuple[int, ...], chosen: tuple[tuple[str, str, tuple[str | int, ...]], ...]
 ) -> type[Options]:
     """Return the model of keys: of harmonics, and of choices by name, description and values."""
@@ -410,7 +410,7 @@ def make_options_of(keys: FormulaKeys) -> type[Options]:
         for each in keys.parameters.values()
         if each.instead
     )
-    return _made(keys.harmonics.usual if keys.harmonics else (), tuple(chosen))
+    return _make_options(keys.harmonics.usual if keys.harmonics else (), tuple(chosen))
 
 
 def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[Options]:

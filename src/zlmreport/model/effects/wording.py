@@ -5,13 +5,12 @@ from __future__ import annotations
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import write_behind
+from zlmreport.measurement.units import SECONDS_PER_MINUTE, write_behind
 from zlmreport.model.effects.design import Design
 
 _QUANTITY = Words("{value}{unit}")
 _READING = Words("{position}, {arrow}, run {run}")
 _COUNTED = Words("{value} readings")
-_MINUTE = 60.0
 _LONG = 600.0
 #: m or rad: a deviation below it is the rounding of doubles.
 _ROUNDING = 1e-14
@@ -41,7 +40,9 @@ def span_of_time(design: Design, value: float) -> Words:
     if design.time_is_counted:
         return _COUNTED.given(value=write_significant(value, 2))
     if value >= _LONG:
-        return _QUANTITY.given(value=write_significant(value / _MINUTE, 3), unit=write_behind("min"))
+        return _QUANTITY.given(
+            value=write_significant(value / SECONDS_PER_MINUTE, 3), unit=write_behind("min")
+        )
     return _QUANTITY.given(value=write_significant(value, 3), unit=write_behind("s"))
 
 

@@ -133,7 +133,7 @@ def make_observations_of(measurements: MeasurementSet, *, overrun: float | None 
             more = ", …" if gaps > _NAMED_GAPS else ""
             remarks.append(_FILLED.given(condition=name, count=gaps, rows=rows + more))
         if name in CONDITIONS:
-            smooth = smoothed(moments, values)
+            smooth = smooth_log(moments, values)
             remarks.extend(_find_doubts(name, values, smooth.noise, smooth.variation))
             values = smooth.values
         conditions[name] = read_only_floats(values)
@@ -211,7 +211,7 @@ class Smoothed:
     variation: float  #: Standard deviation of the smooth course itself.
 
 
-def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:
+def smooth_log(moments: FloatArray, log: FloatArray) -> Smoothed:
     """Return a log without its noise.
 
     `moments`, (N,): When it was logged; any unit, not falling.

@@ -73,7 +73,7 @@ def _list_intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
         bounds = term.bounds.get(name, (-inf, inf))
         if each.parameter in term.effect.searched:
             bounds = at_places[index, term.effect.searched.index(each.parameter)]
-        usual, widening = _find_usual(fitted, problem, index, each)
+        usual, widening = _find_usual_reach(fitted, problem, index, each)
         ends, are_open = [], []
         for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
             most = abs(bound - each.value)
@@ -94,7 +94,7 @@ def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Param
     return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 
-def _find_usual(
+def _find_usual_reach(
     fitted: Fit, problem: FitProblem, index: int, estimate: ParameterEstimate
 ) -> tuple[float, float]:
     """Return k·u of a parameter: what the readings leave, and what the instrument adds."""

@@ -174,7 +174,7 @@ def compute_tangents(
     return found
 
 
-def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
+def descend(problem: FitProblem, start: Solution, settled: float) -> Solution:
     """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian).
 
     A step that changes the sum of squares by less than `settled` is the last.

@@ -80,20 +80,20 @@ def hold_together(own: Observations, others: Sequence[tuple[str, Observations]])
     names = set.intersection(*({*each.conditions} for each in designs))
     dropped = sorted(set.union(*({*each.conditions} for each in designs)) - names)
 
-    def together(name: str) -> FloatArray:
+    def join(name: str) -> FloatArray:
         return np.concatenate([getattr(each, name) for each in designs])
 
-    position = together("position")
+    position = join("position")
     session = np.repeat(np.arange(len(designs)), [len(each.position) for each in designs])
     spans = np.array([each.span for each in designs])
     design = replace(
         own.design,
         position=read_only_floats(position),
-        direction=read_only_floats(together("direction")),
-        run=read_only_integers(together("run")),
+        direction=read_only_floats(join("direction")),
+        run=read_only_integers(join("run")),
         target=read_only_integers(np.unique(position, return_inverse=True)[1]),
-        time=read_only_floats(together("time")),
-        since_reversal=read_only_floats(together("since_reversal")),
+        time=read_only_floats(join("time")),
+        since_reversal=read_only_floats(join("since_reversal")),
         conditions={
             name: read_only_floats(np.concatenate([each.conditions[name] for each in designs]))
             for name in own.design.conditions

@@ -151,7 +151,7 @@ def _write_arrows(measurements: MeasurementSet) -> str:
     return " and ".join(approach.arrow for approach in measurements.approaches)
 
 
-def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
+def collect_plane(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
     """Return a plane as plain values for a JSON file.
 
     `points`: Where the deviation is asked for: P and R, m.

@@ -11,6 +11,7 @@ import numpy as np
 from zlmreport.language import Words, list_in_words
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis, find_usual_overrun
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method
 from zlmreport.model.planning.plan import AxisPlan, Pause
 from zlmreport.model.planning.targets import (
@@ -29,7 +30,7 @@ _LONGER, _FARTHER = 6.0, 4.0
 #: What warms by 3 K within these minutes: a machine as its hall does, a screw in motion, the air. An ordinary
 #: workshop's; no standard states them.
 _WARMING = (("axis_temperature", 60.0), ("screw_temperature", 30.0), ("air_temperature", 20.0))
-_KELVIN, _SECONDS_PER_MINUTE = 3.0, 60.0
+_KELVIN = 3.0
 
 _BOUND_TO_POSITION = Words("in this sequence time runs along with the position")
 _SAME_PHASE = Words("all targets lie at the same phase of {periods}")
@@ -129,13 +130,13 @@ def keep_within_travel(axis: Axis, plan: AxisPlan) -> AxisPlan:
 
 
 def _change_by_session(advice: Words, minutes: float, change: float) -> PlanChange:
-    after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
+    after = Pause(minutes * SECONDS_PER_MINUTE, change, _WARMING[0][0])
     words = advice.given(minutes=minutes, change=change)
     return PlanChange("session", None, words, lambda each: replace(each, after=after))
 
 
 def _make_pause(column: str, minutes: float) -> PlanChange:
-    pause = Pause(minutes * _SECONDS_PER_MINUTE, _KELVIN, column)
+    pause = Pause(minutes * SECONDS_PER_MINUTE, _KELVIN, column)
     advice = _PAUSE[column].given(minutes=minutes, change=_KELVIN)
     return PlanChange("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
 
@@ -161,14 +162,14 @@ def _list_target_changes(
     spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
     overrun = min(plan.overrun, find_usual_overrun(spread_over))
 
-    def drawn(each: AxisPlan, count: int, own: float | None) -> AxisPlan:
+    def with_targets(each: AxisPlan, count: int, own: float | None) -> AxisPlan:
         return replace(each, targets=sample_targets(spread_over, count, overrun, own, seed))
 
     blind = find_periods_at_phases(axis, plan.targets, 1)
     if blind or period is not None:
         reason = _SAME_PHASE.given(periods=list_in_words(blind)) if blind else None
         count = len(plan.targets)
-        yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
+        yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: with_targets(each, count, period))
     if len(plan.targets) < many:
         advice = Words("take {count} targets with random fractions").given(count=many)
-        yield PlanChange("targets", None, advice, lambda each: drawn(each, many, period))
+        yield PlanChange("targets", None, advice, lambda each: with_targets(each, many, period))

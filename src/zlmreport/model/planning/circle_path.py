@@ -17,10 +17,9 @@ from zlmreport.job.circle_keys import CirclePlanKeys
 from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.measurement.units import MILLIMETRE, SECONDS_PER_MINUTE
 from zlmreport.model.planning.programs import ProgramOptions, write_plain_name, write_program_number
 
-_SECONDS_PER_MINUTE = 60.0
 _FULL_TURN = 360.0
 #: Turns in each sense where a job states none.
 _USUAL_RUNS = 2
@@ -121,12 +120,12 @@ class CirclePath:
         way = sum(
             math.radians(abs(turn.ends - turn.begins)) * self.radius + 2 * self.run_up for turn in self.turns
         )
-        return way / self.feed * _SECONDS_PER_MINUTE + self.rest * len(self.turns)
+        return way / self.feed * SECONDS_PER_MINUTE + self.rest * len(self.turns)
 
     @property
     def acceleration(self) -> float:
         """Towards the centre, v²/R, m/s²: where a control allows less, it runs slower than it is told."""
-        return float((MILLIMETRE.to_si(self.feed) / _SECONDS_PER_MINUTE) ** 2 / self.circle.radius)
+        return float((MILLIMETRE.to_si(self.feed) / SECONDS_PER_MINUTE) ** 2 / self.circle.radius)
 
     def of_run(self, run: int) -> CirclePath:
         """Return the path of the turns of one run.

@@ -16,6 +16,7 @@ from zlmreport.job.job import Job
 from zlmreport.job.yaml_text import write_group
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
@@ -45,7 +46,6 @@ PLACE = Place("zlmreport plan --decide")
 #: Of effects that nobody has measured: their root mean square value over the repeatability.
 _UNMEASURED = 3.0
 _DEGREES = 30
-_SECONDS_PER_MINUTE = 60.0
 #: The data source whose table `zlmreport plan` writes as a form.
 _FORM = "laser-csv"
 _OF_THE_FORM: Mapping[str, Mapping[str, str]] = {
@@ -278,7 +278,7 @@ def make_deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[st
     """Return the keys of the job of an experiment; parameters as `write_deciding_text` takes them."""
     plan, axis = experiment.plan, job.axis
     assert plan is not None  # noqa: S101 - the caller has seen to it
-    overrun, feed = convert_to_users_unit(axis, np.array([plan.overrun, plan.feed * _SECONDS_PER_MINUTE]))
+    overrun, feed = convert_to_users_unit(axis, np.array([plan.overrun, plan.feed * SECONDS_PER_MINUTE]))
     keys: dict[str, Any] = {
         "extends": extends,
         "certificate": {"number": make_deciding_number(job), "kind": "report"},
@@ -301,7 +301,7 @@ def make_deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[st
     if plan.pause:
         pause = plan.pause
         keys["plan"]["pause"] = {
-            "minutes": pause.duration / _SECONDS_PER_MINUTE,
+            "minutes": pause.duration / SECONDS_PER_MINUTE,
             "change": pause.change,
             "of": pause.of,
         }

@@ -20,6 +20,7 @@ from zlmreport.language import Words, list_in_words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis, find_usual_overrun
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.diagnosis.believing import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
@@ -54,7 +55,6 @@ _BEST, _COMBINED = 2, 4
 _MOST_READINGS = 1000
 #: Of the test as it was, no more are repeated.
 _MOST_TARGETS, _MOST_RUNS = 41, 10
-_SECONDS_PER_MINUTE = 60.0
 
 _AS_IT_IS = Words("measure by the plan as it is")
 _ADVICE = Words(
@@ -249,19 +249,19 @@ def _compute_share_decided(
             continue
         share = rival.probability / weight
         # The same noise for every truth and plan of so many readings: what differs is what they see.
-        random = np.random.default_rng([*draws.seed, len(design.position)])
+        generator = np.random.default_rng([*draws.seed, len(design.position)])
         own = max(_FEWEST_SETS, round(share * draws.sets))
-        readings = question.simulate_readings(design, contest.space.parts, rival, own, random)
+        readings = question.simulate_readings(design, contest.space.parts, rival, own, generator)
         evidence, nameless = average_evidence(
             [Trials(contest, each, [], readings, question.known) for each in noises]
         )
-        lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
+        lead = _measure_lead(evidence, nameless, places, rival.effect.identifier, question.names)
         right += share * float(np.mean(lead > 0))
         margin = min(margin, float(np.quantile(lead, 0.1)))
     return (draws.sets * right + 1) / (draws.sets + 2), margin
 
 
-def _lead(
+def _measure_lead(
     evidence: FloatArray, nameless: FloatArray, places: Mapping[str, int], truth: str, rivals: Sequence[str]
 ) -> FloatArray:
     """Return by how much more evidence than it needs the truth leads in each set.
@@ -289,7 +289,7 @@ def _make_experiment(question: Question, expected: ExpectedTest, best: _Option, 
     advice = join_changes(best.changes).advice if best.changes else _AS_IT_IS
     if logs:
         advice = _LOG.given(advice=advice, logs=", ".join(logs))
-    minutes = best.plan.duration / _SECONDS_PER_MINUTE
+    minutes = best.plan.duration / SECONDS_PER_MINUTE
     statement = _ADVICE.given(
         aim=aim, advice=advice, minutes=number_words(max(1.0, minutes), 0), decides=share
     )

@@ -24,14 +24,13 @@ from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only
 from zlmreport.measurement.axis import Axis, AxisKind, find_usual_overrun
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
-from zlmreport.measurement.units import REFERENCE_TEMPERATURE
+from zlmreport.measurement.units import REFERENCE_TEMPERATURE, SECONDS_PER_MINUTE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, Visit, list_visits, plan_path
 from zlmreport.model.planning.targets import makes_whole_turns, sample_targets
 
 if TYPE_CHECKING:
     from zlmreport.plugin.protocols import Standard
 
-_SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0
 _USUAL_DWELL = 5.0
 #: In both directions together: a working day.
@@ -90,15 +89,15 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     seed = make_seed_of(job.keys.certificate.number) if keys.seed is None else keys.seed
     period = None if keys.targets.fractions_of is None else to_si(keys.targets.fractions_of)
 
-    def drawn(count: int) -> FloatArray:
+    def sample(count: int) -> FloatArray:
         return sample_targets(axis, count, overrun, period, seed)
 
     try:
         if keys.targets.positions is not None:
             targets = read_only_floats(to_si(np.array(keys.targets.positions)))
         else:
-            count = keys.targets.count or choose_count(axis, method, keys.runs, drawn, standards)
-            targets = drawn(count)
+            count = keys.targets.count or choose_count(axis, method, keys.runs, sample, standards)
+            targets = sample(count)
     except ValueError as error:
         raise InputError.at(job.place_of("plan.targets"), f"plan.targets: {error}") from error
     runs = keys.runs or choose_runs(axis, method, targets, standards)
@@ -134,9 +133,9 @@ def _plan_motion(job: Job) -> AxisPlan:
         targets=read_only_floats([]),
         method=Method(measured.method or Method.LINEAR),
         overrun=to_si(keys.overrun) if keys.overrun else find_usual_overrun(axis),
-        feed=to_si(measured.feed or _USUAL_FEED) / _SECONDS_PER_MINUTE,
+        feed=to_si(measured.feed or _USUAL_FEED) / SECONDS_PER_MINUTE,
         dwell=measured.dwell or _USUAL_DWELL,
-        pause=Pause(pause.minutes * _SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
+        pause=Pause(pause.minutes * SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
     )
 
 

@@ -14,11 +14,11 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.units import SECONDS_PER_MINUTE
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop
 from zlmreport.model.planning.plan import AxisPlan
 from zlmreport.model.planning.targets import convert_to_users_unit
 
-_SECONDS_PER_MINUTE = 60.0
 #: Feed, mm/min or °/min, and dwell, s.
 _LEAST_RATE = 0.001
 #: Digits after the decimal point of feeds and dwells: what every control takes.
@@ -193,7 +193,7 @@ def plan_motion_of(number: str, axis: Axis, plan: AxisPlan, place: Place) -> Mot
 
     Raises `InputError` if the feed or the dwell is too small for any control.
     """
-    feed = axis.position_unit.from_si(plan.feed) * _SECONDS_PER_MINUTE
+    feed = axis.position_unit.from_si(plan.feed) * SECONDS_PER_MINUTE
     for key, value in (("measurement.feed", feed), ("measurement.dwell", plan.dwell)):
         if value < _LEAST_RATE:
             message = f"{key}: {value:.6g} is less than can be programmed; state {_LEAST_RATE:g} or more"

@@ -115,16 +115,18 @@ class Rival:
         nothing = np.empty(0)
         return cls(effect, probability, nothing, nothing, np.empty((0, 0)), nothing, scatters, size)
 
-    def sample_deviation(self, design: Design, grid: FloatArray, random: np.random.Generator) -> FloatArray:
+    def sample_deviation(
+        self, design: Design, grid: FloatArray, generator: np.random.Generator
+    ) -> FloatArray:
         """Return what it would do in a test, drawn at random, shape (N,), m or rad."""
         if not self.gamma.size:
-            columns = self.effect.columns(design, grid[random.integers(len(grid))])
+            columns = self.effect.columns(design, grid[generator.integers(len(grid))])
             lengths = np.std(columns, axis=0)
-            gamma = random.standard_normal(columns.shape[1]) / np.where(lengths > 0, lengths, 1.0)
+            gamma = generator.standard_normal(columns.shape[1]) / np.where(lengths > 0, lengths, 1.0)
             gamma = gamma * (self.size / (float(np.std(columns @ gamma)) or 1.0))
             return columns @ _bring_into_possible(gamma, self.effect)
-        drawn = self.root @ random.standard_normal(self.root.shape[1])
-        within = self.widths * random.uniform(-1.0, 1.0, len(self.widths))
+        drawn = self.root @ generator.standard_normal(self.root.shape[1])
+        within = self.widths * generator.uniform(-1.0, 1.0, len(self.widths))
         theta = self.theta + drawn[len(self.gamma) :] + within
         extent = np.ptp(grid, axis=0)
         distances = (grid - theta) / np.where(extent > 0, extent, 1.0)
@@ -214,7 +216,12 @@ class Question:
         return tuple(name for name in dict.fromkeys(asked) if name in design.conditions)
 
     def simulate_readings(
-        self, design: Design, parts: Sequence[NoisePart], rival: Rival, sets: int, random: np.random.Generator
+        self,
+        design: Design,
+        parts: Sequence[NoisePart],
+        rival: Rival,
+        sets: int,
+        generator: np.random.Generator,
     ) -> FloatArray:
         """Return tests that have one of the rivals as the truth, simulated, shape (N, sets), m or rad.
 
@@ -223,15 +230,15 @@ class Question:
         """
         scatters = rival.scatters or (PossibleNoise(self.sigma, self.ratios),)
         turns = np.arange(sets) % len(scatters)
-        spread = np.sqrt(self.degrees / random.chisquare(self.degrees, sets))
+        spread = np.sqrt(self.degrees / generator.chisquare(self.degrees, sets))
         sigma = np.array([each.sigma for each in scatters])[turns] * spread
-        noise = random.standard_normal((len(design.position), sets))
+        noise = generator.standard_normal((len(design.position), sets))
         for part in parts:
             roots = np.sqrt([each.ratios.get(part.source, 0.0) for each in scatters])[turns]
-            noise += part.factor @ (roots * random.standard_normal((part.factor.shape[1], sets)))
+            noise += part.factor @ (roots * generator.standard_normal((part.factor.shape[1], sets)))
         noise *= sigma
         grid = rival.effect.grid(design)
-        true = np.column_stack([rival.sample_deviation(design, grid, random) for _ in range(sets)])
+        true = np.column_stack([rival.sample_deviation(design, grid, generator) for _ in range(sets)])
         if self.first is None or not design.session.any():
             return true + noise
         readings = np.empty_like(true)
@@ -239,7 +246,7 @@ class Question:
             own = np.flatnonzero(turns == turn)
             if own.size:
                 shared = [np.sqrt(scatter.ratios.get(part.source, 0.0)) * part.factor for part in parts]
-                unit = sigma[own] * random.standard_normal((np.count_nonzero(design.session), len(own)))
+                unit = sigma[own] * generator.standard_normal((np.count_nonzero(design.session), len(own)))
                 readings[:, own] = self._simulate_second_session(
                     design, shared, true[:, own], noise[:, own], unit
                 )

@@ -36,7 +36,7 @@ def make_target_generator(seed: int) -> np.random.Generator:
 
 
 def compute_target_positions(
-    travel: tuple[float, float], count: int, period: float, random: np.random.Generator
+    travel: tuple[float, float], count: int, period: float, generator: np.random.Generator
 ) -> FloatArray:
     """Return target positions P_i = (i − 1)·p + r, rising, all within the travel.
 
@@ -57,7 +57,7 @@ def compute_target_positions(
         raise ValueError(
             f"{count} targets with fractions of a period do not fit into the travel; up to {most} do"
         )
-    return first + interval * np.arange(count) + random.uniform(0.0, period, count)
+    return first + interval * np.arange(count) + generator.uniform(0.0, period, count)
 
 
 def makes_whole_turns(axis: Axis) -> bool:

@@ -17,7 +17,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import find_usual_overrun
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import Scale, Unit
+from zlmreport.measurement.units import SECONDS_PER_MINUTE, Scale, Unit
 from zlmreport.model.effects.axis_model import Term, choose_terms
 from zlmreport.model.effects.effect import Effect, find_unit_of
 from zlmreport.model.planning.methods import Method
@@ -27,7 +27,6 @@ from zlmreport.model.planning.targets import compute_target_positions, make_targ
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of
 
-_SECONDS_PER_MINUTE = 60
 #: Of a deviation, m or rad: no axis is so far off.
 _LARGEST = 1e3
 _AS_FOUND = Scale("")
@@ -56,7 +55,7 @@ def read_description_of(file: SimulationFile, find: Callable[[str], Effect]) -> 
             method=Method(keys.method),
             runs=keys.runs,
             overrun=position.to_si(keys.overrun),
-            feed=position.to_si(keys.feed) / _SECONDS_PER_MINUTE,
+            feed=position.to_si(keys.feed) / SECONDS_PER_MINUTE,
             dwell=keys.dwell,
         ),
         seed=keys.seed,

@@ -19,7 +19,7 @@ Accept: TypeAlias = Callable[..., Any]
 _DOUBLE = np.dtype(np.float64)
 
 
-def real(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
+def require_real(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
     """Return numbers as doubles; refuse what is none, complex, infinite, or of another shape."""
     # First the usual answers, in a hurry: one value, or an array in which nothing is amiss.
     if type(values) is np.float64 and not shape and not math.isinf(values):
@@ -48,8 +48,8 @@ def require_numbers(values: Any, what: str) -> FloatArray:
 
 
 def require_finite(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
-    """Return numbers as doubles, as `real`; refuse NaN too."""
-    array = real(values, shape, what)
+    """Return numbers as doubles, as `require_real`; refuse NaN too."""
+    array = require_real(values, shape, what)
     if not math.isfinite(np.add.reduce(array, None)) and np.isnan(array).any():
         raise Unacceptable(f"gives {what} that is NaN; a number is expected")
     return array

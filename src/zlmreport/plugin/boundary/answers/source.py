@@ -10,7 +10,12 @@ import numpy as np
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.plugin.boundary import Guarded, Unacceptable
-from zlmreport.plugin.boundary.answers.required import accept_all_of, real, require_finite, require_kind
+from zlmreport.plugin.boundary.answers.required import (
+    accept_all_of,
+    require_finite,
+    require_kind,
+    require_real,
+)
 from zlmreport.plugin.protocols import SourceProposal
 
 
@@ -22,7 +27,7 @@ def read(source: Guarded, answer: Any, _options: Any, context: Any) -> Measureme
     require_kind(Provenance, of.provenance)
     if of.provenance.source != source.identifier:
         raise Unacceptable(f"names {of.provenance.source!r} as the source; its own identifier is expected")
-    whole(of)
+    _require_whole(of)
     for array in (of.target_positions, of.target, of.approach, of.run, of.deviation, of.time):
         if array is not None:
             array.setflags(write=False)
@@ -31,16 +36,16 @@ def read(source: Guarded, answer: Any, _options: Any, context: Any) -> Measureme
     return of
 
 
-def whole(of: MeasurementSet) -> None:
+def _require_whole(of: MeasurementSet) -> None:
     """Refuse a measurement set whose parts do not belong together, or whose readings are no numbers."""
     targets = require_finite(of.target_positions, (np.size(of.target_positions),), "target positions")
     if not targets.size or np.any(np.diff(targets) <= 0):
         raise Unacceptable(f"gives target positions that do not rise: {targets}")
     shape = (np.size(of.deviation),)
-    real(of.deviation, shape, "a deviation")
+    require_real(of.deviation, shape, "a deviation")
     for name, values in (("time", of.time), *of.conditions.items()):
         if values is not None:
-            real(values, shape, str(name))
+            require_real(values, shape, str(name))
     if of.datum is not None:
         require_finite(of.datum, (), "datum")
     _require_designations(of, shape)
@@ -51,7 +56,7 @@ def _require_designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
     for what, whole_numbers in (("target", of.target), ("approach", of.approach), ("run", of.run)):
         if np.asarray(whole_numbers).dtype.kind not in "iu":
             raise Unacceptable(f"gives {what} that is not of whole numbers")
-        real(whole_numbers, shape, what)
+        require_real(whole_numbers, shape, what)
     if np.any((of.target < 0) | (of.target >= of.target_positions.size)):
         raise Unacceptable("gives target that is no index of the target positions")
     if not np.isin(of.approach, (1, -1)).all():

@@ -16,9 +16,9 @@ from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import (
     accept_all_of,
     name_answer,
-    real,
     require_all_of,
     require_kind,
+    require_real,
 )
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ def arithmetic(
             wrong += [f"{name} twice" for name in dict.fromkeys(symbols) if symbols.count(name) > 1]
             raise Unacceptable(f"gives {', '.join(map(str, wrong))} (see {owner})")
         for symbol, value in given.items():
-            real(value, shape, symbol)
+            require_real(value, shape, symbol)
     return of  # type: ignore[no-any-return]
 
 
