@@ -130,3 +130,17 @@ def test_a_wider_column_never_has_fewer_words_on_its_first_line() -> None:
 
     assert words == sorted(words)
     assert {words[0], words[-1]} == {len(SENTENCE.split()) - 1, len(SENTENCE.split())}
+
+
+@pytest.mark.parametrize("rows_of_last", [1, 2])
+def test_a_small_last_group_of_a_table_does_not_stand_alone_on_a_page(rows_of_last: int) -> None:
+    rows = [((f"row{n:02d}", "1"),) for n in range(19)]
+    last = (*rows[-1], *((("more", "1"),) * (rows_of_last - 1)))
+    groups = tuple(RowGroup(each, f"group{n:02d}") for n, each in enumerate((*rows[:-1], last)))
+    fillers = tuple(Paragraph("line") for _ in range(2))
+    columns = (Column("text"), Column("n", align=Align.RIGHT))
+    table = Table("groups", columns, groups)
+    reader = read(with_blocks(Section("groups", "Groups", (*fillers, table), new_page=True)))
+    pages = [page_of(reader, f"row{n:02d}") for n in range(19)]
+    assert pages[0] < pages[-1]
+    assert pages[-2] == pages[-1]
