@@ -18,6 +18,7 @@ from typing import Any
 from zlmreport.cli.terminal import Colour, hold_values, lay_out_heading, make_visible, write_duration
 from zlmreport.errors import AccessError, InputError, Place, count_in_words
 from zlmreport.job.job import Job
+from zlmreport.language import Language
 from zlmreport.language.formatting import HELD
 from zlmreport.live.capture.events import (
     Commented,
@@ -141,7 +142,7 @@ class PlainLines:
     def __init__(self, job: Job, assignment: Assignment) -> None:
         self._job = job
         self._assignment = assignment
-        self._writer = AxisWriter(job.axis)
+        self._writer = AxisWriter(Language.ENGLISH, job.axis)
 
     def wait(self) -> None:
         """Say whose test it is, while the instrument is awaited."""

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from zlmreport.language import Language, Words
-from zlmreport.language.formatting import round_pair, write_fixed_number, write_stated_number
+from zlmreport.language import Language
+from zlmreport.language.formatting import round_pair
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import CELSIUS, Scale, Unit, with_unit
@@ -77,7 +78,7 @@ _DECIMALS_OF_CELSIUS, _DECIMALS_OF_CONDITIONS = 2, 1
 
 
 @dataclass(frozen=True, slots=True)
-class Writer:
+class Writer(LanguageWriter):
     """Writes for one document.
 
     Attributes
@@ -93,7 +94,6 @@ class Writer:
         Which values are the customer's, or an external provider's.
     """
 
-    language: Language
     position_unit: Unit
     deviation_unit: Unit
     position_decimals: int
@@ -116,10 +116,6 @@ class Writer:
             marks,
         )
 
-    def say(self, words: Words) -> str:
-        """Return the words in the document's language."""
-        return words.in_language(self.language)
-
     def of_quantity(self, quantity: Quantity) -> Writer:
         """Return the writer for the values of a quantity, which may have a unit of its own."""
         unit = quantity.unit_or(self.deviation_unit)
@@ -131,23 +127,17 @@ class Writer:
         """Write a deviation or a parameter (m or rad), without its unit."""
         if math.isnan(value):
             return NOTHING
-        return write_fixed_number(
-            self.deviation_unit.from_si(value), self.deviation_decimals, self.language.decimal_sign
-        )
+        return self.write_number(self.deviation_unit.from_si(value), self.deviation_decimals)
 
     def mean(self, value: float) -> str:
         """Write a mean or a standard deviation (m or rad): a mean of several says more than each of them."""
         if math.isnan(value):
             return NOTHING
-        return write_fixed_number(
-            self.deviation_unit.from_si(value), self.deviation_decimals + 1, self.language.decimal_sign
-        )
+        return self.write_number(self.deviation_unit.from_si(value), self.deviation_decimals + 1)
 
     def position(self, value: float) -> str:
         """Write a position (m or rad), without its unit."""
-        return write_fixed_number(
-            self.position_unit.from_si(value), self.position_decimals, self.language.decimal_sign
-        )
+        return self.write_number(self.position_unit.from_si(value), self.position_decimals)
 
     def length(self, value: float) -> str:
         """Write a length or an angle along the axis with its unit, to its last stated digit."""
@@ -155,7 +145,7 @@ class Writer:
 
     def number(self, value: float) -> str:
         """Write a number that is stated, to its last digit and with none added."""
-        return write_stated_number(value, self.language.decimal_sign)
+        return self.write_stated(value)
 
     def date(self, value: dt.date) -> str:
         """Write a date as ISO 8601 does: alike in every language, and never mistaken."""
@@ -164,8 +154,7 @@ class Writer:
     def span(self, values: FloatArray, decimals: int) -> str:
         """Write the smallest and largest of logged values, or the one value that they share."""
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        first = write_fixed_number(low, decimals, self.language.decimal_sign)
-        last = write_fixed_number(high, decimals, self.language.decimal_sign)
+        first, last = self.write_number(low, decimals), self.write_number(high, decimals)
         return first if first == last else f"{first} … {last}"
 
     def condition_span(self, values: FloatArray, scale: Scale) -> str:

@@ -17,12 +17,9 @@ from zlmreport.fleet.printing import Names, write_change, write_limit, write_val
 from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Series
 from zlmreport.fleet.trend_graph import Period, draw_trend
-from zlmreport.language import Language, Words
-from zlmreport.language.formatting import (
-    round_pair,
-    write_fixed_number,
-    write_p_value,
-)
+from zlmreport.language import Words
+from zlmreport.language.formatting import round_pair, write_p_value
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import find_printed_symbol, with_unit
 
@@ -33,20 +30,15 @@ _LEAST_P = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
-class CellWriter:
+class CellWriter(LanguageWriter):
     """Writes cells in one language."""
 
-    language: Language  #: Of the page.
     names: Names  #: Of standards and symbols.
     period: Period  #: That all graphs show.
     files: str  #: Folder of the certificates, as seen from the page.
     effects: Sequence[Series]  #: Parameters of the error models of all axes over time.
     #: Anchors of the trends that are shown in full, by machine, axis, standard and symbol.
     anchors: Mapping[tuple[str, str, str, str], str] = field(default_factory=dict)
-
-    def say(self, phrase: Words) -> str:
-        """Return a phrase in the page's language."""
-        return phrase.in_language(self.language)
 
     def write_parameter(self, trend: Trend) -> OverviewCellContext:
         """Return the symbol, with the standard below."""
@@ -146,9 +138,7 @@ class CellWriter:
         return write_change(value, unit, self.language.decimal_sign)
 
     def _write_number(self, value: float, decimals: int, unit: str) -> str:
-        return with_unit(
-            write_fixed_number(value, decimals, self.language.decimal_sign), find_printed_symbol(unit)
-        )
+        return with_unit(self.write_number(value, decimals), find_printed_symbol(unit))
 
     def _write_pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
         number, stated = round_pair(value, expanded_uncertainty, self.language.decimal_sign)

@@ -77,7 +77,7 @@ class CapturePage:
             return {"isCaptured": False}
         job, assignment = found
         history, state = _read_history(assignment), self.process.describe_state()
-        progress, writer = _find_progress(assignment, history), AxisWriter(job.axis, language)
+        progress, writer = _find_progress(assignment, history), AxisWriter(language, job.axis)
         rest = assignment.estimate_remaining_time(progress.taken)
         return {
             "isCaptured": True,

@@ -26,6 +26,7 @@ from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import split_spans
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.study import Fitted
@@ -48,13 +49,12 @@ _CHI2_IS = Words(
 
 
 @dataclass(frozen=True, slots=True)
-class Panels:
-    """Writes the panels of a page in one language."""
+class Panels(LanguageWriter):
+    """Writes the panels of a page in its language."""
 
     loaded: Loaded  #: The job with its readings.
     registry: Registry  #: The installed plugins.
     whole: Fitted  #: The whole model.
-    language: Language  #: Of the page.
 
     @property
     def design(self) -> Design:
@@ -70,10 +70,6 @@ class Panels:
     def naming(self) -> Naming:
         """What effects are called."""
         return make_naming(self.whole, self.registry.effects, self.language)
-
-    def say(self, words: Words) -> str:
-        """Return words in the language of the page."""
-        return words.in_language(self.language)
 
     def list_error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""

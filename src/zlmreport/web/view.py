@@ -49,7 +49,7 @@ _SHOWN = 30
 def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return the page of a job."""
     whole = bench.fit_whole(loaded)
-    panels = Panels(loaded, bench.registry, whole, language)
+    panels = Panels(language, loaded, bench.registry, whole)
     names = panels.naming
     return {
         "stamp": loaded.stamp,
@@ -81,7 +81,7 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
 
 def make_results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return what takes longer than the graphs: how the error fell, and what the standards say."""
-    panels = Panels(loaded, bench.registry, bench.fit_whole(loaded), language)
+    panels = Panels(language, loaded, bench.registry, bench.fit_whole(loaded))
     return {
         "stamp": loaded.stamp,
         "fall": panels.list_fall(bench.fit_history(loaded)),

@@ -289,10 +289,10 @@ def certificate(
     return replace(document, **changes)  # type: ignore[arg-type]
 
 
-def with_logo(kind: str = "png") -> Certificate:
-    """A certificate of a laboratory that has a logo of 30 by 10 pixels."""
+def with_logo(kind: str = "png", size: tuple[int, int] = (30, 10)) -> Certificate:
+    """A certificate of a laboratory that has a logo of so many pixels."""
     picture = BytesIO()
-    Image.new("RGB", (30, 10), "navy").save(picture, kind)
+    Image.new("RGB", size, "navy").save(picture, kind)
     plain = certificate(standards=0)
     assert plain.letterhead is not None
     letterhead = replace(plain.letterhead, logo=picture.getvalue(), logo_type=f"image/{kind}")

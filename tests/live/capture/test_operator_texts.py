@@ -57,7 +57,7 @@ HALTED: tuple[events.Event | None, ...] = (
     events.Unclear(1, UP, ((FIRST, 1.0),), 0.021, MEAN, 0.02),
     None,
 )
-WRITERS = (AxisWriter(AXIS), AxisWriter(AXIS, Language.GERMAN))
+WRITERS = (AxisWriter(Language.ENGLISH, AXIS), AxisWriter(Language.GERMAN, AXIS))
 
 
 @pytest.mark.parametrize("event", LINES, ids=repr)
@@ -80,5 +80,5 @@ def test_after_the_last_visit_the_axis_goes_to_the_datum() -> None:
 
 
 def test_a_terminal_reads_a_visit_with_its_numbers_in_columns() -> None:
-    line = tell_event(events.Recorded(FIRST, 1, 0.020001, MEAN), 4, AxisWriter(AXIS))
+    line = tell_event(events.Recorded(FIRST, 1, 0.020001, MEAN), 4, AxisWriter(Language.ENGLISH, AXIS))
     assert (line.name, line.text) == ("1/4", "run 1 ↑    20.000 mm      +1.00 µm  range 0.20 µm")

@@ -15,7 +15,7 @@ from document.typesetting import samples
 from installed import registry
 from plugins.renderers.pdf_pages import page_of, printed_numbers, read, sample, texts, with_blocks
 from zlmreport.plugin import InputError, Language
-from zlmreport.plugin.renderer import Align, Column, Notice, Paragraph, RowGroup, Section, Table
+from zlmreport.plugin.renderer import Align, Column, Facts, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport_plugins.renderers.pdf.press import find_press
 
 POINT = 25.4 / 72
@@ -130,3 +130,31 @@ def test_a_wider_column_never_has_fewer_words_on_its_first_line() -> None:
 
     assert words == sorted(words)
     assert {words[0], words[-1]} == {len(SENTENCE.split()) - 1, len(SENTENCE.split())}
+
+
+@pytest.mark.parametrize("rows_of_last", [1, 2])
+def test_a_small_last_group_of_a_table_does_not_stand_alone_on_a_page(rows_of_last: int) -> None:
+    rows = [((f"row{n:02d}", "1"),) for n in range(19)]
+    last = (*rows[-1], *((("more", "1"),) * (rows_of_last - 1)))
+    groups = tuple(RowGroup(each, f"group{n:02d}") for n, each in enumerate((*rows[:-1], last)))
+    fillers = tuple(Paragraph("line") for _ in range(2))
+    columns = (Column("text"), Column("n", align=Align.RIGHT))
+    table = Table("groups", columns, groups)
+    reader = read(with_blocks(Section("groups", "Groups", (*fillers, table), new_page=True)))
+    pages = [page_of(reader, f"row{n:02d}") for n in range(19)]
+    assert pages[0] < pages[-1]
+    assert pages[-2] == pages[-1]
+
+
+def test_a_value_that_begins_with_hebrew_is_set_from_right_to_left_as_in_a_browser() -> None:
+    facts = Facts((("Remarks", "\u05d4\u05e2\u05e8\u05d4 xyz"),))
+    plain = with_blocks(Section("facts", "Facts", (facts,)))
+    certificate = replace(plain, look=replace(plain.look, may_lack_letters=True))
+    text = PdfDocument(registry().renderer("pdf").render(certificate))[0].get_textpage()
+    place = text.get_text_range().index("xyz")
+    hebrew, _ = max(
+        (text.get_charbox(n)[0], n)
+        for n in range(text.count_chars())
+        if "\u05d0" <= text.get_text_range(n, 1) <= "\u05ea"
+    )
+    assert hebrew > text.get_charbox(place)[0]

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
+from pypdfium2 import PdfDocument
+from pypdfium2.raw import FPDF_PAGEOBJ_IMAGE
 
 from document.typesetting import samples
+from installed import registry
 from plugins.renderers.pdf_pages import (
     numbers_of,
     page_of,
@@ -180,3 +185,20 @@ def test_graphs_carry_their_words_as_text(press: str) -> None:
 def test_a_customers_name_is_printed_as_it_is_typed_and_whole(press: str, customer: str) -> None:
     text = "".join(texts(read(samples.certificate(standards=0, customer=customer), press)))
     assert unspaced(customer) in unspaced(text)
+
+
+@pytest.mark.parametrize("side", ["left", "right"])
+@pytest.mark.parametrize("size", [(2000, 100), (400, 300), (100, 2000)], ids=["wide", "usual", "tall"])
+def test_a_logo_stands_at_its_margin_and_leaves_the_name_its_room(
+    press: str, side: str, size: tuple[int, int]
+) -> None:
+    plain = samples.with_logo(size=size)
+    certificate = replace(plain, look=replace(plain.look, logo=side))
+    page = PdfDocument(registry().renderer(press).render(certificate))[0]
+    (logo,) = page.get_objects(filter=[FPDF_PAGEOBJ_IMAGE])
+    left, bottom, right, top = (each * _POINT for each in logo.get_bounds())
+    at_margin = left if side == "left" else _PAPERS["A4"][0] - right
+    assert at_margin == pytest.approx(20, abs=0.1)
+    assert right - left <= 60.1
+    assert top - bottom <= 17.1
+    assert (right - left) / (top - bottom) == pytest.approx(size[0] / size[1], rel=0.01)

@@ -15,6 +15,7 @@ from functools import cache, lru_cache, partial
 from importlib.resources import files
 from threading import Lock
 from typing import Any, TypeAlias
+from unicodedata import bidirectional
 from xml.etree import ElementTree as ET
 
 import pydyf
@@ -54,6 +55,8 @@ VARIANT = "pdf/a-3a"
 
 _FONT_ADDRESS = "font:{}"
 _PROFILE = "--srgb"
+#: Bidirectional classes of letters: from left to right, and from right to left (Unicode, UAX 9).
+_OF_LETTERS = {"L", "R", "AL"}
 
 
 @dataclass(slots=True)
@@ -101,6 +104,7 @@ class Press:
         issuer, graphs = certificate.letterhead, enumerate(certificate.figures)
         logo: Contents = {LOGO_ADDRESS: (issuer.logo, issuer.logo_type)} if issuer and issuer.logo else {}
         root = ET.fromstring(compose_html(certificate))  # noqa: S314 - set here
+        _set_directions(root)
         document = _Document(root, Supply(logo), has_any_element=bool(certificate.look.templates))
         with self._lock:
             pdf: bytes = document.write_pdf(
@@ -136,6 +140,18 @@ class Press:
 
     def _parse(self, style: str, supply: Supply) -> CSS:
         return CSS(string=style, font_config=self._fonts, url_fetcher=supply)
+
+
+def _set_directions(root: ET.Element) -> None:
+    """Set from right to left what asks for the direction of its first letter, where that is so written.
+
+    WeasyPrint 70 does not know ``dir="auto"``: a number would stand apart from its unit.
+    """
+    for each in root.iter():
+        if each.get("dir") == "auto":
+            kinds = map(bidirectional, "".join(each.itertext()))
+            if next((kind for kind in kinds if kind in _OF_LETTERS), "L") != "L":
+                each.set("style", "direction: rtl")
 
 
 @cache

@@ -25,12 +25,12 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, named
 from zlmreport.language.formatting import (
     HELD,
-    write_fixed_number,
     write_general_number,
     write_percentage,
     write_stated_number,
 )
 from zlmreport.language.numbers import write_significant
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import MILLIMETRE, with_unit, write_behind
 from zlmreport.model.effects import wording
@@ -93,7 +93,7 @@ def say_size_of_plan(planned: PlannedTest) -> Words:
 
 def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[Section, ...]:
     """Return what is said of a plan: ``targets``, ``visits``, ``asked``, ``seen``, ``hidden``, ``logs``."""
-    said = _Plan(job, planned, language)
+    said = _Plan(language, job, planned)
     model = " + ".join(planned.model.identifiers) or said.say(Words("nothing"))
     sections = (
         Section("targets", said.say(_TARGETS), tuple(said.lay_out_targets())),
@@ -111,26 +111,19 @@ def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[S
 
 
 @dataclass(frozen=True, slots=True)
-class _Plan:
+class _Plan(LanguageWriter):
     """Says what there is to say of a plan in one language."""
 
     job: Job
     planned: PlannedTest
-    language: Language
 
     @property
     def axis(self) -> Axis:
         return self.job.axis
 
-    def say(self, words: Words) -> str:
-        return words.in_language(self.language)
-
     def say_assumed(self, key: str) -> Words | str:
         """Return the words behind a value that the job does not state."""
         return _ASSUMED if key in self.planned.proposal.assumed else ""
-
-    def write_number(self, value: float) -> str:
-        return write_stated_number(value, self.language.decimal_sign)
 
     def lay_out_targets(self) -> Iterator[Block]:
         proposal, unit = self.planned.proposal, self.axis.position_unit.symbol
@@ -138,7 +131,7 @@ class _Plan:
         yield Paragraph(self.say(how.given(unit=unit, seed=proposal.seed)))
         targets = convert_to_users_unit(self.axis, proposal.plan.targets)
         decimals = max(len(f"{target:.9f}".rstrip("0").partition(".")[2]) for target in targets)
-        texts = (write_fixed_number(each, decimals, self.language.decimal_sign) for each in targets)
+        texts = (self.write_number(each, decimals) for each in targets)
         yield Facts(tuple((str(number), text) for number, text in enumerate(texts, start=1)))
         for period in self.planned.half_seen:
             yield Paragraph(self.say(_HALF_SEEN.given(period=period)), Mark.OPEN)
@@ -155,10 +148,10 @@ class _Plan:
         yield Paragraph(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
         motion = _MOTION.given(
             overrun=position_in_words(self.axis, plan.overrun),
-            feed=self.write_number(unit.from_si(plan.feed) * _MINUTE),
+            feed=self.write_stated(unit.from_si(plan.feed) * _MINUTE),
             unit=unit.symbol,
             is_feed=self.say_assumed("measurement.feed"),
-            dwell=self.write_number(plan.dwell),
+            dwell=self.write_stated(plan.dwell),
             is_dwell=self.say_assumed("measurement.dwell"),
         )
         yield Paragraph(self.say(motion))

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from zlmreport.language import Language, Said, Words, named
-from zlmreport.language.formatting import MINUS, write_fixed_number, write_general_number
+from zlmreport.language import Words, named
+from zlmreport.language.formatting import MINUS
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.live.capture.display import DEGREES
 from zlmreport.live.capture.events import (
     BeamHeld,
@@ -175,23 +176,10 @@ class CaptureLine:
 
 
 @dataclass(frozen=True, slots=True)
-class AxisWriter:
+class AxisWriter(LanguageWriter):
     """Writes positions and deviations of an axis, and sentences on them, in one language."""
 
     axis: Axis
-    language: Language = Language.ENGLISH
-
-    def say(self, phrase: Said) -> str:
-        """Write a phrase."""
-        return phrase.in_language(self.language)
-
-    def write_number(self, value: float, decimals: int) -> str:
-        """Write a number with so many decimals."""
-        return write_fixed_number(value, decimals, self.language.decimal_sign)
-
-    def write_general(self, value: float) -> str:
-        """Write a factor, or a time between readings, with few digits."""
-        return write_general_number(value, self.language.decimal_sign)
 
     def write_position(self, value: float, decimals: int = 3) -> str:
         """Write a position in mm or °."""

@@ -6,45 +6,24 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from zlmreport.document.blocks import Align, Cell, Column, Explained, RowGroup, Table
-from zlmreport.language import Language, Words
-from zlmreport.language.formatting import (
-    round_pair,
-    write_fixed_number,
-    write_general_number,
-    write_stated_number,
-)
+from zlmreport.language import Words
+from zlmreport.language.formatting import round_pair
+from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, write_behind
 from zlmreport.model.effects.circle_effect import CircleEffect
 
-#: Digits behind the sign of lengths in µm.
-_DECIMALS = 2
-
 
 @dataclass(frozen=True, slots=True)
-class Sayer:
+class Sayer(LanguageWriter):
     """Says words and numbers in one language."""
-
-    language: Language
 
     def __call__(self, words: Words) -> str:
         """Return a phrase."""
-        return words.in_language(self.language)
+        return self.say(words)
 
     def explain_effect(self, effect: CircleEffect) -> Explained:
         """Return an effect as machine files name it, and what it is."""
         return Explained(effect.identifier, self(effect.title))
-
-    def write_number(self, value: float, decimals: int = _DECIMALS) -> str:
-        """Return a number with fixed decimals."""
-        return write_fixed_number(value, decimals, self.language.decimal_sign)
-
-    def write_general(self, value: float) -> str:
-        """Return a number with no needless digits."""
-        return write_general_number(value, self.language.decimal_sign)
-
-    def write_stated(self, value: float) -> str:
-        """Return a number that somebody states, to its last digit."""
-        return write_stated_number(value, self.language.decimal_sign)
 
     def write_micrometres(self, value: float) -> str:
         """Return a length in m as µm, without the unit."""
