@@ -381,6 +381,29 @@ def test_a_program_that_runs_when_the_file_is_opened_is_found(issued: bytes, ver
     assert "/OpenAction" in finding(found, "structure of the file").detail
 
 
+def test_a_file_that_another_job_names_is_called_as_that_job_calls_it(
+    issued: bytes, verified: Verify
+) -> None:
+    """Where this program laid the files out while it verified is nobody's business."""
+    job = content_of(issued, "job.yaml").replace(b"x-axis.csv", b"y-axis.csv")
+    detail = finding(verified(with_attachment(issued, "job.yaml", job)), "readings").detail
+    assert detail.startswith("cannot be evaluated again: y-axis.csv: cannot be read: there is no such file")
+    assert "zlmreport-verify" not in detail
+
+
+def test_a_description_that_lacks_something_is_told_by_what_it_lacks(issued: bytes, verified: Verify) -> None:
+    def change(writer: PdfWriter) -> None:
+        described = specification(writer, "x-axis.csv")
+        del described["/EF"]["/F"]["/Params"]["/ModDate"]
+        del described["/UF"]
+
+    detail = finding(verified(altered(issued, change)), "x-axis.csv").detail
+    assert (
+        detail
+        == "its date lacks /ModDate D:20261120000000Z; its description (by its entries) lacks /UF, /ModDate"
+    )
+
+
 def test_results_that_state_a_key_twice_are_found(issued: bytes, verified: Verify) -> None:
     text = content_of(issued, RESULTS).replace(b'"symbol": "P",', b'"symbol": "P", "value": 1.0,', 1)
     stated = json.loads(content_of(issued, RESULTS))["evaluations"][0]["parameters"][0]
