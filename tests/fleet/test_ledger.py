@@ -147,6 +147,19 @@ def test_a_number_is_given_once_whatever_fleet_asks(address: str) -> None:
         assert ledger.list_certificates()["CAL-1"].fleet == "north"
 
 
+@pytest.mark.parametrize("fleet", ["north", "south"])
+def test_a_number_given_meanwhile_is_refused_in_other_letters_too(address: str, fleet: str) -> None:
+    """Where case is ignored, the files of both would be the same."""
+    with night(address) as (_, at_work):
+        at_work.issue(ENTRY, FILES, BASIS)
+    with night(address, NIGHTS[1], fleet) as (ledger, at_work):
+        with pytest.raises(
+            NumberTakenError, match="number cal-1 differs in case alone from CAL-1, which was"
+        ):
+            at_work.issue(replace(ENTRY, number="cal-1", job="z.yaml"), FILES, BASIS)
+        assert list(ledger.list_certificates()) == ["CAL-1"]
+
+
 def test_fleets_see_their_own_jobs_only(address: str) -> None:
     with night(address) as (_, at_work):
         at_work.issue(ENTRY, FILES, BASIS)

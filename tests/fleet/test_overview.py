@@ -154,6 +154,13 @@ def test_a_drift_away_from_the_limit_has_no_month() -> None:
     assert "moves away from it" in needs(*history([13.49, 12.4, 11.31, 10.18, 9.12, 8.0]))
 
 
+def test_a_drift_that_began_beyond_its_limit_has_no_month_that_nobody_saw() -> None:
+    """The line leads back to a day before the first test: of what was then nothing is known."""
+    told = needs(*history([22.0, 23.1, 24.0, 25.2, 26.1, 27.0], limit=20.0))
+    assert "before the first date" in told
+    assert "2024-" not in told
+
+
 def test_a_drift_without_a_limit_is_told_all_the_same() -> None:
     assert "no limit stated" in needs(*history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49], limit=None))
 

@@ -138,6 +138,25 @@ def test_jobs_come_once_in_the_order_of_their_names(tmp_path: Path) -> None:
     assert [each.name for each in list_job_files(fleet)] == ["a.yaml", "b.yaml"]
 
 
+def test_a_job_that_is_named_in_several_ways_comes_once_by_its_plainest_name(tmp_path: Path) -> None:
+    """Taken for two jobs, both would be refused: their number is the same."""
+    (tmp_path / "hall" / "jobs").mkdir(parents=True)
+    (tmp_path / "hall" / "jobs" / "x.yaml").touch()
+    (tmp_path / "hall" / "jobs" / "a-link.yaml").symlink_to("x.yaml")
+    (tmp_path / "hall" / "current").symlink_to("jobs")
+    (tmp_path / "way").symlink_to("hall")
+    for folder in (tmp_path / "hall", tmp_path / "way"):
+        path = folder / "fleet.yaml"
+        patterns = "jobs/../jobs/x.yaml", "./jobs/x.yaml", "current/*.yaml", "jobs/*.yaml", "../hall/jobs/*"
+        path.write_text(f"schema: zlmreport/fleet/1\njobs: [{', '.join(patterns)}]\n", encoding="utf-8")
+        assert list_job_files(load_fleet(path)) == (folder / "jobs" / "x.yaml",)
+    path.write_text("schema: zlmreport/fleet/1\njobs: [jobs/../jobs/x.yaml]\n", encoding="utf-8")
+    assert [each.name for each in list_job_files(load_fleet(path))] == ["x.yaml"]
+    whole = tmp_path / "hall" / "jobs" / "x.yaml"
+    path.write_text(f"schema: zlmreport/fleet/1\njobs: [{whole}]\n", encoding="utf-8")
+    assert list_job_files(load_fleet(path)) == (whole,)
+
+
 def test_every_pattern_without_a_file_is_named(tmp_path: Path) -> None:
     fleet = loaded(tmp_path)
     with pytest.raises(InputError, match=r"fleet.yaml:2:7: jobs: no file is called 'jobs/\*.yaml'; nothing"):

@@ -93,6 +93,28 @@ def test_a_range_may_begin_at_zero_where_the_formula_has_a_value(formula: str) -
     refuse_unsound(_keys(formula, a=_UM, L=_FROM_ZERO))
 
 
+_PLACE, _MOMENT = ({"unit": unit, "range": [310, 730]} for unit in ("mm", "s"))
+_BRIEF, _NARROW = ({"unit": unit, "range": [0.02, 0.05]} for unit in ("s", "mm"))
+
+
+@pytest.mark.parametrize(
+    ("formula", "parameters"),
+    [
+        ("a*exp(-((P - c)/w)^2)", {"c": _PLACE, "w": _NARROW}),
+        ("a*exp(-((t - c)/w)^2)", {"c": _MOMENT, "w": _BRIEF}),
+        (
+            "a*exp(-((P - c)/w)^2) + b*exp(-((t - d)/u)^2)",
+            {"b": _UM, "c": _PLACE, "w": _NARROW, "d": _MOMENT, "u": _BRIEF},
+        ),
+    ],
+)
+def test_a_form_that_shows_at_one_place_or_moment_only_is_tried_there(
+    formula: str, parameters: dict[str, Any]
+) -> None:
+    """A bump of 0.05 mm on an axis of a metre lies between all readings that were drawn anywhere."""
+    refuse_unsound(_keys(formula, a=_UM, **parameters))
+
+
 @pytest.mark.parametrize(
     ("formula", "parameters"),
     [

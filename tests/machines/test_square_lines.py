@@ -11,12 +11,14 @@ from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.kinematics import SQUARENESS, find_square_slope
 from zlmreport.machines.machine import predict
 from zlmreport.machines.reading import read_machine
+from zlmreport.machines.volume import Space, map_volume, predict_diagonals
 from zlmreport.plugin.registry import find_plugins
 
 ARCSECOND = np.radians(1 / 3600)
 LENGTH = np.linspace(0.0, 0.4, 9)
 #: The place where squareness was measured: X, Y, Z and the tool's offset, mm.
 PLACE, TOOL = {"X": 120.0, "Y": 60.0, "Z": 210.0}, (30.0, -40.0, 150.0)
+AT = ", at: {X: 120, Y: 60, Z: 210, tool: [30, -40, 150]}"
 #: By the tool alone.
 HIGHER = ((0, 0, 150), {})
 #: The turns of each axis over its 0.4 m, arc seconds: rising evenly.
@@ -45,14 +47,18 @@ def write(tmp_path, angles, squares, where=(TOOL, PLACE), chain="XYFZ"):
     return read_machine(path, find_plugins()).machine
 
 
-def lean(machine, axis, direction, place, tool):
-    """Return how an axis leans in the model, rad, with the others at a place, mm."""
+def make_line(axis, direction, place, tool):
+    """Return the line of an axis with the others at a place, mm, sensed in a direction."""
     position = np.tile([place[each] / 1e3 for each in "XYZ"], (len(LENGTH), 1))
     position[:, "XYZ".index(axis)] = LENGTH
     sensing = np.zeros_like(position)
     sensing[:, "XYZ".index(direction)] = 1.0
-    course = ToolCourse(position, sensing, np.zeros_like(position), tuple(each / 1e3 for each in tool))
-    return np.polyfit(LENGTH, predict(machine, course).values, 1)[0]
+    return ToolCourse(position, sensing, np.zeros_like(position), tuple(each / 1e3 for each in tool))
+
+
+def lean(machine, axis, direction, place, tool):
+    """Return how an axis leans in the model, rad, with the others at a place, mm."""
+    return np.polyfit(LENGTH, predict(machine, make_line(axis, direction, place, tool)).values, 1)[0]
 
 
 @pytest.mark.parametrize("chain", ["XYFZ", "YXFZ", "FZXY"])
@@ -83,6 +89,58 @@ def test_exact_matrices_lean_as_the_model_takes_off(tmp_path):
         np.hypot(0.6, 0.4 * np.sqrt(2) * 0.15 / 0.4), rel=0.01
     )
     assert machine.moved_squares[0].measured == pytest.approx(8 * ARCSECOND)
+
+
+@pytest.mark.parametrize("chain", ["XYFZ", "YXFZ", "FZXY"])
+def test_where_squareness_was_measured_the_model_is_as_sure_as_it_was(tmp_path, chain):
+    """What the angles lean there was taken off: their uncertainty is in both, and cancels."""
+    machine = write(tmp_path, TURNS, {"C0Y": 8.0}, chain=chain)
+    course = [make_line(axis, other, PLACE, TOOL) for axis, other in (("X", "Y"), ("Y", "X"))]
+    both = ToolCourse(
+        np.concatenate([each.position for each in course]),
+        np.concatenate([each.sensing for each in course]),
+        np.concatenate([each.motion for each in course]),
+        course[0].tool,
+    )
+    off = LENGTH - LENGTH.mean()
+    leaning = np.tile(off / np.sum(off**2), 2) @ predict(machine, both).factor
+    assert 2 * np.linalg.norm(leaning) / ARCSECOND == pytest.approx(0.6, rel=1e-6)
+    # Taken as independent of the angles, the squareness error alone would be as unsure as they are.
+    assert machine.find_curve("C0Y").largest_uncertainty / ARCSECOND > 0.65
+
+
+@pytest.mark.parametrize("chain", ["XYFZ", "FZXY"])
+def test_u_of_the_work_space_is_what_each_stated_value_makes_of_it_in_turn(tmp_path, chain):
+    """The law of propagation by differences: every value of the file moved by its u, the file read again."""
+    stated = {**{name: {0: 0.0, 400: turn} for name, turn in TURNS.items()}, "C0Y": 8.0, "B0Z": -3.0}
+    uncertain = {name: 0.6 if name in SQUARENESS else 0.4 for name in stated}
+
+    def look(values):
+        lines = [
+            f"  - {{{name}: {value}, expanded_uncertainty: {uncertain[name]}{AT * (name in SQUARENESS)}}}"
+            for name, value in values.items()
+        ]
+        path = tmp_path / "machine.yaml"
+        path.write_text("\n".join([f"schema: zlmreport/machine/1\nchain: {chain}\nerrors:", *lines]) + "\n")
+        machine = read_machine(path, find_plugins()).machine
+        space = Space(np.zeros(3), np.full(3, 0.4))
+        return map_volume(machine, space), predict_diagonals(machine, space)
+
+    middle, diagonals = look(stated)
+    along = middle.deviation / np.maximum(middle.length, 1e-30)[..., np.newaxis]
+    moved, sensed = [], []
+    for name, value in stated.items():
+        for at in value if isinstance(value, dict) else [None]:
+            more = (value if at is None else value[at]) + uncertain[name] / 2
+            found, lines = look({**stated, name: more if at is None else {**value, at: more}})
+            moved.append(np.sum((found.deviation - middle.deviation) * along, axis=-1))
+            sensed.append(
+                [one.deviation - other.deviation for one, other in zip(lines, diagonals, strict=True)]
+            )
+    expected = 2 * np.sqrt(np.sum(np.square(moved), axis=0))
+    assert middle.expanded_uncertainty.ravel() == pytest.approx(expected.ravel(), rel=1e-6, abs=1e-12)
+    for each, own in zip(diagonals, 2 * np.sqrt(np.sum(np.square(sensed), axis=0)), strict=True):
+        assert each.expanded_uncertainty == pytest.approx(own, rel=1e-6, abs=1e-12)
 
 
 def test_at_one_place_nothing_is_moved_and_nothing_doubtful(tmp_path):

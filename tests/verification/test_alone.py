@@ -60,9 +60,13 @@ def test_one_that_was_altered_does_not_hold(
     path.write_bytes(documents[ending].replace(old, new))
     found = verify(path, registry())
     assert found.outcome is VerificationOutcome.DOES_NOT_HOLD
-    assert [each.subject for each in found.files if each.verdict is VerificationVerdict.DIFFERS] == [
-        path.name
-    ]
+    (differing,) = (each for each in found.files if each.verdict is VerificationVerdict.DIFFERS)
+    assert differing.subject == path.name
+    line = documents[ending].partition(old)[0].count(b"\n") + 1
+    assert f"is not what the PDF beside it gives: line {line} has " in differing.detail
+    shown, right = differing.detail.split(" where it gives ")
+    assert new.decode() in shown
+    assert old.decode() in right
 
 
 @pytest.mark.parametrize("ending", [".json", ".csv", ".xlsx", ".html"])

@@ -92,15 +92,22 @@ NO_CLAIMS = [
 
 
 def _texts_of(title: str, *symbols: str) -> list[QuotedText]:
-    """Return the words of a certificate with a title, on which these parameters stand."""
+    """Return the words of the title of a certificate on which these parameters stand."""
+    return [each for each in _all_texts_of(title, *symbols) if each.key == "certificate.title"]
+
+
+def _all_texts_of(title: str, *symbols: str, said: str = "", file: str = "x-axis.csv") -> list[QuotedText]:
+    """Return all words of a certificate, with what an operator said and the name of a file of readings."""
+    remarks = (SimpleNamespace(values={"text": said}),) if said else ()
     parameters = [SimpleNamespace(quantity=SimpleNamespace(symbol=each)) for each in symbols]
     certificate = SimpleNamespace(
         evaluations=[
             SimpleNamespace(
-                parameters=parameters, measurements=SimpleNamespace(provenance=SimpleNamespace(remarks=()))
+                parameters=parameters,
+                measurements=SimpleNamespace(provenance=SimpleNamespace(remarks=remarks)),
             )
         ],
-        sources=(),
+        sources=(SimpleNamespace(file=SimpleNamespace(name=file)),),
     )
     keys = JobKeys.model_validate(
         {
@@ -119,8 +126,7 @@ def _texts_of(title: str, *symbols: str) -> list[QuotedText]:
         measurements={},
         tests={},
     )
-    texts = quote_own_texts(cast("Any", certificate), cast("Any", job))
-    return [each for each in texts if each.key == "certificate.title"]
+    return [*quote_own_texts(cast("Any", certificate), cast("Any", job))]
 
 
 @pytest.mark.parametrize("text", CLAIMS)
@@ -140,6 +146,17 @@ def test_words_that_claim_nothing_are_quoted_and_no_more(text: str) -> None:
 )
 def test_a_number_of_another_document_where_that_of_this_one_stands_is_a_claim(text: str) -> None:
     assert _texts_of(text)[0].claim
+
+
+def test_what_an_operator_said_is_quoted_and_a_name_of_a_file_only_where_it_says_something() -> None:
+    quoted = {each.key: each for each in _all_texts_of("T", "A", said="the door was open")}
+    assert quoted["readings"].text == "the door was open"
+    assert quoted["readings"].claim is None
+    assert "files" not in quoted
+    claiming = {each.key: each for each in _all_texts_of("T", "A", file="A = 1.0.csv")}
+    assert claiming["files"].claim
+    odd = {each.key: each for each in _all_texts_of("T", "A", file="x\N{CYRILLIC SMALL LETTER A}xis.csv")}
+    assert odd["files"].oddities
 
 
 def test_the_letter_of_a_parameter_alone_reads_like_it() -> None:

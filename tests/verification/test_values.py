@@ -98,6 +98,23 @@ def test_what_only_this_release_states_is_left_open() -> None:
     assert "/".join(left_open.path) == f"{A}/expanded_uncertainty"
 
 
+@pytest.mark.parametrize("within", [(), ("parts", "x"), ("tests", "y"), ("parts", "x", "tests", "y")])
+def test_readings_of_another_release_are_the_same_numbers(within: tuple[str, ...]) -> None:
+    """How readings are counted and read is no release's own; what it says of them is."""
+
+    def nested(**keys: Any) -> Any:
+        found: Any = keys
+        for each in reversed(within):
+            found = {each: found}
+        return found
+
+    path = "/".join((*within, "measurements", "runs"))
+    fewer, more = ({"runs": runs, "axis": axis} for runs, axis in ((4, "X"), (5, "Y")))
+    found = differing(nested(measurements=fewer), nested(measurements=more), same_programs=False)
+    assert found == {path: (4, 5)}
+    assert differing(nested(model={"rms": 4.0}), nested(model={"rms": 5.0}), same_programs=False) == {}
+
+
 def test_a_number_of_another_release_that_is_not_recomputed_differs() -> None:
     older = results()
     older["evaluations"][0]["parameters"][0]["limit"] = 20.0

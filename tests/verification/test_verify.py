@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
+import json
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
@@ -380,10 +381,57 @@ def test_a_program_that_runs_when_the_file_is_opened_is_found(issued: bytes, ver
     assert "/OpenAction" in finding(found, "structure of the file").detail
 
 
+def test_a_file_that_another_job_names_is_called_as_that_job_calls_it(
+    issued: bytes, verified: Verify
+) -> None:
+    """Where this program laid the files out while it verified is nobody's business."""
+    job = content_of(issued, "job.yaml").replace(b"x-axis.csv", b"y-axis.csv")
+    detail = finding(verified(with_attachment(issued, "job.yaml", job)), "readings").detail
+    assert detail.startswith("cannot be evaluated again: y-axis.csv: cannot be read: there is no such file")
+    assert "zlmreport-verify" not in detail
+
+
+def test_a_description_that_lacks_something_is_told_by_what_it_lacks(issued: bytes, verified: Verify) -> None:
+    def change(writer: PdfWriter) -> None:
+        described = specification(writer, "x-axis.csv")
+        del described["/EF"]["/F"]["/Params"]["/ModDate"]
+        del described["/UF"]
+
+    detail = finding(verified(altered(issued, change)), "x-axis.csv").detail
+    assert (
+        detail
+        == "its date lacks /ModDate D:20261120000000Z; its description (by its entries) lacks /UF, /ModDate"
+    )
+
+
 def test_results_that_state_a_key_twice_are_found(issued: bytes, verified: Verify) -> None:
     text = content_of(issued, RESULTS).replace(b'"symbol": "P",', b'"symbol": "P", "value": 1.0,', 1)
+    stated = json.loads(content_of(issued, RESULTS))["evaluations"][0]["parameters"][0]
+    assert stated["symbol"] == "P"
     found = verified(with_attachment(issued, RESULTS, text))
-    assert "a key is there twice" in finding(found, "results file").detail
+    told = f"{RESULTS}: 'value' is there twice, as 1.0 and as {stated['value']!r}"
+    assert finding(found, "results file").detail == told
+
+
+def test_what_spoils_a_results_file_is_told_with_its_place_and_that_it_was_changed(
+    issued: bytes, verified: Verify
+) -> None:
+    """Without what it states nothing else is compared; that it is not the file that was attached is known."""
+    text = content_of(issued, RESULTS)
+    spoiled = {
+        text.replace(b"{", b"{ // A", 1): "no JSON: line 1, column 3: ",
+        text + b"\xff": f"no JSON: byte {len(text) + 1} is no UTF-8",
+        b"[" * 100_000: "no JSON: it is nested too deeply",
+    }
+    for content, told in spoiled.items():
+
+        def change(writer: PdfWriter, content: bytes = content) -> None:
+            specification(writer, RESULTS)["/EF"]["/F"].set_data(content)
+
+        found = verified(altered(issued, change))
+        assert differing(found) == ["results file", RESULTS]
+        assert told in finding(found, "results file").detail
+        assert "is not the file that was attached" in finding(found, RESULTS).detail
 
 
 def test_a_checksum_that_is_not_the_files_is_found(issued: bytes, verified: Verify) -> None:

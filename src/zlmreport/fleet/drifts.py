@@ -72,6 +72,12 @@ class Trend:
         return None if known is None else known * self.scale
 
     @property
+    def was_beyond(self) -> bool:
+        """Whether its line is beyond the limit from its first date on: when it met it, nobody saw."""
+        first = self.since or self.series.calibrations[0].measured
+        return self.forecast is not None and self.forecast.expected < first
+
+    @property
     def is_wilder(self) -> bool:
         """Whether the latest tests scatter more than those before."""
         return self.course is not None and self.course.is_wilder

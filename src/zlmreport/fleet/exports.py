@@ -161,7 +161,9 @@ _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
     (
         "limit_reached_timestamp_seconds",
         "When a drift meets its limit.",
-        lambda trend: _make_timestamp(trend.forecast.expected) if trend.forecast else None,
+        lambda trend: (
+            _make_timestamp(trend.forecast.expected) if trend.forecast and not trend.was_beyond else None
+        ),
     ),
 )
 

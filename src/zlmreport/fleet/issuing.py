@@ -144,9 +144,8 @@ class Desk:
             return self.note_failure(planned, result)
         try:
             return self._keep_draft(planned, result) if result.is_draft else self._issue(planned, result)
-        except NumberTakenError:
-            message = f"the number {result.subject.number} was given to another certificate tonight"
-            problem = Problem(Place(str(planned.path)), message)
+        except NumberTakenError as error:
+            problem = Problem(Place(str(planned.path)), f"{error} tonight")
             return self.note_failure(planned, Failed((problem,), result.subject))
         except OSError as error:
             return self.note_failure(

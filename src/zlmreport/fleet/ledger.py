@@ -85,7 +85,8 @@ class Night:
         A number that this fleet gave before keeps its first entry, and its files are those of now. The lesson
         is what its readings teach other tests, as `zlmreport.model.fitting.priors.Lesson` gives it.
 
-        Raises `NumberTakenError` if the number is that of another fleet's certificate.
+        Raises `NumberTakenError` if the number is that of another certificate, or differs from it in case
+        alone.
         """
         kept = [file.as_json() for file in files]
         own = select(ENTRIES.c.id).where(ENTRIES.c.fleet == self.fleet)
@@ -98,10 +99,11 @@ class Night:
             with self.database.begin_transaction() as connection:
                 identity = self._insert(connection, entry, files, basis, lesson)
                 if not connection.execute(renewal).rowcount:
+                    _refuse_taken(connection, entry.number)
                     first = insert(CERTIFICATES).values(number=entry.number, entry=identity, files=kept)
                     connection.execute(first)
         except IntegrityError as error:
-            raise NumberTakenError(entry.number) from error
+            raise NumberTakenError(_say_taken(entry.number, entry.number)) from error
 
     def find_stated_parameters(self, job: str) -> tuple[RecordedParameter, ...]:
         """Return what the latest certificate of a job states."""
@@ -437,6 +439,19 @@ class Ledger(Closable):
             return None
         silent = dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat)
         return night if silent >= SILENT and night.process != os.getpid() else None
+
+
+def _refuse_taken(connection: Connection, number: str) -> None:
+    """Refuse a number that is given, also in other case: on some systems both name the same files."""
+    is_alike = func.lower(CERTIFICATES.c.number) == func.lower(number)  # a number has letters A to Z
+    taken = connection.scalar(select(CERTIFICATES.c.number).where(is_alike).limit(1))
+    if taken is not None:
+        raise NumberTakenError(_say_taken(number, taken))
+
+
+def _say_taken(number: str, taken: str) -> str:
+    alike = "" if taken == number else f"differs in case alone from {taken}, which "
+    return f"the number {number} {alike}was given to another certificate"
 
 
 def _kill(process: int) -> None:

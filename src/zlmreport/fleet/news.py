@@ -168,7 +168,7 @@ def _say_drift(trend: Trend, language: Language, names: Names) -> str:
     slope = trend.line.slope if trend.line else 0.0
     change = write_change(slope, trend.series.unit, language.decimal_sign)
     told = _DRIFT.given(symbol=names.write_symbol(trend.series), change=change).in_language(language)
-    if trend.forecast:
+    if trend.forecast and not trend.was_beyond:
         told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
     return told
 

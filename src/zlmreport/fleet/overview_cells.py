@@ -150,6 +150,8 @@ class CellWriter(LanguageWriter):
     def write_day_reached(self, trend: Trend) -> OverviewCellContext:
         """Return when the limit is met."""
         line, last = trend.line, trend.series.calibrations[-1]
+        if trend.was_beyond:
+            return OverviewCellContext(self.say(words.EARLIER), style="due")
         if trend.forecast:
             bounds = {"earliest": _write_month(trend.forecast.earliest)}
             interval = words.NOT_BEFORE

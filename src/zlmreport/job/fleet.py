@@ -294,21 +294,27 @@ def list_job_files(fleet: FleetFile) -> tuple[Path, ...]:
 
 
 def find_jobs(fleet: FleetFile) -> tuple[tuple[Path, ...], Sequence[Problem]]:
-    """Return the job files of a fleet as far as there are any, and what is wrong with its patterns."""
-    found: set[Path] = set()
+    """Return the job files of a fleet as far as there are any, and what is wrong with its patterns.
+
+    A file that is named in several ways (``jobs/../jobs/x.yaml``, a link) is one job, by its plainest name.
+    """
+    folder = fleet.path.parent.resolve()
+    found: dict[Path, tuple[bool, Path]] = {}
     problems: list[Problem] = []
     for pattern, place in _list_patterns(fleet):
         matches = glob.glob(pattern, root_dir=fleet.path.parent, recursive=True)  # noqa: PTH207 - of a root
-        files = {fleet.path.parent / match for match in matches}
-        files = {file for file in files if file.is_file() and not _is(file, fleet.path)}
+        named = {fleet.path.parent / match: folder / match for match in matches}
+        files = {file: at for file, at in named.items() if file.is_file() and not _is(file, fleet.path)}
         problems += [
             Problem(place, f"jobs: {file}: {say_outside(file)}") for file in files if say_outside(file)
         ]
         if not files:
             message = f"jobs: no file is called {quoted(pattern)}; {_say_nearest(pattern, fleet)}"
             problems.append(Problem(place, message))
-        found |= files
-    return tuple(sorted(found)), problems
+        for file, at in files.items():
+            real = at.resolve()
+            found[real] = min(found.get(real, (True, file)), (at != real, file))
+    return tuple(sorted(file for _, file in found.values())), problems
 
 
 def is_retired(job: str, fleet: FleetFile) -> bool:

@@ -8,7 +8,8 @@ through exactly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -36,6 +37,9 @@ class AxisErrorCurve:
     factor: FloatArray
     line: ErrorLine  #: Where it was measured.
     source: str  #: What it was taken from, as pages name it; empty of a value that is stated and no more.
+    #: Columns that it has from other errors, by their names: these were taken off it, with what is not known
+    #: of them. Each is combined with the same random numbers as that column of the other's own factor.
+    borrowed: Mapping[str, FloatArray] = field(default_factory=dict)
 
     @property
     def axis(self) -> str:
@@ -66,9 +70,15 @@ class AxisErrorCurve:
         return float(np.ptp(values))
 
     @property
+    def columns(self) -> Mapping[str, FloatArray]:
+        """All columns of its error, by the name of the error whose they are."""
+        return {self.name: self.factor, **self.borrowed}
+
+    @property
     def largest_uncertainty(self) -> float:
         """The largest expanded uncertainty of a value, k = 2, m or rad."""
-        return float(2.0 * np.sqrt(np.sum(self.factor**2, axis=1)).max(initial=0.0))
+        squares = sum(np.sum(each**2, axis=1) for each in self.columns.values())
+        return float(2.0 * np.sqrt(squares).max(initial=0.0))
 
     def weigh_nodes(self, position: FloatArray, direction: FloatArray) -> FloatArray:
         """Return how the value at some positions is made of those of the nodes, shape (N, len(values)).

@@ -107,7 +107,7 @@ def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
     tool = machine.tool if course.tool is None else course.tool
     values, outside = np.zeros(count), np.zeros(count, dtype=np.bool_)
     shares: dict[str, FloatArray] = {}
-    factors = [np.zeros((count, 0))]
+    factors: dict[str, FloatArray] = {}
     for curve in machine.curves:
         gain = _compute_gain(curve.name, machine, course, tool)
         if not np.any(gain):
@@ -117,14 +117,15 @@ def predict(machine: MachineModel, course: ToolCourse) -> TestPrediction:
         reading = curve.weigh_nodes(place, course.motion[:, index]) * gain[:, np.newaxis]
         shares[curve.name] = reading @ curve.values
         values = values + shares[curve.name]
-        factors.append(reading @ curve.factor)
+        for name, columns in curve.columns.items():
+            factors[name] = factors.get(name, 0.0) + reading @ columns
         outside |= curve.find_outside(place) & (np.abs(gain) > 0)
     bound = np.zeros(count)
     for each in machine.unmeasured:
         bound += each.variance * _compute_gain(each.name, machine, course, tool) ** 2
     return TestPrediction(
         values,
-        _compress(np.concatenate(factors, axis=1)),
+        _compress(np.concatenate([np.zeros((count, 0)), *factors.values()], axis=1)),
         MappingProxyType(shares),
         outside,
         np.sqrt(bound),

@@ -5,6 +5,12 @@ moves leans otherwise at another tool, or where the other axes stand elsewhere. 
 measured there is that of the model only if what the known angles lean from one place to the other is taken
 off: then the model is as square as was measured, at the very place where it was. What angles may lean that
 nobody measured is a doubt with a size.
+
+What is taken off is as uncertain as the angles, and correlated with them. With S as measured, ε the values of
+an angle at its nodes and r the row by which they lean the axes there, the model has S' = S − r·ε, so that
+cov(S', ε) = −r·cov(ε). Where Δ is g·ε + h·S' it is (g − h·r)·ε + h·S: an angle counts only with what it
+leans between the two places. Where S was measured g leans by h·r, and the axes of the model are as surely
+square as was measured there. So a moved error keeps −r·factor(ε), as columns of that angle.
 """
 
 from __future__ import annotations
@@ -62,8 +68,8 @@ def move_squares(
             continue
         rows = list(_list_leans(curve, known, chain))
         value = curve.values - sum(row @ angle.values for angle, row in rows)
-        factors = [curve.factor, *((row @ angle.factor)[np.newaxis] for angle, row in rows)]
-        found.append(replace(curve, values=np.asarray(value), factor=np.concatenate(factors, axis=1)))
+        borrowed = {angle.name: -(row @ angle.factor)[np.newaxis] for angle, row in rows}
+        found.append(replace(curve, values=np.asarray(value), borrowed=borrowed))
         if abs(float(value[0] - curve.values[0])) > _NOTHING:
             names = tuple(angle.name for angle, _ in rows)
             moved.append(MovedSquare(curve.name, float(curve.values[0]), names))

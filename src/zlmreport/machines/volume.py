@@ -147,13 +147,15 @@ def _compute_relative(
     """Return Δ relative to a point, (N, 3), its factor, (N, 3, r), and u of what nobody measured, (N,)."""
     together = np.concatenate([points, origin[np.newaxis]])
     rest = np.zeros(len(together))
-    values, factors = np.zeros((len(together), 3)), [np.zeros((len(together), 3, 0))]
+    values, factors = np.zeros((len(together), 3)), {"": np.zeros((len(together), 3, 0))}
     for curve in machine.curves:
         gain = weights(curve.name, machine.chain, machine.lines, together, machine.tool)
         reading = curve.weigh_nodes(together[:, AXES.index(curve.axis)], rest)
         values += gain * (reading @ curve.values)[:, np.newaxis]
-        factors.append(gain[:, :, np.newaxis] * (reading @ curve.factor)[:, np.newaxis, :])
-    factor = np.concatenate(factors, axis=2)
+        for name, columns in curve.columns.items():
+            own = gain[:, :, np.newaxis] * (reading @ columns)[:, np.newaxis, :]
+            factors[name] = factors.get(name, 0.0) + own
+    factor = np.concatenate(list(factors.values()), axis=2)
     unknown = np.zeros(len(points))
     for each in machine.unmeasured:
         gain = weights(each.name, machine.chain, machine.lines, together, machine.tool)

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from zlmreport import pipeline
 from zlmreport.document.certificate.results_file import MACHINE_RESULTS, RESULTS
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, quoted
 from zlmreport.job.loading import load
 from zlmreport.language import Words
 from zlmreport.plugin.protocols import Renderer
@@ -33,6 +33,8 @@ from zlmreport.verification.findings import (
 
 #: Beginnings of a file that tell what it is, without its first bytes of white space.
 _LONGEST_HEAD = 4000
+#: Of a text, before and behind the place where it first differs.
+_SHOWN = 24
 _DIGEST = re.compile(r"(?<![0-9A-Z-])[0-9A-HJKMNP-TV-Z]{4}(?:-[0-9A-HJKMNP-TV-Z]{4}){3}(?![0-9A-Z-])")
 _UNSIGNED = Words("a file of this kind bears no signature: nothing tells who made it")
 _NO_PDF = Words(
@@ -107,9 +109,7 @@ def verify_alone(
             again = _make_again(beside, renderer, registry)
         except InputError:  # the PDF holds: what cannot be made of it is no file of this certificate
             again = None
-        own = CheckedStatement.of(
-            path.name, "" if again == content else "is not what the PDF beside it gives"
-        )
+        own = CheckedStatement.of(path.name, "" if again == content else _say_difference(content, again))
     return replace(
         found,
         identity=of_pdf.identity,
@@ -117,6 +117,24 @@ def verify_alone(
         own_words=of_pdf.own_words,
         remarks=(*of_pdf.remarks, remark),
     )
+
+
+def _say_difference(content: bytes, again: bytes | None) -> str:
+    """Say that a file is not what the PDF beside it gives, and of a text where it first is not."""
+    told = "is not what the PDF beside it gives"
+    try:
+        texts = content.decode(), (again or b"").decode()
+    except UnicodeDecodeError:
+        return told
+    if not all(texts):
+        return told
+    pairs = enumerate(zip(*texts, strict=False))
+    same = next((place for place, (one, other) in pairs if one != other), min(map(len, texts)))
+    line, begin = texts[0].count("\n", 0, same) + 1, texts[0].rfind("\n", 0, same) + 1
+    found, expected = (
+        each[max(begin, same - _SHOWN) : same + _SHOWN].partition("\n")[0].strip() for each in texts
+    )
+    return f"{told}: line {line} has {quoted(found)} where it gives {quoted(expected)}"
 
 
 def _find_digest(content: bytes) -> str:

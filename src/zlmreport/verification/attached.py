@@ -98,7 +98,7 @@ class Layout:
         """Return what went wrong with the files by their own names."""
         return tuple(
             Problem(
-                replace(problem.place, file=self.names.get(problem.place.file, problem.place.file)),
+                replace(problem.place, file=self._name_files(problem.place.file)),
                 self._name_files(problem.message),
             )
             for problem in error.problems
@@ -127,6 +127,7 @@ def lay_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) -> 
             if source.name in carried:
                 path.write_bytes(carried[source.name].content)
         nowhere = Path(folder, "not attached")
+        nowhere.mkdir()
         names[f"{nowhere}/"] = ""
         with confine(Path(folder)), enclose(Enclosure(files, nowhere)):
             yield Layout(next(iter(files.values())), names)
@@ -241,8 +242,20 @@ def _check_descriptions(file: Carried, again: Carried | None) -> Iterator[str]:
         if found != expected and not found and key == "listed":
             yield "is in no list of names: readers of PDF do not show it"
         elif found != expected:
-            shown, right = (str(each)[:_LONGEST_TEXT] for each in (found, expected))
-            yield f"its {what} is {shown!r} and should be {right!r}"
+            yield f"its {what} {_say_change(found, expected)}"
+
+
+def _say_change(found: Any, expected: Any) -> str:
+    """Say how a description is not what it should be; of several entries only those that differ."""
+    if isinstance(found, tuple) and isinstance(expected, tuple):
+        lacking, more = (
+            ", ".join(str(each).strip() for each in one if each not in other)[:_LONGEST_TEXT]
+            for one, other in ((expected, found), (found, expected))
+        )
+        if lacking or more:
+            return " and ".join([*[f"lacks {lacking}"] * bool(lacking), *[f"has {more}"] * bool(more)])
+    shown, right = (str(each)[:_LONGEST_TEXT] for each in (found, expected))
+    return f"is {shown!r} and should be {right!r}" if shown else f"is missing and should be {right!r}"
 
 
 _NAMESPACE = b"https://ptb.de/dcc"

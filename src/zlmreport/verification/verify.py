@@ -141,9 +141,10 @@ def verify(
     try:
         stated = find_stated_by(carrier)
     except ValueError as error:
-        return replace(
-            found, files=(CheckedStatement("results file", VerificationVerdict.DIFFERS, str(error)),)
-        )
+        spoiled = CheckedStatement("results file", VerificationVerdict.DIFFERS, str(error))
+        compared = attached.compare((), carrier.carried, None)
+        changed = (each for each in compared if each.verdict is VerificationVerdict.DIFFERS)
+        return replace(found, files=(spoiled, *changed))
     if stated is None:
         if not carrier.creator.startswith(f"{_PROGRAM} "):
             raise InputError.at(

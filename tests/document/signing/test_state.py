@@ -56,6 +56,17 @@ def test_a_signature_that_is_not_the_keys_is_found(signed: bytes) -> None:
     assert read_signature_state(bytes(altered)).integrity is Integrity.ALTERED
 
 
+@pytest.mark.parametrize("where", [0, 2, 8])
+def test_a_signature_of_which_a_byte_was_changed_is_told_so_in_few_words(signed: bytes, where: int) -> None:
+    """Whoever verifies knows no ASN.1; what the library says of it is cut short."""
+    place = signed.rindex(b"/Contents <") + len(b"/Contents <") + where
+    altered = signed[:place] + (b"00" if signed[place : place + 2] != b"00" else b"11") + signed[place + 2 :]
+    state = read_signature_state(altered)
+    assert state.integrity is Integrity.ALTERED
+    assert state.reason.startswith("its signature cannot be read: its bytes were changed, or are damaged (")
+    assert len(state.reason) < 150
+
+
 def test_a_page_added_after_signing_is_found(signed: bytes) -> None:
     from pyhanko.pdf_utils.generic import NameObject, pdf_name
     from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter

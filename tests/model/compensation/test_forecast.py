@@ -66,6 +66,22 @@ def test_residuals_no_larger_than_their_scatter_leave_the_scatter_of_the_model()
     assert alike.high == pytest.approx(HIGH * np.sqrt(2) * OWN, rel=0.05)  # the second test's scatter alone
 
 
+def test_what_both_directions_share_and_what_parts_them_scatter_like_a_mean() -> None:
+    """(e↑ ± e↓)/√2 turns the two by 45°: both parts have the variance of a mean, and give it back."""
+    none = np.zeros((2, 3))
+    curve = ErrorCurve(TARGETS, none[0], none[1], np.full_like(none, SINGLE), RUNS, tuple(Approach))
+    scatter = ReadingScatter(SINGLE, 0.0, 1_000_000)
+    parts = (known_by_means(3),) * 2
+    basis = TableBasis(
+        curve, lambda at: np.zeros((2, len(at))), none, parts, scatter, lambda _: np.zeros_like
+    )
+    table = CompensationTable(Axis("X"), "T", TARGETS, none[0], none[0], Place("test"))
+    found = forecast(basis, table, table, None, None).second_test["E"]
+    random = np.random.default_rng(4)
+    spans = np.ptp(OWN * np.sqrt(2) * random.standard_normal((200_000, 6)), axis=1)  # both tests scatter
+    assert (found.low, found.high) == pytest.approx(np.quantile(spans, [0.025, 0.975]), rel=0.06)
+
+
 def test_both_tests_have_the_errors_of_a_set_up_of_their_own() -> None:
     scale = Contribution(same("scale"), 1e-6, Acts.ALONG_THE_LENGTH, Distribution.NORMAL, same(""), same(""))
     found = mean_range(known_by_means(3), budget=Budget((scale,)), single=1e-12)

@@ -23,7 +23,7 @@ from zlmreport.model.planning.deciding import (
     plan_experiment_of_tie,
     write_deciding_text,
 )
-from zlmreport.model.planning.experiment import Experiment, choose_option
+from zlmreport.model.planning.experiment import Experiment, choose_option, rank_option
 from zlmreport.model.planning.methods import Method, find_half_way
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest, Pause, propose
 from zlmreport.model.planning.planned_test import choose_model_of
@@ -100,6 +100,15 @@ def test_longer_plan_is_advised_where_it_decides_more_often(
         for each, minutes in zip(decides, (25, 45), strict=True)
     ]
     assert choose_option(options) is options[chosen]
+
+
+def test_of_plans_that_decide_as_often_the_one_with_more_evidence_is_the_surest() -> None:
+    """Where no simulated test decides, evidence alone tells which changes are worth trying together."""
+    never, nearly, often = (
+        SimpleNamespace(decides=decides, margin=margin)
+        for decides, margin in ((0.0, -4.0), (0.0, -0.5), (0.6, -2.0))
+    )
+    assert sorted([never, nearly, often], key=rank_option) == [often, nearly, never]
 
 
 @pytest.mark.long

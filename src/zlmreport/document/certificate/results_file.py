@@ -8,9 +8,12 @@ from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from zlmreport.errors import quoted
 from zlmreport.language import Language
 
 RESULTS = "zlmreport/results/1"
+#: Of a value in a message.
+_LONGEST = 60
 #: Of a document on a whole machine.
 MACHINE_RESULTS = "zlmreport/machine-results/1"
 
@@ -62,16 +65,27 @@ def read_results(content: bytes) -> Any:
             parse_int=_read_whole,
             parse_constant=_require_finite,
         )
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"no JSON: {error}") from error
+    except UnicodeDecodeError as error:
+        raise ValueError(f"no JSON: byte {error.start + 1} is no UTF-8") from error
+    except json.JSONDecodeError as error:
+        raise ValueError(f"no JSON: line {error.lineno}, column {error.colno}: {error.msg}") from error
+    except RecursionError as error:
+        raise ValueError("no JSON: it is nested too deeply") from error
 
 
 def _refuse_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Refuse a key that is there twice: one reader takes the first, and another the last."""
-    found = dict(pairs)
-    if len(found) != len(pairs):
-        raise ValueError("a key is there twice")
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise ValueError(f"{quoted(key)} is there twice, as {_show(found[key])} and as {_show(value)}")
+        found[key] = value
     return found
+
+
+def _show(value: Any) -> str:
+    text = json.dumps(value)
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
 
 
 def _require_finite(text: str) -> float:

@@ -27,6 +27,8 @@ from zlmreport.files import read, say_reason
 _MARK = b"/ByteRange"
 _MOST_SIGNATURES = 20
 _MOST_TOLD = 6
+#: Of what pyHanko says of bytes that it cannot read.
+_LONGEST_DETAIL = 60
 
 
 class Integrity(Enum):
@@ -98,7 +100,9 @@ def read_signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureSt
     except ImportError:
         return SignatureState(Integrity.UNCHECKED, reason="pyHanko is not installed: zlmreport[sign]")
     except Exception as error:  # noqa: BLE001 (pyHanko meets a forger's bytes with many kinds of them)
-        return SignatureState(Integrity.ALTERED, reason=f"its signature cannot be read: {error}")
+        detail = " ".join(str(error).split())[:_LONGEST_DETAIL]
+        reason = f"its signature cannot be read: its bytes were changed, or are damaged ({detail})"
+        return SignatureState(Integrity.ALTERED, reason=reason)
     reason = _say_fault(signatures)
     return SignatureState(Integrity.ALTERED if reason else Integrity.INTACT, signatures, reason)
 

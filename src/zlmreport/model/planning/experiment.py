@@ -124,7 +124,7 @@ def plan_next_experiment(  # noqa: PLR0913 - what is asked, what is known, what 
     told(0.75)
     # The rivals alone look easier to tell apart than among all effects: then several changes together.
     if all(each.decides < _ENOUGH for each in tried):
-        leading = sorted(options, key=_find_surest)[:_COMBINED]
+        leading = sorted(options, key=rank_option)[:_COMBINED]
         single = [each.changes[0] for each in leading if each.changes]
         several = [each for count in (2, 3) for each in combinations(single, count)]
         apart = [each for each in several if len({change.of for change in each}) == len(each)]
@@ -141,7 +141,7 @@ def _judge_options(judged: Callable[[_Option], _Option], options: Sequence[_Opti
     """Yield the cheapest plan that promises enough and the surest ones, judged, until one decides."""
     promising = [each for each in options if each.decides >= _ENOUGH]
     cheapest = min(promising, key=lambda each: each.plan.duration, default=None)
-    surest = [each for each in sorted(options, key=_find_surest) if each is not cheapest]
+    surest = [each for each in sorted(options, key=rank_option) if each is not cheapest]
     order = [*([cheapest] if cheapest else []), *surest]
     for option in order[: _BEST if order and order[0].decides >= _NOT_WORTH_IT else 1]:
         yield (found := judged(option))
@@ -161,7 +161,8 @@ def choose_option(tried: Sequence[_Option]) -> _Option | None:
     return min(as_sure, key=lambda each: each.plan.duration, default=None)
 
 
-def _find_surest(option: _Option) -> tuple[float, float]:
+def rank_option(option: _Option) -> tuple[float, float]:
+    """Return what is least of the surest plan; by margin, where as many of the few simulated tests decide."""
     return -option.decides, -option.margin
 
 
