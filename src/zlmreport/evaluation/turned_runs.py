@@ -90,7 +90,7 @@ def find_mirrored_run(readings: FloatArray) -> Mirrored | None:
 
     `readings`: as of `find_run_of_another_reversal`.
     """
-    there = np.isfinite(readings).all(axis=2)
+    there = np.asarray(np.isfinite(readings).all(axis=2))
     in_both_orders = there & there[:, ::-1]
     curves, backwards = readings[there], readings[:, ::-1][in_both_orders]
     if curves.shape[1] < _FEWEST_RUNS or len(curves) < _FEWEST_POSITIONS:
