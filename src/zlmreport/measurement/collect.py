@@ -367,6 +367,8 @@ def _check_deviations_are_credible(
     unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
     limit = f"{what}, {unit.from_si(largest):.9g}{write_behind(unit.symbol)}"
     advice = "is it a position given as deviation, or a wrong unit?"
+    if largest == _FINE_STEP:
+        advice = f"{advice[:-1]} (perhaps that of the targets)?"
     if 2 * len(beyond) > np.count_nonzero(~np.isnan(measurements.deviation)) > 2:
         yield Problem(
             places[beyond[0]], f"{len(beyond)} deviations from here on are larger than {limit}; {advice}"
@@ -395,7 +397,7 @@ def _check_times_are_those_of_a_test(
         yield Problem(places[longest], _say_too_long(float(measurements.time[longest])))
         return
     steps = np.diff(measurements.time[logged])
-    usual = float(np.median(steps))
+    usual = float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
     for later in np.flatnonzero(steps < 0) + 1:
         yield Problem(
             places[logged[later]],

@@ -193,3 +193,21 @@ def test_tables_that_differ_in_all_that_does_not_matter_are_read_alike(
     path.write_bytes(written)
     grid = look_at(path, REGISTRY).read.deviations()
     np.testing.assert_allclose(grid * 1e6, untidy_files.GRID, rtol=0, atol=1e-6)
+
+
+def test_columns_of_several_axes_are_refused_with_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "pairs.csv"
+    path.write_text("Position X,Error X,Position Y,Error Y\n0,1,0,2\n9,1,9,2\n", encoding="utf-8")
+    sentence = (
+        r"several axes side by side \('Position X' and 'Position Y'\); a test is of one: name its columns"
+    )
+    with pytest.raises(InputError, match=sentence):
+        look_at(path, REGISTRY)
+
+
+def test_a_defective_test_file_of_a_laser_is_told_as_that(tmp_path: Path) -> None:
+    """The table of its targets was read as readings."""
+    path = tmp_path / "x.rtl"
+    path.write_text("HEADER::\n\nTARGET DATA::\nTargets :\n0,5  1,5\nFlags: 0\n", encoding="utf-8")
+    with pytest.raises(InputError, match="has no section DEVIATIONS"):
+        look_at(path, REGISTRY)

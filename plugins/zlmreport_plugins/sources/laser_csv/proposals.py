@@ -25,6 +25,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     READING,
     Notation,
     are_positions,
+    find_axis_in,
     find_meaning,
     find_reading_of,
     read_number,
@@ -44,10 +45,6 @@ _AVERAGE = re.compile(
 _COMMENTS = 3
 #: How a column is called that names the axis, folded.
 _OF_AXES = frozenset({"axis", "achse", "axe", "asse", "eje"})
-_AXIS = re.compile(
-    r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
-    re.IGNORECASE,
-)
 
 
 def propose(file: Path) -> Iterator[SourceProposal]:
@@ -58,6 +55,7 @@ def propose(file: Path) -> Iterator[SourceProposal]:
     axis = _find_axis(file, found)
     for table in found[:1]:
         _refuse_several_axes(table, file)
+        _refuse_axes_side_by_side(table, file)
     drafts = [each for table in found for each in _list_drafts(table)]
     for draft in (*draft_of_parts(found, drafts[:1]), *drafts):
         _ask_for_sheet(draft, found)
@@ -75,9 +73,8 @@ def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
         line for table in found[:1] for line in table.found.text.lines[: table.layout.skipped + _COMMENTS]
     ]
     for text in (file.stem, *(table.found.keys.get("sheet", "") for table in found[:1]), *above):
-        match = _AXIS.search(text)
-        if match:
-            return (match[1] or match[2]).upper()
+        if letter := find_axis_in(text):
+            return letter
     return ""
 
 
@@ -93,6 +90,25 @@ def _refuse_several_axes(table: FoundTable, file: Path) -> None:
             )
 
 
+def _refuse_axes_side_by_side(table: FoundTable, file: Path) -> None:
+    """Refuse a table with columns of the same quantity of several axes: ``Error X`` and ``Error Y``."""
+    of_quantity: dict[str, dict[str, str]] = {}
+    for name in table.header.cells:
+        words = re.findall(r"[^\W_]+", read_heading(name).name.casefold())
+        letters = [word for word in words if re.fullmatch("[xyzabcuvw]", word)]
+        others = " ".join(word for word in words if word not in letters)
+        if len(letters) == 1 and others:
+            of_quantity.setdefault(others, {}).setdefault(letters[0].upper(), name)
+    for named in of_quantity.values():
+        if len(named) > 1:
+            raise InputError.at(
+                Place(str(file), table.header.line),
+                f"holds readings of several axes side by side ({listed(map(repr, named.values()))}); a test "
+                "is of one: name its columns in the job, as in 'columns: {target: …, deviation: …}', and "
+                "those of the others under 'ignore'",
+            )
+
+
 def _list_drafts(table: FoundTable) -> Iterator[Draft]:
     draft = Draft(table)
     _ask_for_averages(draft)
@@ -104,6 +120,7 @@ def _list_drafts(table: FoundTable) -> Iterator[Draft]:
         return
     _draft_value(draft)
     _draft_other_columns(draft)
+    _name_unnamed(draft)
     yield from tell_passes(draft)
 
 
@@ -142,7 +159,9 @@ def _draft_wide(draft: Draft) -> None:
             for index, name in enumerate(table.header.cells)
             if name and index != target and index not in readings
         ]
-    first = readings[0]
+    first, targets = readings[0], [each for each in table.list_numbers(target) if each is not None]
+    if len(set(targets)) < len(targets):
+        draft.count_runs()
     if are_positions(table.list_numbers(target), table.list_numbers(first)):
         keys["values"] = "position"
         name_unit("position", draft, target, first)
@@ -261,6 +280,18 @@ def _draft_other_columns(draft: Draft) -> None:
             if folded(plain) != what:
                 draft.columns[what] = plain
             is_unit_known(what, draft, index)
+
+
+def _name_unnamed(draft: Draft) -> None:
+    """Give a column that has cells and no name one, and leave it out: the index of a data frame."""
+    table = draft.table
+    names = list(table.header.cells)
+    unnamed = [index for index, name in enumerate(names) if not name and any(table.list_cells(index))]
+    if unnamed and table.layout.header_rows == 1 and not table.layout.is_transposed:
+        for index in unnamed:
+            names[index] = f"column {index + 1}"
+        draft.keys |= {"skip_rows": table.header.line, "header": names}
+        draft.ignored += [names[index] for index in unnamed]
 
 
 def _is_time(cells: Sequence[str], notation: Notation) -> bool:

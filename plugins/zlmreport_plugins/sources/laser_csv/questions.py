@@ -20,6 +20,9 @@ ORDER_ASKED = (
     "told by whether the target rises or falls from row to row."
 )
 RUNS_ASKED = "Is the n-th reading of a target in a direction of the n-th run? The table names no runs."
+RUNS_NOT_READ_ASKED = (
+    "Is the n-th reading of a target in a direction of the n-th run? The column {name} is not read."
+)
 PARTS_ASKED = (
     "Are the {count} tables, one below the other, runs of one test? If they are of several axes, write a "
     "file of each."
