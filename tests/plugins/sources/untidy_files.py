@@ -566,6 +566,17 @@ def _header_over_and_over() -> Untidy:
     )
 
 
+def _header_again_in_a_run() -> Untidy:
+    """The header stands a second time, in the middle of the first run: the longer table is the second."""
+    table = [f"{target};{sense:+d};{run};{value}" for target, sense, run, value in rows()]
+    header = "target;direction;run;deviation (um)"
+    return Untidy(
+        "again.csv",
+        text(header, *table[:3], header, *table[3:]),
+        {"parts": [{"lines": [1, 4]}, {"lines": [5, 18]}]},
+    )
+
+
 def _runs_only_counted() -> Untidy:
     """A table of each direction, the columns of its runs called by nothing but their numbers."""
     lines: list[str] = []
@@ -674,6 +685,7 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _runs_that_count_passes,
     _with_the_index_of_a_data_frame,
     _header_over_and_over,
+    _header_again_in_a_run,
     _runs_only_counted,
     _unit_in_the_lower_row,
     _arrows_and_statistics,

@@ -18,6 +18,7 @@ from zlmreport.plugin import (
     Problem,
     ReadingScale,
     Unit,
+    counted,
     quoted,
 )
 from zlmreport.plugin.source import Reading, SourceContext
@@ -206,8 +207,8 @@ def find_passes_as_runs(readings: Sequence[Reading], column: TextColumn) -> Iter
         second = next(reading for reading in readings if reading.run != readings[0].run)
         yield Problem(
             second.place,
-            f"each of {len(runs)} runs has one direction: the column {quoted(column.text)} numbers the "
-            "passes, and a run is one there and back; say 'runs: counted' in the job, and "
+            f"each of {counted(len(runs), 'run')} has one direction: the column {quoted(column.text)} "
+            "numbers the passes, and a run is one there and back; say 'runs: counted' in the job, and "
             f"'ignore: [{column.text}]'",
         )
 
@@ -222,7 +223,7 @@ def find_repeated(readings: Sequence[Reading], axis: Axis) -> Iterator[Problem]:
             yield Problem(
                 reading.place,
                 f"target {axis.typed(reading.target_position):.9g} {reading.approach.arrow} was read in line "
-                f"{before.place.line} already, and has {numbers[same]} readings where most have "
+                f"{before.place.line} already, and has {counted(numbers[same], 'reading')} where most have "
                 f"{usual[0][0]}; keep one of them, for runs are counted by them",
             )
 

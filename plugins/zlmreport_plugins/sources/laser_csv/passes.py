@@ -6,7 +6,7 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 from typing import Any
 
@@ -143,19 +143,34 @@ def draft_of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iter
     best, alone = found[0], drafts[0]
     same = [each for each in found if each.header.cells == best.header.cells and each.layout.header_rows]
     sheets = {each.found.keys["sheet"]: each for each in same if "sheet" in each.found.keys}
-    tables = list(_list_sheets(sheets) if len(sheets) > 1 else _list_stacked(best))
+    first = min((each for each in same if _are_laid_out_alike(each, best)), key=_find_line, default=best)
+    tables = list(_list_sheets(sheets) if len(sheets) > 1 else _list_stacked(first))
     if len(tables) < 2 or len({each.axis for each in tables} - {""}) > 1:
         return
     tells_direction = "direction" in best.meanings or any(map(run_and_direction, alone.columns))
     if {each.approach for each in tables} == {*Approach} and not tells_direction:
         parts = [{**each.part, "direction": each.approach.sign} for each in tables if each.approach]
         yield _join_parts(alone, parts, questions.DIRECTION_ASKED, questions.ORDER_ASKED, without="direction")
-    elif len(sheets) < 2 and len({each.targets for each in tables}) == 1 and "header" not in alone.keys:
+    elif len(sheets) < 2 and _are_runs_of_one(tables, alone) and "header" not in alone.keys:
         draft = _join_parts(alone, [each.part for each in tables], questions.RUNS_ASKED)
         if draft.find_column("run") is None:
             draft.keys["runs"] = "counted"
         draft.asks.append(questions.PARTS_ASKED.format(count=len(tables)))
         yield draft
+
+
+def _are_laid_out_alike(one: FoundTable, other: FoundTable) -> bool:
+    """Return whether tables of one text differ by their place alone."""
+    return replace(one.layout, skipped=other.layout.skipped) == other.layout
+
+
+def _find_line(table: FoundTable) -> int:
+    return table.header.line
+
+
+def _are_runs_of_one(tables: Sequence[_Part], alone: Draft) -> bool:
+    """Return whether tables have the same targets, or a column numbers their runs."""
+    return len({each.targets for each in tables}) == 1 or alone.find_column("run") is not None
 
 
 def _join_parts(alone: Draft, parts: list[dict[str, Any]], *answered: str, without: str = "") -> Draft:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 from zlmreport.plugin import Approach, InputError, Place, listed
 from zlmreport.plugin.source import SourceProposal
-from zlmreport.plugin.table import folded, moment
+from zlmreport.plugin.table import EnclosureError, TextRow, folded, moment, parted_line
 from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import (
@@ -41,6 +43,8 @@ _OF_READINGS = frozenset({"deviation", "position", READING})
 _AVERAGE = re.compile(
     r"(?<![^\W_])(?:avg|average|mean|mittel|mittelwert|moyenne|moyen|media|promedio)(?![^\W_])", re.IGNORECASE
 )
+#: How many times as large as any other, and as is usual, a deviation is off that is not actual − target.
+_DISAGREES = 3.0
 #: Lines of a table without a head that may be comments above its names.
 _COMMENTS = 3
 #: How a column is called that names the axis, folded.
@@ -59,7 +63,7 @@ def propose(file: Path) -> Iterator[SourceProposal]:
     drafts = [each for table in found for each in _list_drafts(table)]
     for draft in (*draft_of_parts(found, drafts[:1]), *drafts):
         _ask_for_sheet(draft, found)
-        _ask_for_rows_below(draft)
+        _ask_for_rows_outside(draft)
         _ask_for_kind(draft, axis)
         yield SourceProposal(_order_keys(draft), tuple(draft.asks), axis)
     for text in () if drafts else texts:
@@ -143,7 +147,14 @@ def _draft_wide(draft: Draft) -> None:
     target = draft.find_column("target") or 0
     readings = [index for index, each in enumerate(table.meanings) if each == READING]
     told = [find_reading_of(draft.name_column(index)) or (1, None) for index in readings]
-    if all(approach is None for _, approach in told):
+    second = _find_second_targets(draft, target)
+    if second is not None and all(approach is None for _, approach in told):
+        told = [
+            (run, Approach.NEGATIVE if index > second else Approach.POSITIVE)
+            for index, (run, _) in zip(readings, told, strict=True)
+        ]
+        draft.asks.append(questions.SECOND_ASKED)
+    elif all(approach is None for _, approach in told):
         keys["direction"] = "+"
         draft.asks.append(questions.DIRECTION_ASKED)
     _name_target(draft, target)
@@ -168,6 +179,23 @@ def _draft_wide(draft: Draft) -> None:
     else:
         draft.asks.append(questions.SIGN_ASKED)
         name_unit("deviation", draft, target, *readings)
+
+
+def _find_second_targets(draft: Draft, target: int) -> int | None:
+    """Return the place of a second column of the same targets: a table stands beside the first one.
+
+    Raises `InputError` if it has them in another order: a row is then none of one target.
+    """
+    table, name = draft.table, folded(draft.name_column(target))
+    same = (index for index, each in enumerate(table.header.cells) if index > target and folded(each) == name)
+    second = next(same, None) if name else None
+    if second is not None and table.list_numbers(second) != table.list_numbers(target):
+        raise InputError.at(
+            Place(table.found.text.name, table.header.line),
+            "two tables stand side by side, and a row holds one target in the one and another in the other; "
+            "write them one below the other, each with its header",
+        )
+    return second
 
 
 def _has_equal_names(table: FoundTable) -> bool:
@@ -250,11 +278,32 @@ def _compare(draft: Draft, target: int, deviation: int, position: int) -> None:
         )
         if at is not None and value is not None and actual is not None
     ]
+    _ask_where_they_disagree(draft, target, deviation, position)
     negative, positive = sum(each < 0 for each in products), sum(each > 0 for each in products)
     if negative > 3 * positive:
         draft.keys["sign"] = "nominal-actual"
     elif positive <= 3 * negative:
         draft.asks.append(questions.SIGN_ASKED)
+
+
+def _ask_where_they_disagree(draft: Draft, target: int, deviation: int, position: int) -> None:
+    """Ask about the row in which a deviation is not the difference that it is in all others."""
+    table = draft.table
+    columns = (table.list_numbers(index) for index in (target, position, deviation))
+    rows = [
+        (row.line, actual - at, value)
+        for row, at, actual, value in zip(table.rows, *columns, strict=True)
+        if at is not None and actual is not None and value is not None
+    ]
+    ratios = [value / difference for _, difference, value in rows if difference]
+    if not ratios:
+        return
+    ratio = median(ratios)
+    left = [abs(value - ratio * difference) for _, difference, value in rows]
+    worst = max(range(len(rows)), key=left.__getitem__)
+    others = max((each for index, each in enumerate(left) if index != worst), default=0.0)
+    if left[worst] > _DISAGREES * max(others, median(abs(value) for *_, value in rows)):
+        draft.asks.append(questions.DISAGREE_ASKED.format(line=rows[worst][0]))
 
 
 def _draft_other_columns(draft: Draft) -> None:
@@ -321,14 +370,29 @@ def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
         draft.asks.append(questions.SHEETS_ASKED.format(sheet=repr(sheet), others=listed(others), hold=hold))
 
 
-def _ask_for_rows_below(draft: Draft) -> None:
-    """Ask whether rows of numbers below the table belong to the test, where they are no part of it."""
+def _ask_for_rows_outside(draft: Draft) -> None:
+    """Ask whether rows of numbers outside the table belong to the test, where they are no part of it."""
     table = draft.table
-    left = [
-        row.line for row in table.below if sum(_is_number(cell, table.notation) for cell in row.cells) > 1
-    ]
-    if len(left) > 1 and "parts" not in draft.keys and not table.layout.is_transposed:
-        draft.asks.append(questions.BELOW_ASKED.format(count=len(left), first=left[0]))
+    if "parts" in draft.keys or table.layout.is_transposed:
+        return
+    below = _list_lines_of_numbers(table.below, table.notation)
+    if len(below) > 1:
+        draft.asks.append(questions.BELOW_ASKED.format(count=len(below), first=below[0]))
+    above = _list_lines_of_numbers(_list_rows_above(table), table.notation)
+    if len(above) > 1:
+        draft.asks.append(questions.ABOVE_ASKED.format(count=len(above), last=above[-1]))
+
+
+def _list_lines_of_numbers(rows: Iterable[TextRow], notation: Notation) -> list[int]:
+    return [row.line for row in rows if sum(_is_number(cell, notation) for cell in row.cells) > 1]
+
+
+def _list_rows_above(table: FoundTable) -> Iterator[TextRow]:
+    """Yield the rows of a text above the header of its table."""
+    for number, line in table.found.lines:
+        if number <= table.layout.skipped and table.layout.header_rows:
+            with suppress(EnclosureError):
+                yield parted_line(number, line, table.layout.delimiter)
 
 
 def _is_number(cell: str, notation: Notation) -> bool:
