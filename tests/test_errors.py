@@ -7,6 +7,7 @@ import pickle
 import pytest
 
 from zlmreport import ZlmreportError
+from zlmreport.errors import did_you_mean
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.plugin import AccessError, InputError, Place, Problem
 
@@ -24,3 +25,8 @@ def test_what_a_model_cannot_carry_comes_out_of_another_process_as_it_went_in() 
     there = pickle.loads(pickle.dumps(ModelError(["no reading", "no run"])))
     assert there.sentences == ("no reading", "no run")
     assert str(there) == "no reading; no run"
+
+
+def test_a_standard_without_its_edition_is_answered_with_the_last_one() -> None:
+    known = ["iso230-2:1997", "iso230-2:2014", "iso230-3", "nmtba"]
+    assert did_you_mean("ISO230-2", known).startswith("did you mean 'iso230-2:2014'? (known: ")

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import csv
 import math
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from zlmreport.plugin import (
+    CELSIUS,
     LENGTH_UNITS,
     MILLIMETRE,
     Finite,
@@ -23,9 +26,9 @@ from zlmreport.plugin import (
     quoted,
     unit_named,
 )
-from zlmreport.plugin.source import SourceContext, TextFile, read_text
+from zlmreport.plugin.source import SourceContext, SourceProposal, TextFile, cap_problems, read_text
 from zlmreport_step_gauge.deviations import compute_deviations_of
-from zlmreport_step_gauge.gauge import Side, StepGauge
+from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 from zlmreport_step_gauge.keys import MachineKeys
 from zlmreport_step_gauge.measurements import Sign, Targets, make_measurement_set
 from zlmreport_step_gauge.probed import (
@@ -103,7 +106,7 @@ def _read_sequence(path: Path) -> tuple[TextFile, list[Unnumbered]]:
             continue
         points.append(Unnumbered(place, (x, y, z)))
     if problems:
-        raise InputError(problems)
+        raise InputError(cap_problems(problems))
     return text, points
 
 
@@ -207,7 +210,7 @@ def _read_log(path: Path) -> tuple[TextFile, list[Unnumbered]]:
             if point:
                 points.append(point)
     if problems:
-        raise InputError(problems)
+        raise InputError(cap_problems(problems))
     return text, points
 
 
@@ -271,6 +274,10 @@ class StepGaugeOptions(Options):
     )
 
 
+_GAUGE_ASKED = (
+    "Which gauge was probed? Its calibration belongs in the file that step_gauge names at the top of the "
+    "job; the deviations here are from the nominal lengths in the table."
+)
 _SIDES = {"both": tuple(Side), "front": (Side.FRONT,), "back": (Side.BACK,)}
 
 
@@ -280,6 +287,21 @@ class StepGaugeSource:
     identifier = "step-gauge"
     title = Words("Probed step gauge")
     options: type[Options] = StepGaugeOptions
+
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return how a table of Calypso is read: until its gauge is named, by the nominal lengths in it."""
+        try:
+            text = read_text(file)
+        except InputError:
+            return  # it is another source's
+        first = _find_header(text)
+        if _is_calypso(text.lines[first]):
+            yield SourceProposal(
+                asks=(_GAUGE_ASKED,),
+                is_certain=True,
+                beside={"step_gauge": {"calibration": "gauge.yaml"}},
+                set_ups={"step_gauge": _make_nominal_set_up(text, first)},
+            )
 
     def read(self, options: StepGaugeOptions, context: SourceContext) -> MeasurementSet:
         """Read the points and evaluate them against the gauge; raise `InputError` with every defect."""
@@ -318,6 +340,25 @@ class StepGaugeSource:
             files=(found.source,),
             place=found.place,
         )
+
+
+def _make_nominal_set_up(text: TextFile, first: int) -> GaugeSetUp:
+    """Return a gauge of the nominal lengths in a table of Calypso, which nobody calibrated."""
+    table = csv.DictReader(text.lines[first:], delimiter="\t", quoting=csv.QUOTE_NONE)
+    lengths: dict[int, float] = {}
+    for row in table:
+        try:
+            face = find_face_of((row["id"] or "").strip(), {}, text.place())
+            unit = unit_named((row["unit"] or "").strip(), LENGTH_UNITS)
+            lengths.setdefault(face, unit.to_si(read_measured((row.get("nominal") or "").strip())))
+        except (InputError, ValueError):
+            continue  # that is told where the points are read
+    faces = (
+        Face(number, Side.FRONT if number % 2 else Side.BACK, length, length, 0.0)
+        for number, length in sorted(lengths.items())
+    )
+    gauge = StepGauge("", "", "", tuple(faces), None, None, CELSIUS.to_si(20.0), None, None, text.place())
+    return GaugeSetUp(gauge, None, None, True, None, 0.0, None, None, (), text.place())  # noqa: FBT003
 
 
 def _read_points(options: StepGaugeOptions, set_up: GaugeSetUp, sides: tuple[Side, ...]) -> Points:

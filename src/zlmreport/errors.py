@@ -128,6 +128,8 @@ def as_problems(job: Path, error: Exception) -> ZlmreportError:
 def did_you_mean(name: str, known: Sequence[str]) -> str:
     """Return the tail of a message on an unknown name: the nearest known one, and all of them.
 
+    Of a standard that is named without its edition the last one is the nearest.
+
     >>> did_you_mean("iso230-2:2O14", ["iso230-2:2014", "nmtba"])
     "did you mean 'iso230-2:2014'? (known: iso230-2:2014, nmtba)"
     """
@@ -135,7 +137,8 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
         return "there is none to choose from"
     listed = ", ".join(sorted(known))
     by_letters = {each.casefold(): each for each in known}
-    nearest = difflib.get_close_matches(name.casefold(), by_letters, n=1)
+    editions = sorted(each for each in by_letters if each.startswith(f"{name.casefold()}:"))
+    nearest = editions[-1:] or difflib.get_close_matches(name.casefold(), by_letters, n=1)
     return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
 
 

@@ -44,6 +44,10 @@ class Looked:
         if self.proposal.tests:
             yield f"{indent}tests: {write_in_a_line({name: {} for name in self.proposal.tests})}"
 
+    def write_groups(self) -> Iterator[str]:
+        """Yield the lines of the groups at the top of a job that the source needs."""
+        yield from (f"{name}: {write_in_a_line(keys)}" for name, keys in self.proposal.beside.items())
+
 
 def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     """Return how a file can be read.
@@ -65,19 +69,25 @@ def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
             except ZlmreportError as error:
                 errors.append(error)
     # A table of senses, or of channels, would pass as one of directions.
-    ways.sort(key=lambda way: way[1].circle is None and way[1].quantity is None)
+    ways.sort(key=lambda way: not _is_certain(way[1]))
     for source, proposal in ways:
+        failed: list[ZlmreportError] = []
         for axis in _propose_axes(proposal):
             try:
                 read = _read(source, proposal, path, axis)
-                return Looked(source, proposal, read, _choose_standard_for(proposal, registry))
+                return Looked(source, proposal, read, _choose_standard_for(source, proposal, registry))
             except AccessError:
                 raise
             except ZlmreportError as error:
-                if proposal.circle or proposal.quantity:  # its columns say what it is, and it is not sound
-                    raise
-                errors.append(error)
+                failed.append(error)
+        if _is_certain(proposal):  # it is what it is, and not sound: not for an axis of the other kind
+            raise max(failed, key=lambda error: error.problems[-1].place.line)
+        errors += failed
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
+
+
+def _is_certain(proposal: SourceProposal) -> bool:
+    return proposal.is_certain or proposal.circle is not None or proposal.quantity is not None
 
 
 def _sort_by_suffix(sources: Iterable[DataSource], suffix: str) -> list[DataSource]:
@@ -127,15 +137,19 @@ def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) 
         raise InputError.at(Place(str(path)), f"{source.identifier} needs more keys: {error}") from error
     if proposal.tests:
         lines = {
-            name: source.read(options, SourceContext(replace(axis, name=name), Place(str(path))))
+            name: source.read(
+                options, SourceContext(replace(axis, name=name), Place(str(path)), proposal.set_ups)
+            )
             for name in proposal.tests
         }
         return join_lines(axis, lines)
-    return source.read(options, SourceContext(axis, Place(str(path))))
+    return source.read(options, SourceContext(axis, Place(str(path)), proposal.set_ups))
 
 
-def _choose_standard_for(proposal: SourceProposal, registry: Registry) -> str:
+def _choose_standard_for(source: DataSource, proposal: SourceProposal, registry: Registry) -> str:
     """Return a standard that evaluates what a file holds: the usual one, or one that is for it."""
+    if source.identifier in {each.identifier for each in registry.standards}:
+        return source.identifier
     if proposal.circle:
         return _OF_CIRCLES
     if proposal.quantity is None:
@@ -163,6 +177,7 @@ def write_job_of(looked: Looked, file: Path, directory: Path) -> str:
             "measurement:",
             *(f"  # {question}" for question in looked.proposal.asks),
             *looked.write_block(name, indent="  "),
+            *looked.write_groups(),
             "evaluate:",
             f'  - "{looked.standard}"',
             "output: {formats: [pdf, json]}",

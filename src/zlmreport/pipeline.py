@@ -26,7 +26,7 @@ from zlmreport.document.certificate.clauses import find_missing_items
 from zlmreport.document.certificate.information import check_information
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
-from zlmreport.errors import InputError, Problem
+from zlmreport.errors import AccessError, InputError, Problem
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.correction.corrections import correct, drop_excluded, find_corrections_of
 from zlmreport.evaluation.decision import make_decision_rule, with_decisions
@@ -109,7 +109,13 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
         for each in job.extensions
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
-    measurements = source.read(job.source.options, context)
+    try:
+        measurements = source.read(job.source.options, context)
+    except AccessError as error:
+        named_in = job.place_of("measurement.source.file")
+        raise AccessError(
+            replace(each, message=f"{each.message} (named in {named_in})") for each in error.problems
+        ) from error
     corrections = find_corrections_of(job, measurements) if job.keys.corrections else None
     return correct(measurements, corrections) if corrections else measurements
 

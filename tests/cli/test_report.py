@@ -155,7 +155,7 @@ def test_missing_readings_file_is_an_access_error(shop: Shop) -> None:
     shop.job()
     (shop.folder / "six.txt").unlink()
     run = shop.run("job.yaml")
-    assert (run.code, run.messages) == (3, "six.txt: cannot be read\n")
+    assert (run.code, run.messages) == (3, "six.txt: cannot be read (named in job.yaml:12:11)\n")
 
 
 def test_missing_job_is_an_access_error(shop: Shop) -> None:

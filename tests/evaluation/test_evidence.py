@@ -166,7 +166,36 @@ def test_where_every_run_has_a_reversal_of_its_own_none_stands_apart(of: Job) ->
 def test_a_run_with_its_sign_turned_mirrors_the_others(of: Job, run: int) -> None:
     readings = honest(1) + 2 * np.arange(5)  # the runs drift
     readings[..., run] *= -1
-    assert f"Run {run + 1} mirrors the others" in shown(of, readings)
+    first, *others = shown(of, readings).splitlines()
+    assert first == f"Run {run + 1} mirrors the others: the sign of its deviations seems to be turned"
+    assert not any("lies" in each for each in others)  # outliers that follow from it
+
+
+@pytest.mark.parametrize("run", [0, 4])
+def test_a_run_in_reverse_order_of_the_targets_mirrors_the_others(of: Job, run: int) -> None:
+    readings = honest(1, slope=12.0)
+    readings[..., run] = readings[:, ::-1, run]
+    assert shown(of, readings).splitlines() == [
+        f"Run {run + 1} mirrors the others: its readings seem to stand in reverse order of the targets"
+    ]
+
+
+def test_a_straight_line_that_falls_in_one_run_is_turned_either_way(of: Job) -> None:
+    readings = honest(1, curve=0.0, slope=0.0, reversal=0.0) + 20 * (TARGETS / TARGETS[-1])[:, np.newaxis]
+    readings[..., 2] = readings[:, ::-1, 2]
+    assert shown(of, readings) == (
+        "Run 3 mirrors the others: the sign of its deviations seems to be turned, or its readings stand in "
+        "reverse order of the targets"
+    )
+
+
+def test_outliers_beside_a_turned_run_are_told_after_it(of: Job) -> None:
+    readings = honest(1)
+    readings[0, 3, 0] += 6
+    readings[..., 4] *= -1
+    first, *others = shown(of, readings).splitlines()
+    assert first.startswith("Run 5 mirrors")
+    assert [each[:24] for each in others] == ["The reading of run 1 at "]
 
 
 def test_outliers_at_two_positions_turn_no_run(of: Job) -> None:

@@ -212,6 +212,11 @@ WRONG_ADDITIONS = [
     ("? [a]\n: b", "16:3", "a key is a plain word"),
     ("customer: *c", "16:11", "*c names nothing that stands above it"),
     ("customer: &c {name: *c}", "16:21", "*c stands inside the value that it names"),
+    ("source: {file: x.csv}", "16:1", "unknown key 'source'; it is a key of measurement"),
+    ("screw_pitch: 10", "16:1", "unknown key 'screw_pitch'; it is a key of axis"),
+    ("plugin: laser-csv", "16:1", "unknown key 'plugin'; it is a key of measurement.source"),
+    ("tolerances: {A: 10}", "16:1", "unknown key 'tolerances'; it is a key of evaluate"),
+    ("\u00a0\u00a0Remark: 1", "16:1", "U+00A0 (no-break space) stands where a space belongs"),
     ("---\na: 1", "16:1", "a second document begins here"),
     ('customer: {name: "A\\x07"}', "16:18", "control character U+0007 in a text"),
     ('customer: {name: "\\e[31m"}', "16:18", "control character U+001B in a text"),
@@ -247,6 +252,21 @@ def test_wrong_addition_is_refused_where_it_stands(
 def test_empty_list_is_refused_at_its_key(tmp_path: Path) -> None:
     (found,) = mistakes(with_line(14, "  []"), tmp_path)
     assert found.startswith("job.yaml:13:1: evaluate: a list of 0 values is not a list of at least 1 value")
+
+
+@pytest.mark.parametrize(
+    ("item", "sentence"),
+    [
+        ("iso230-2: 2014", "'iso230-2' is no key of a standard; write {standard: 'iso230-2:2014'}"),
+        (
+            "iso230-2:2014: {tolerances: {A: 10}}",
+            "'iso230-2:2014' is no key of a standard; write {standard: iso230-2:2014, …}",
+        ),
+    ],
+)
+def test_identifier_that_became_a_key_is_told(item: str, sentence: str, tmp_path: Path) -> None:
+    (found,) = mistakes(with_line(14, f"  - {item}"), tmp_path)
+    assert found == f"job.yaml:14:5: evaluate: {sentence}"
 
 
 def test_sound_job_has_no_mistake(tmp_path: Path) -> None:

@@ -106,7 +106,7 @@ def test_measurements_are_read_by_themselves_too() -> None:
         (
             "{unit: mm, range: [100, 1000], step: 20}",
             "{unit: mm}",
-            "segment is no factor of a whole term and must be searched; state its range",
+            "rack.yaml:10:7: effects.rack.parameters.segment: segment is no factor of a whole term",
         ),
         (
             "measurements:\n  fine-run: {en: a fine run, de: ein Feinlauf}",
@@ -121,7 +121,17 @@ def test_measurements_are_read_by_themselves_too() -> None:
         (
             "{unit: um, range: [-100, 100]}",
             "{unit: um, range: [-100, 100], possible: {least: 0, most: 5*rize, because: {en: so}}}",
-            "reset: a bound depends on temperature_rise alone, not on rize",
+            "rack.yaml:9:72: effects.rack.parameters.reset.possible.most: a bound depends on",
+        ),
+        (
+            "{unit: um, range: [-100, 100]}",
+            "{unit: um, range: [-100, 100], possible: {least: -5*(, most: 5, because: {en: so}}}",
+            "rack.yaml:9:63: effects.rack.parameters.reset.possible.least: it ends where a number",
+        ),
+        (
+            "step: 20}",
+            "step: 20, stated: screw}",
+            "rack.yaml:10:65: effects.rack.parameters.segment.stated: screw is no key of the axis; there are",
         ),
         (
             "    needs:",

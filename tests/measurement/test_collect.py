@@ -251,6 +251,22 @@ def test_a_rotary_axis_speaks_of_its_own_units() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("back", "why"),
+    [
+        (3600, "did summer time end there? Write times with their offset"),
+        (3550, "did summer time end there?"),
+        (12 * 3600, "is it a clock of 12 hours? Write AM and PM"),
+        (60, "readings stand in the order in which they were taken"),
+        (7200, "readings stand in the order in which they were taken"),
+    ],
+)
+def test_a_clock_that_was_put_back_is_asked_about(back: int, why: str) -> None:
+    times = [0.0, 20.0, 40.0, 60.0 - back, 80.0 - back]
+    (found,) = complaints(reading(2 + index, 10 * index, time=time) for index, time in enumerate(times))
+    assert found.startswith(f"x.csv:5:1: the time is before that of the reading in line 4; {why}")
+
+
 def test_times_that_fall_contradict_the_order_of_the_readings() -> None:
     readings = [reading(2, 0, time=1.0), reading(3, 10, time=3.0), reading(4, 20, time=2.0)]
     assert complaints(readings) == [
@@ -331,9 +347,16 @@ def test_all_problems_come_at_once_in_the_order_of_the_file_with_those_of_the_re
 
 
 def test_of_very_many_problems_the_first_are_named_and_the_others_counted() -> None:
-    found = complaints(reading(2 + index, run=0.5) for index in range(100))
+    words = [Problem(Place("x.csv", 2 + index), f"{'x' * index}y is no number") for index in range(100)]
+    found = complaints(cycle(1), problems=words)
     assert len(found) == 20 + 1
     assert found[-1] == "x.csv:22:1: and 80 more"
+
+
+def test_problems_that_differ_by_numbers_alone_are_one() -> None:
+    (found,) = complaints(reading(2 + index, run=index + 0.5) for index in range(100))
+    assert found.startswith("x.csv:2:1: ")
+    assert found.endswith(" (100 like this: lines 2, 3, 4, 5, 6, …)")
 
 
 @given(st.permutations(range(12)))

@@ -159,6 +159,25 @@ def test_a_file_that_is_not_there_is_answered_with_the_nearest_one_that_is(tmp_p
     )
 
 
+@pytest.mark.parametrize(
+    ("name", "advice"),
+    [
+        ("X-AXIS.CSV", "; did you mean 'x-axis.csv'?"),
+        ("runs\\x.csv", "; write its folders with /"),
+        ("C:\\data\\x-axis.csv", "; did you mean 'x-axis.csv'?"),
+        ("link.csv", ": it is a link to gone.csv, which is not there"),
+    ],
+)
+def test_a_name_that_is_nearly_right_is_answered_with_what_would_be(
+    tmp_path: Path, name: str, advice: str
+) -> None:
+    (tmp_path / "x-axis.csv").touch()
+    (tmp_path / "link.csv").symlink_to("gone.csv")
+    (tmp_path / "runs").mkdir()
+    (tmp_path / "runs" / "x.csv").touch()
+    assert refusal(tmp_path / name) == f"{name}: cannot be read: there is no such file{advice}"
+
+
 def test_a_folder_that_is_not_there_is_named(tmp_path: Path) -> None:
     assert refusal(tmp_path / "runs" / "x.csv") == (
         f"x.csv: cannot be read: there is no such file, and no folder {tmp_path / 'runs'}"

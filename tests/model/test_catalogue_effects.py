@@ -108,8 +108,8 @@ def test_key_of_the_axis_that_states_a_parameter_ends_its_search() -> None:
 @pytest.mark.parametrize(
     ("stated", "sentence"),
     [
-        ("pitch", "period: pitch is no key of the axis; there are screw_pitch"),
-        ("screw_pitch/signal_period", "period: it is travel, and screw_pitch/signal_period is a number"),
+        ("pitch", "^pitch is no key of the axis; there are screw_pitch"),
+        ("screw_pitch/signal_period", "period is travel, and screw_pitch/signal_period is a number"),
     ],
 )
 def test_what_states_a_parameter_must_be_made_of_keys(stated: str, sentence: str) -> None:

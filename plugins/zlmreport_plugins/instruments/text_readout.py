@@ -232,10 +232,11 @@ class _WithoutFirst:
 
 
 def _answer(port: Port, request: bytes, decoder: TextDecoder, patience: Patience, wait: float) -> LiveReading:
+    no_answer = {b"", request.strip()}  # some readouts send back what they are asked
 
     def find_line(arrived: bytes) -> tuple[bytes] | None:
-        whole = arrived.lstrip(b"\r\n").splitlines(keepends=True)
-        return (whole[0],) if whole and whole[0].endswith((b"\r", b"\n")) else None
+        whole = (line for line in arrived.splitlines(keepends=True) if line.endswith((b"\r", b"\n")))
+        return next(((line,) for line in whole if line.strip() not in no_answer), None)
 
     answer = ask_instrument(port, request, find_line, wait)
     now = time.monotonic()

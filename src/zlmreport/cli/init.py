@@ -89,6 +89,7 @@ def _tell_lines(looked: Looked, path: Path) -> Iterator[str]:
             yield from wrap(question)
     yield ""
     yield from looked.write_block(path.name)
+    yield from looked.write_groups()
 
 
 def _summarise(read: MeasurementSet) -> str:

@@ -21,6 +21,8 @@ from zlmreport.evaluation.copies import (
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
 from zlmreport.evaluation.turned_runs import (
+    Mirrored,
+    Turned,
     find_mirrored_run,
     find_run_of_another_reversal,
     measure_counter_directions,
@@ -83,6 +85,13 @@ _TOO_LARGE = Words(
     "state it under measurement.source.units"
 )
 _MIRRORED = Words("Run {run} mirrors the others: the sign of its deviations seems to be turned")
+_IN_REVERSE = Words(
+    "Run {run} mirrors the others: its readings seem to stand in reverse order of the targets"
+)
+_TURNED_EITHER_WAY = Words(
+    "Run {run} mirrors the others: the sign of its deviations seems to be turned, or its readings stand in "
+    "reverse order of the targets"
+)
 _INTERCHANGED = Words(
     "The reversal of run {run} is {reversal} in the mean, and {others} in the others: its directions seem to "
     "be interchanged"
@@ -131,14 +140,18 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         return ()
     if there.sum() >= _FEWEST_EQUAL and not np.ptp(readings[there]):
         return (Words("All readings are equal: the sensor, or its display, may have stood still"),)
+    mirrored, turned = _find_turned_run(measurements, readings)
+    wrong = [each.run for each in (mirrored, turned) if each]
+    right = readings.copy()
+    right[..., wrong] = np.nan  # what follows from such a run is told by it
     return (
-        *_find_drift(job, measurements, readings),
-        *_find_outliers(measurements, readings),
+        *_tell_turned_runs(measurements, readings, mirrored, turned),
+        *_find_drift(job, measurements, np.delete(readings, wrong, axis=-1)),
+        *_find_outliers(measurements, right),
         *_find_spike(measurements),
         *_find_stray_targets(measurements, readings),
         *_find_copied_runs(measurements, readings),
         *_find_copied_directions(measurements, readings),
-        *_find_turned_runs(measurements, readings),
         *_find_other_unit(measurements),
         *_find_other_temperatures(job, measurements),
         *_find_coarser_steps(job, measurements),
@@ -292,14 +305,25 @@ def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) 
             yield words.given(runs=of_runs.given(runs=_list_run_numbers(measurements, found)))
 
 
-def _find_turned_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
-    """Yield the run whose sign, or whose reversal, is not that of the others."""
+def _find_turned_run(
+    measurements: MeasurementSet, readings: FloatArray
+) -> tuple[Mirrored | None, Turned | None]:
+    """Return the run whose curve mirrors the others, or else that whose reversal is not theirs."""
     mirrored = find_mirrored_run(readings)
-    if mirrored is not None:
-        yield _MIRRORED.given(run=int(measurements.runs[mirrored]))
-    if mirrored is not None or not measurements.is_bidirectional or measurements.reversal_is_relative:
+    tells = measurements.is_bidirectional and not measurements.reversal_is_relative
+    return mirrored, find_run_of_another_reversal(readings) if tells and not mirrored else None
+
+
+def _tell_turned_runs(
+    measurements: MeasurementSet, readings: FloatArray, mirrored: Mirrored | None, turned: Turned | None
+) -> Iterator[Words]:
+    """Yield the run whose sign, order or reversal is not that of the others."""
+    if mirrored:
+        words = _IN_REVERSE if not mirrored.has_other_sign else _MIRRORED
+        words = _TURNED_EITHER_WAY if mirrored.has_other_sign and mirrored.is_in_reverse else words
+        yield words.given(run=int(measurements.runs[mirrored.run]))
+    if mirrored or not measurements.is_bidirectional or measurements.reversal_is_relative:
         return
-    turned = find_run_of_another_reversal(readings)
     if turned:
         words = _INTERCHANGED if turned.is_interchanged else _ANOTHER_REVERSAL
         yield words.given(

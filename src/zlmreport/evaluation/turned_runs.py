@@ -1,8 +1,8 @@
 """Runs written the wrong way round: the reversal or the sign of one is not that of the others.
 
 Of a run whose directions were interchanged the reversal has the other sign; of one whose deviations have the
-wrong sign the curve mirrors that of the others. Where that happened to a whole direction, the two run counter
-to each other along the axis.
+wrong sign, or whose readings stand in reverse order, the curve mirrors that of the others. Where that was
+done to a whole direction, the two run counter to each other along the axis.
 """
 
 from __future__ import annotations
@@ -27,6 +27,9 @@ _TURNED = 0.25
 _MIRRORED, _CURVED = -0.8, 6.0
 #: Part of how far the directions lie apart that is left when one of them is turned round.
 _LEFT = 0.2
+#: Part of how far a run in reverse order is from the others that is left in the right one, and standard
+#: deviations that it is apart before; times as near to the others that decides between two ways of turning.
+_LEFT_IN_ORDER, _APART_IN_ORDER, _DECIDES = 0.4, 3.0, 1.5
 
 
 class Turned(NamedTuple):
@@ -36,6 +39,14 @@ class Turned(NamedTuple):
     reversal: float  #: Its mean reversal, m or rad.
     of_others: float  #: That of the other runs.
     is_interchanged: bool  #: Whether it is theirs with the other sign.
+
+
+class Mirrored(NamedTuple):
+    """A run whose curve mirrors that of the others."""
+
+    run: int  #: Its index.
+    has_other_sign: bool  #: Whether its deviations, with their signs turned, are those of the others.
+    is_in_reverse: bool  #: Whether its readings, in reverse order of the targets, are those of the others.
 
 
 def find_run_of_another_reversal(readings: FloatArray) -> Turned | None:
@@ -74,24 +85,36 @@ def find_run_of_another_reversal(readings: FloatArray) -> Turned | None:
     return Turned(run, float(means[run]), level, is_interchanged)
 
 
-def find_mirrored_run(readings: FloatArray) -> int | None:
-    """Return the index of the run whose curve mirrors that of the others, if one does.
+def find_mirrored_run(readings: FloatArray) -> Mirrored | None:
+    """Return the run whose curve mirrors that of the others, if one does: by its signs, or its order.
 
     `readings`: as of `find_run_of_another_reversal`.
     """
-    curves = readings.reshape(-1, readings.shape[-1])
-    curves = curves[np.isfinite(curves).all(axis=1)]
+    there = np.asarray(np.isfinite(readings).all(axis=2))
+    in_both_orders = there & there[:, ::-1]
+    curves, backwards = readings[there], readings[:, ::-1][in_both_orders]
     if curves.shape[1] < _FEWEST_RUNS or len(curves) < _FEWEST_POSITIONS:
         return None
     curves = curves - curves.mean(axis=0)
+    backwards = backwards - backwards.mean(axis=0) if len(backwards) else backwards
     for run in range(curves.shape[1]):
         others = np.delete(curves, run, axis=1)
         mean = others.mean(axis=1)
         scatter = float((others - mean[:, np.newaxis]).std(ddof=1))
         if not curves[:, run].any() or not mean.any() or np.ptp(mean) < _CURVED * scatter:
             continue
-        if np.corrcoef(curves[:, run], mean)[0, 1] < _MIRRORED:
-            return run
+        has_other_sign = bool(np.corrcoef(curves[:, run], mean)[0, 1] < _MIRRORED)
+        left = float((curves[:, run] + mean).std())
+        left_in_order, apart = np.inf, float((curves[:, run] - mean).std())
+        if len(backwards) >= _FEWEST_POSITIONS:
+            mean_at_both = mean[in_both_orders[there]]
+            left_in_order = float((backwards[:, run] - mean_at_both).std())
+        is_in_reverse = left_in_order < _LEFT_IN_ORDER * apart and apart > _APART_IN_ORDER * scatter
+        if has_other_sign and is_in_reverse:
+            has_other_sign = left < _DECIDES * left_in_order
+            is_in_reverse = left_in_order < _DECIDES * left
+        if has_other_sign or is_in_reverse:
+            return Mirrored(run, has_other_sign, is_in_reverse)
     return None
 
 

@@ -126,7 +126,7 @@ def _make_entry(
             for value in list(key.choices)[1:]:
                 Formula.of(keys, kind, choices={key.name: value})
     except FormulaError as error:
-        problems.append(Problem(place_of(item, ("formula",)), f"{within}.formula: {error}"))
+        problems.append(Problem(place_of(item, error.key), f"{'.'.join((within, *error.key))}: {error}"))
         return None
     return keys
 

@@ -15,7 +15,7 @@ from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.sentences import show_value
-from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of
+from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of, place_of
 from zlmreport.job.types import Finite, JobPart, Options, list_keys_in, optional
 
 if TYPE_CHECKING:
@@ -161,8 +161,8 @@ def _choose_formula(
     try:
         refuse_unsound(keys)
     except FormulaError as error:
-        sentence = f"{within}.formula: {keys.name}: {error}"
-        problems.append(Problem(item.entries["formula"].value.place, sentence))
+        sentence = f"{'.'.join((within, *error.key))}: {keys.name}: {error}"
+        problems.append(Problem(place_of(item, error.key), sentence))
         return None
     if keys.name in {effect.identifier for effect in registry.effects}:
         sentence = f"{within}.name: {keys.name} is an installed effect; call the formula otherwise"

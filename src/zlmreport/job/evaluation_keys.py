@@ -1,11 +1,11 @@
 """Keys of a job on evaluation: standards, limits, decision rule, uncertainty, model, plan, programs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from zlmreport.errors import list_names
+from zlmreport.errors import list_names, quoted
 from zlmreport.job.circle_keys import CirclePlanKeys
 from zlmreport.job.types import Finite, JobPart, JobPath, NotNegative, Positive, Text, optional
 from zlmreport.measurement.axis import AxisKind
@@ -231,6 +231,10 @@ class StandardKeys(BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _bare_identifier(cls, value: Any) -> Any:
+        if isinstance(value, Mapping) and len(value) == 1 and not value.keys() & cls.model_fields.keys():
+            ((name, its),) = value.items()
+            meant = f"{name}, …" if isinstance(its, Mapping | list) or its is None else f"'{name}:{its}'"
+            raise ValueError(f"{quoted(name)} is no key of a standard; write {{standard: {meant}}}")
         return {"standard": value} if isinstance(value, str | int | float) else value
 
 

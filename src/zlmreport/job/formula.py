@@ -64,7 +64,14 @@ _OPERATIONS: Mapping[str, Callable[..., FloatArray]] = {
 
 
 class FormulaError(ValueError):
-    """What is wrong with a formula, fit to stand behind the place where it is written."""
+    """What is wrong with a formula, fit to stand behind the place where it is written.
+
+    `key`: Where that is in its effect, step by step; the formula itself without it.
+    """
+
+    def __init__(self, message: str, *key: str) -> None:
+        super().__init__(message)
+        self.key = key or ("formula",)
 
 
 class Extent(NamedTuple):

@@ -57,6 +57,8 @@ DERIVED = (
 )
 #: What a bound of what is possible may depend on: the largest logged rise of a temperature of the axis, K.
 RISE = "temperature_rise"
+#: The key of an effect under which its parameters stand.
+_PARAMETERS = "parameters"
 _NAME = re.compile(r"[^\W\d]\w*", re.ASCII)
 _PER_KELVIN = Extent(temperature=Fraction(-1))
 _TRAVEL_PER_KELVIN = Extent(travel=Fraction(1), temperature=Fraction(-1))
@@ -170,13 +172,13 @@ class Formula:
         found = cls(keys, tree, units, parts)
         for name in found.searched:
             if not _is_searchable(keys.parameters[name]):
-                raise FormulaError(
-                    f"{name} is no factor of a whole term and must be searched; state its range"
-                )
+                message = f"{name} is no factor of a whole term and must be searched; state its range"
+                raise FormulaError(message, _PARAMETERS, name)
             _refuse_countless(name, keys.parameters[name])
         for name in parts:
             if keys.parameters[name].value is not None or keys.parameters[name].equals is not None:
-                raise FormulaError(f"{name} is the size of a wave, which has two parts; give neither")
+                message = f"{name} is the size of a wave, which has two parts; give neither value nor equals"
+                raise FormulaError(message, _PARAMETERS, name)
         return found
 
     def compute_values(
@@ -262,9 +264,10 @@ class Formula:
                     for positions in _POSITIONS
                 )
                 if not any(np.isfinite(each).all() for each in tried):
-                    raise FormulaError(
+                    message = (
                         f"it has no value where {name} is 0, an end of its range; let the range leave 0 out"
                     )
+                    raise FormulaError(message, _PARAMETERS, name, "range")
 
     def _make_readings(self, theta: Mapping[str, float], first: float, last: float) -> dict[str, Any]:
         """Return readings between two positions, m or rad, at which a formula is tried."""
@@ -366,15 +369,18 @@ def _refuse_countless(name: str, parameter: FormulaParameter) -> None:
         count = (high - low) / parameter.step
         if count > _MOST_SENSIBLE:
             raise FormulaError(
-                f"{name}: steps of {parameter.step:g} are {count:.3g} values from {low:g} to {high:g}, and "
-                f"{_MOST_SENSIBLE:,} are the most; take a larger step, or none"
+                f"steps of {parameter.step:g} are {count:.3g} values from {low:g} to {high:g}, and "
+                f"{_MOST_SENSIBLE:,} are the most; take a larger step, or none",
+                _PARAMETERS,
+                name,
+                "step",
             )
 
 
 def _refuse_names(keys: FormulaKeys, used: Sequence[str]) -> None:
     for name in keys.parameters:
         if not _NAME.fullmatch(name) or name in {*VARIABLES, *parsing.CONSTANTS}:
-            raise FormulaError(f"a parameter cannot be called {name!r}")
+            raise FormulaError(f"a parameter cannot be called {name!r}", _PARAMETERS, name)
         if name not in used:
             raise FormulaError(f"the parameter {name} does not stand in it")
 
@@ -394,7 +400,8 @@ def _derive_units(
     }
     for name, each in keys.parameters.items():
         if each.spelled not in UNITS[kind]:
-            raise FormulaError(f"{name}: {each.unit!r} does not belong to a {kind.value} axis")
+            message = f"{each.unit!r} does not belong to a {kind.value} axis"
+            raise FormulaError(message, _PARAMETERS, name, "unit")
         found.update(dict.fromkeys((name, *parts.get(name, ())), UNITS[kind][each.spelled]))
         if each.stated is not None:
             _refuse_stated(name, each.stated, found)
@@ -416,20 +423,34 @@ def _compute_bound(stated: float | str | None, rise: float | None) -> float | No
 
 def _refuse_possible(name: str, possible: Possible) -> None:
     """Refuse a bound that depends on anything but the logged rise of the temperature."""
-    texts = (each for each in (possible.least, possible.most) if isinstance(each, str))
-    for unknown in (each for text in texts for each in find_names_in(parse_formula(text)) if each != RISE):
-        raise FormulaError(f"{name}: a bound depends on {RISE} alone, not on {unknown}")
+    for end, text in (("least", possible.least), ("most", possible.most)):
+        key = (_PARAMETERS, name, "possible", end)
+        names = find_names_in(_parse_at(text, *key)) if isinstance(text, str) else ()
+        for unknown in (each for each in names if each != RISE):
+            raise FormulaError(f"a bound depends on {RISE} alone, not on {unknown}", *key)
 
 
 def _refuse_stated(name: str, text: str, units: Mapping[str, UnitOf]) -> None:
     """Refuse what is to state a parameter if it is made of other things than keys, or is another quantity."""
-    tree = parse_formula(text)
+    key = (_PARAMETERS, name, "stated")
+    tree = _parse_at(text, *key)
     unknown = [each for each in find_names_in(tree) if each not in {*AXIS_KEYS, "turn"}]
     if unknown:
-        raise FormulaError(f"{name}: {unknown[0]} is no key of the axis; there are {', '.join(AXIS_KEYS)}")
-    _, extent = convert_formula_to_si(tree, units)
+        raise FormulaError(f"{unknown[0]} is no key of the axis; there are {', '.join(AXIS_KEYS)}", *key)
+    try:
+        _, extent = convert_formula_to_si(tree, units)
+    except FormulaError as error:
+        raise FormulaError(str(error), *key) from error
     if extent != units[name].extent:
-        raise FormulaError(f"{name}: it is {units[name].extent}, and {text} is {extent}")
+        raise FormulaError(f"{name} is {units[name].extent}, and {text} is {extent}", *key)
+
+
+def _parse_at(text: str, *key: str) -> Tree:
+    """Return a formula that stands at another key of its effect."""
+    try:
+        return parse_formula(text)
+    except FormulaError as error:
+        raise FormulaError(str(error), *key) from error
 
 
 def _find_linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple[str, ...]:

@@ -11,11 +11,20 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
-from zlmreport.errors import Place, Problem, count_in_words, did_you_mean, quoted
+from zlmreport.errors import (
+    Place,
+    Problem,
+    count_in_words,
+    describe_character,
+    did_you_mean,
+    list_names,
+    quoted,
+)
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, find_key_place, place_of, walk
 from zlmreport.job.types import (
     find_field_at,
     find_model_at,
+    find_part,
     list_choices_in,
     list_keys_in,
     replace_decimal_comma,
@@ -104,6 +113,10 @@ _NUMBER_AND_UNIT = re.compile(
 )
 
 _DATE = "a date such as 2026-11-20"
+#: Groups that are looked through for a key that stands in another; how deep, and how many are named at most.
+_DEEPEST_HOME, _MOST_HOMES = 2, 3
+#: Keys under which whole jobs stand, or measurements.
+_LIKE_THE_MEASUREMENT = frozenset({"tests", "as_found", "measurements"})
 _CHOICE_KINDS = frozenset({"literal_error", "enum"})
 _SPOKEN_KINDS = frozenset({"value_error", "assertion_error"})
 
@@ -183,7 +196,29 @@ def _say_unknown(mistake: Mistake, model: type[BaseModel], within: str, also_kno
     where = _write_dotted(within, tuple(group))
     if key.isdecimal():
         return f"{where or 'here'}: a comma parts keys, and {key} is none; write a decimal point"
-    return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {did_you_mean(key, known)}"
+    space = next((each for each in key if each.isspace() and each != " "), None)
+    if space:
+        return f"unknown key {quoted(key)}; {describe_character(space)} stands where a space belongs"
+    homes = [] if within else _find_homes(key, model)
+    advice = f"it is a key of {list_names(homes, 'or of')}" if homes else did_you_mean(key, known)
+    return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {advice}"
+
+
+def _find_homes(key: str, model: type[BaseModel]) -> list[str]:
+    """Return the groups, dotted, that have a key of this name; none where it stands in many."""
+    level = {"": model}
+    while level:
+        groups = {
+            f"{group}.{name}".lstrip("."): part
+            for group, above in level.items()
+            for name, field in list_keys_in(above).items()
+            if name not in _LIKE_THE_MEASUREMENT and (part := find_part(field.annotation))
+        }
+        homes = [group for group, part in groups.items() if key in list_keys_in(part)]
+        if homes or len(next(iter(groups), "").split(".")) >= _DEEPEST_HOME:
+            return homes if len(homes) <= _MOST_HOMES else []
+        level = groups
+    return []
 
 
 def _say_unfit(mistake: Mistake, model: type[BaseModel], name: str, field: FieldInfo | None) -> str:

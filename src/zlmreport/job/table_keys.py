@@ -145,7 +145,7 @@ class TableOptions(TablePlace):
 
         `names_column`: Whether a header is known, where more are than `names_column` of these keys tells.
         """
-        text = read_text(self.file, self.encoding, self.sheet)
+        text = read_text(self.file, self.encoding, self.sheet, keeps_long_lines=True)
         return read_table(text, self, names_column or self.names_column)
 
     def cells_of(self, table: TextTable, numbers: Sequence[int]) -> Cells:

@@ -424,6 +424,11 @@ def find_model_in(annotation: Any) -> type[BaseModel] | None:
     return None
 
 
+def find_part(annotation: Any) -> type[BaseModel] | None:
+    """Return the model of a group of keys, or of each group in a list of them."""
+    return find_model_in(annotation) or find_model_in(_find_item_type(annotation, 0))
+
+
 def list_choices_in(annotation: Any) -> list[str]:
     """Return the values of an annotation that lists them."""
     found: list[str] = []

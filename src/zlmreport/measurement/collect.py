@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
@@ -36,6 +37,16 @@ _HARDLY_ANY = 0.01
 _ONE_PLACE = 0.01
 #: Problems of one file that are named one by one.
 MOST_NAMED = 20
+#: Problems that differ by their numbers alone, up to which each is named; lines that are listed of more.
+_MOST_ALIKE, _MOST_LINES = 3, 5
+#: Seconds by which clocks go back, and what is said of it; how far from that a reading may lie, s.
+_PUT_BACK = {
+    3600.0: "did summer time end there? Write times with their offset, as in 2026-10-25T02:10:00+01:00",
+    43200.0: "is it a clock of 12 hours? Write AM and PM, or 24 hours",
+}
+_LOOSELY = 90.0
+#: A number in a message, which another message of the same cause has otherwise.
+_NUMBER = re.compile(r"[+\-−]?\d+(?:[.,'’ \u00a0\u202f]\d+)*")
 
 #: Relative to the largest target position: positions closer than this are one target, computed twice.
 _NOISE = 1e-9
@@ -216,13 +227,33 @@ def _find_targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
     return distinct[by_frequency[first]], cluster[spelling]
 
 
-def cap_problems(problems: Sequence[Problem]) -> list[Problem]:
-    """Return the first problems in the order of the file, and how many more there are."""
-    ordered = sorted(set(problems))
+def cap_problems(problems: Iterable[Problem]) -> list[Problem]:
+    """Return the first problems in the order of the file, those alike as one, and how many more there are."""
+    ordered = join_alike(problems)
     named, more = ordered[:MOST_NAMED], ordered[MOST_NAMED:]
     if more:
         named.append(Problem(more[0].place, f"and {len(more)} more"))
     return named
+
+
+def join_alike(problems: Iterable[Problem]) -> list[Problem]:
+    """Return problems in the order of the file; of many that differ by numbers alone the first, and how many.
+
+    What is wrong in every row of a column has one cause, and is mended once.
+    """
+    groups: dict[tuple[str, str], list[Problem]] = {}
+    for each in sorted(set(problems)):
+        groups.setdefault((each.place.file, _NUMBER.sub("0", each.message)), []).append(each)
+    return sorted(each for group in groups.values() for each in _join_group(group))
+
+
+def _join_group(group: Sequence[Problem]) -> Sequence[Problem]:
+    if len(group) <= _MOST_ALIKE or not group[0].place.line:
+        return group
+    lines = [*dict.fromkeys(each.place.line for each in group)]
+    listed = ", ".join(map(str, lines[:_MOST_LINES])) + (", …" if len(lines) > _MOST_LINES else "")
+    at = f"line{'s' if len(lines) > 1 else ''} {listed}"
+    return [replace(group[0], message=f"{group[0].message} ({len(group)} like this: {at})")]
 
 
 def _check_columns_are_what_they_say(
@@ -336,6 +367,8 @@ def _check_deviations_are_credible(
     unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
     limit = f"{what}, {unit.from_si(largest):.9g}{write_behind(unit.symbol)}"
     advice = "is it a position given as deviation, or a wrong unit?"
+    if largest == _FINE_STEP:
+        advice = f"{advice[:-1]} (perhaps that of the targets)?"
     if 2 * len(beyond) > np.count_nonzero(~np.isnan(measurements.deviation)) > 2:
         yield Problem(
             places[beyond[0]], f"{len(beyond)} deviations from here on are larger than {limit}; {advice}"
@@ -363,12 +396,22 @@ def _check_times_are_those_of_a_test(
     if abs(measurements.time[longest]) > _LONGEST:
         yield Problem(places[longest], _say_too_long(float(measurements.time[longest])))
         return
-    for later in np.flatnonzero(np.diff(measurements.time[logged]) < 0) + 1:
+    steps = np.diff(measurements.time[logged])
+    usual = float(np.median(steps[steps > 0])) if (steps > 0).any() else 0.0
+    for later in np.flatnonzero(steps < 0) + 1:
         yield Problem(
             places[logged[later]],
             f"the time is before that of the reading in line {places[logged[later - 1]].line}; "
-            "readings stand in the order in which they were taken",
+            f"{_say_why_back(usual - float(steps[later - 1]), usual)}",
         )
+
+
+def _say_why_back(back: float, usual: float) -> str:
+    """Say what may have put a clock back by so many seconds, where readings come in the usual distance."""
+    for seconds, why in _PUT_BACK.items():
+        if abs(back - seconds) <= max(2 * abs(usual), _LOOSELY):
+            return why
+    return "readings stand in the order in which they were taken"
 
 
 def _check_conditions_are_credible(

@@ -11,6 +11,7 @@ import numpy as np
 from zlmreport.errors import InputError, Problem, count_in_words, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.axis import PositionTable
+from zlmreport.measurement.collect import cap_problems
 from zlmreport.measurement.columns import read_heading
 from zlmreport.measurement.text_file import TextCell, TextFile, parse_number, read_text
 from zlmreport.measurement.units import Unit, find_unit_named
@@ -53,7 +54,7 @@ def read_position_table(
     if len(rows) < 2 and not problems:
         problems.append(Problem(text.place(), "has less than two rows of numbers; a table has two at least"))
     if problems:
-        raise InputError(problems)
+        raise InputError(cap_problems(problems))
     positions, values, *reverse = (
         tuple(unit.to_si(number) for number in column)
         for unit, column in zip(units, zip(*found, strict=True), strict=True)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from zlmreport.errors import InputError, Place, Problem, count_in_words, quoted
-from zlmreport.measurement.text_file import TextFile
+from zlmreport.measurement.text_file import TextFile, find_long_lines
 from zlmreport.measurement.units import POSITION_UNITS, TIME_UNITS
 
 #: As a delimiter: columns are parted by one blank or many.
@@ -116,7 +116,8 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
 
     Raises `InputError` if there is no header, or the table is laid out in another way.
     """
-    content, parted_by = _split_content(text, options)
+    problems = [*find_long_lines(text)]
+    content, parted_by = _split_content(text, options, problems)
     delimiter = "\t" if text.of_cells else options.stated_delimiter or parted_by
     is_plain = not (options.transposed or options.header or options.header_rows > 1)
     if is_plain:
@@ -125,7 +126,6 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
     number, line = content[0]
     if delimiter is None:
         raise InputError.at(text.place(number, 1), _say_single_column(line.strip(), options))
-    problems: list[Problem] = []
     rows = list(_list_rows(content, delimiter, text, problems))
     if options.transposed:
         rows = _turn_rows(rows)
@@ -166,10 +166,15 @@ def _say_single_column(line: str, options: FileTableLayout) -> str:
     )
 
 
-def _split_content(text: TextFile, options: FileTableLayout) -> tuple[list[tuple[int, str]], str | None]:
+def _split_content(
+    text: TextFile, options: FileTableLayout, too_long: Sequence[Problem]
+) -> tuple[list[tuple[int, str]], str | None]:
     """Return the lines of the table with their numbers, and the delimiter that the first one states."""
     first, last = options.lines or ((options.skip_rows or 0) + 1, None)
-    content = join_whole_lines(text.numbered(first, last))
+    numbered, left_out = text.numbered(first, last), {each.place.line for each in too_long}
+    if numbered and numbered[0][0] in left_out:
+        raise InputError(too_long)  # without its header nothing tells what the others are
+    content = join_whole_lines([each for each in numbered if each[0] not in left_out])
     states = states_delimiter(content[0][1]) if content else None
     if states:
         content = content[1:]

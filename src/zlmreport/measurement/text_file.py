@@ -7,11 +7,11 @@ import difflib
 import math
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from zlmreport.errors import AccessError, InputError, Place, describe_character, quoted, split_lines
+from zlmreport.errors import AccessError, InputError, Place, Problem, describe_character, quoted, split_lines
 from zlmreport.files import make_unreadable, read
 from zlmreport.language.formatting import MINUS, DecimalSign
 from zlmreport.measurement.provenance import SourceFile
@@ -107,7 +107,9 @@ class TextFile:
             start += len(part) + 1
 
 
-def read_text(path: Path, encoding: str | None = None, sheet: str | None = None) -> TextFile:
+def read_text(
+    path: Path, encoding: str | None = None, sheet: str | None = None, *, keeps_long_lines: bool = False
+) -> TextFile:
     """Read a text file of measurements; a workbook is read as the lines of one sheet.
 
     Parameters
@@ -118,6 +120,9 @@ def read_text(path: Path, encoding: str | None = None, sheet: str | None = None)
         As the job states it; None for UTF-8, with or without byte order mark.
     sheet
         Of a workbook: the name of the sheet; None for the only one that holds something.
+    keeps_long_lines
+        Whether lines that are too long are kept, for who tells them beside what else is wrong
+        (`find_long_lines`).
 
     Raises
     ------
@@ -152,7 +157,18 @@ def read_text(path: Path, encoding: str | None = None, sheet: str | None = None)
     if not lines[-1]:
         lines.pop()
     _refuse_continuous_logs(lines, file)
-    return TextFile(file.file, tuple(lines), SourceFile.of(path, content))
+    read = TextFile(file.file, tuple(lines), SourceFile.of(path, content))
+    if not keeps_long_lines and (problems := [*find_long_lines(read)]):
+        raise InputError(problems)
+    return read
+
+
+def find_long_lines(text: TextFile) -> Iterator[Problem]:
+    """Yield the lines that are too long to be those of readings; rows of a workbook have no such limit."""
+    for number, line in enumerate(() if text.of_cells else text.lines, 1):
+        if len(line) > LONGEST_LINE:
+            message = f"the line has {len(line)} characters; is this a file of readings?"
+            yield Problem(text.place(number, LONGEST_LINE + 1), message)
 
 
 def list_sheets_of(path: Path) -> tuple[str, ...]:
@@ -204,12 +220,17 @@ def _read_content(path: Path, file: Place) -> bytes:
 
 
 def _find_nearest(path: Path) -> str:
+    of_windows = Path(path.as_posix().replace("\\", "/"))
+    if of_windows != path and of_windows.is_file():
+        return "; write its folders with /"
     try:
-        beside = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
+        beside = {entry.name.casefold(): entry.name for entry in path.parent.iterdir() if entry.is_file()}
     except OSError:
         return f", and no folder {path.parent}"
-    nearest = difflib.get_close_matches(path.name, beside, n=1)
-    return f"; did you mean {quoted(nearest[0])}?" if nearest else ""
+    if path.is_symlink():
+        return f": it is a link to {path.readlink()}, which is not there"
+    nearest = difflib.get_close_matches(of_windows.name.casefold(), beside, n=1)
+    return f"; did you mean {quoted(beside[nearest[0]])}?" if nearest else ""
 
 
 def _decode(content: bytes, file: Place, encoding: str | None) -> str:
@@ -257,12 +278,6 @@ def _refuse_continuous_logs(lines: list[str], file: Place) -> None:
             f"the file goes on for {len(lines)} lines, and measurement files are read up to {MOST_LINES}; "
             "is it a continuous log?",
         )
-    for number, line in enumerate(lines, 1):
-        if len(line) > LONGEST_LINE:
-            raise InputError.at(
-                Place(file.file, number, LONGEST_LINE + 1),
-                f"the line has {len(line)} characters; is this a file of readings?",
-            )
 
 
 #: Characters of a number; 20 digits occur.
@@ -275,6 +290,32 @@ _PLAIN = {
     for sign in DecimalSign
 }
 _GROUPED = re.compile(r"[+-]?[0-9]{1,3}([.,'’ \u00a0\u202f])[0-9]{3}(\1[0-9]{3})*([.,][0-9]*)?")
+_DIGITS = r"(\d+(?:[.,]\d+)?)"
+#: Numbers as people and ledgers write them: the form, what it is like, and which number is meant.
+_ALMOST: tuple[tuple[re.Pattern[str], str, Callable[[re.Match[str]], float]], ...] = (
+    (
+        re.compile(rf"([+-])\s+{_DIGITS}"),
+        "has a blank behind its sign",
+        lambda match: _read_signed(*match.groups()),
+    ),
+    (
+        re.compile(rf"{_DIGITS}\s*([+-])"),
+        "has its sign behind it",
+        lambda match: _read_signed(match[2], match[1]),
+    ),
+    (
+        re.compile(rf"\({_DIGITS}\)"),
+        "stands in brackets, as a negative number does",
+        lambda match: _read_signed("-", match[1]),
+    ),
+    (
+        re.compile(r"([+-]?)(?:(\d{1,4})[ -])?(\d{1,2})/(2|4|8|16|32|64)\s*(?:\"|″|in|inch)?"),
+        "is a fraction",
+        lambda match: (
+            _read_signed(match[1], match[2] or "0") + _read_signed(match[1], match[3]) / int(match[4])
+        ),
+    ),
+)
 _INFINITE = re.compile(r"[+-]?(inf|infinity|∞|1\.#inf)", re.IGNORECASE)
 _NO_NUMBER = frozenset({"nan", "-nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?"})
 
@@ -304,6 +345,10 @@ def parse_number(text: str, sign: DecimalSign = DecimalSign.POINT) -> float:
     raise ValueError(_say_wrong(text, written, sign))
 
 
+def _read_signed(sign: str, digits: str) -> float:
+    return (-1 if sign == "-" else 1) * float(digits.replace(",", "."))
+
+
 def _say_wrong(text: str, written: str, sign: DecimalSign) -> str:
     shown = quoted(text)
     if len(written) > _LONGEST:
@@ -318,4 +363,13 @@ def _say_wrong(text: str, written: str, sign: DecimalSign) -> str:
         return f"{shown} is no number with a decimal {sign.name.lower()}; write {right} if that is meant"
     if _GROUPED.fullmatch(written):
         return f"{shown} has thousands separators; write the digits without them"
-    return f"{shown} stands where a number belongs"
+    return f"{shown} {_say_almost(written, sign) or 'stands where a number belongs'}"
+
+
+def _say_almost(written: str, sign: DecimalSign) -> str:
+    """Say what a number is like that people read and programs do not; empty of anything else."""
+    for form, what, number in _ALMOST:
+        if match := form.fullmatch(written):
+            right = f"{number(match):.9g}".replace(".", sign)
+            return f"{what}; write {quoted(right)} if that is meant"
+    return ""

@@ -195,7 +195,9 @@ PRESSURE_UNITS = _list_spellings(
         "hPa": HECTOPASCAL,
         "mbar": Scale("mbar", si=100.0),
         "kPa": KILOPASCAL,
+        "bar": Scale("bar", si=1e5),
         "mmHg": Scale("mmHg", si=133.322),
+        "inHg": Scale("inHg", si=3386.39),
     }
 )
 RATIO_UNITS = _list_spellings({"% %RH percent": PERCENT, "1": Scale("1")})

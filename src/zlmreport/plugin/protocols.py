@@ -146,6 +146,13 @@ class SourceProposal:
     tests
         The names of the lines that the file holds, where one that was read is one of several that are
         evaluated together: each becomes a test of the job.
+    is_certain
+        Whether the file can be nothing else: what is wrong with it is told, and no other source is tried. So
+        it is of a circle, and of a `quantity`.
+    beside
+        Groups of keys at the top of the job that the source needs, with what its author is to fill in.
+    set_ups
+        What stands for these groups while the file is looked at, by their names (`SourceContext.set_ups`).
     """
 
     keys: Mapping[str, Any] = field(default_factory=dict)
@@ -154,6 +161,9 @@ class SourceProposal:
     circle: NominalCircle | None = None
     quantity: Measurand | None = None
     tests: tuple[str, ...] = ()
+    is_certain: bool = False
+    beside: Mapping[str, Any] = field(default_factory=dict)
+    set_ups: Mapping[str, Any] = field(default_factory=dict)
 
 
 @runtime_checkable

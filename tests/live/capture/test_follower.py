@@ -331,6 +331,13 @@ def test_an_axis_that_stands_at_the_target_from_the_beginning_has_no_direction()
     assert event == WrongDirection(listed()[0], None)
 
 
+def test_a_rest_where_the_axis_turns_round_beyond_its_targets_is_no_question() -> None:
+    axis, follower = Axis(), following(listed())
+    happened(chain(axis.stand(), axis.go(0, 100, 200)), follower)
+    assert kinds(happened(axis.go(200 + SETTINGS.overrun / MM), follower)) == []
+    assert kinds(happened(axis.go(215), follower)) == ["Elsewhere"]
+
+
 def test_a_stop_far_from_what_is_next_is_named_and_not_taken() -> None:
     axis = Axis(position=205.0)
     events = happened(chain(axis.stand(), axis.go(200)), following(listed()))
@@ -490,6 +497,12 @@ def test_readings_that_come_too_seldom_to_see_a_reversal_are_refused() -> None:
     (event,) = happened(axis.stand(10), follower)
     assert isinstance(event, TooSlow)
     assert event.spacing == pytest.approx(0.5)
+
+
+def test_an_axis_that_moves_before_its_datum_is_read_often_enough_is_told_of_that() -> None:
+    axis, follower = Axis(step=0.5, position=-5.0), following(listed(), datum=-5 * MM)
+    (event,) = happened(chain(axis.stand(2), axis.go(0, stay=2)), follower)
+    assert isinstance(event, TooSlow)
 
 
 def test_readings_of_which_none_may_see_the_axis_beyond_its_target_are_refused() -> None:

@@ -114,3 +114,16 @@ def test_a_readout_that_is_asked_is_read() -> None:
     with plugged_in(_OnRequest(Scene(MovingAxis((0.0123456,))))) as port:
         readings = readings_of(registry().instrument("text-readout"), port, 3, request="M?\r", rate=100)
     assert [each.value for each in readings] == pytest.approx([0.0123456] * 3)
+
+
+class _Echoing(_OnRequest):
+    """A readout that sends back what it is asked, before its line."""
+
+    def answer(self, data: bytes, time: float) -> bytes:
+        return data + b"\n" + super().answer(data, time)
+
+
+def test_a_readout_that_sends_back_its_questions_is_read() -> None:
+    with plugged_in(_Echoing(Scene(MovingAxis((0.0123456,))))) as port:
+        readings = readings_of(registry().instrument("text-readout"), port, 3, request="M?\r", rate=100)
+    assert [each.value for each in readings] == pytest.approx([0.0123456] * 3)

@@ -289,3 +289,24 @@ def test_deviations_in_a_column_of_radii_are_told_from_radii(tmp_path: Path) -> 
     path.write_text("\n".join(["sense,run,angle,radius", *turn]) + "\n", encoding="utf-8")
     with pytest.raises(InputError, match="are they deviations, or is a unit wrong"):
         look_at(path, registry())
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Drehsinn;Lauf;Winkel;Abweichung (µm)",
+        "sens de rotation;tour;angle;écart radial (µm)",
+        "Senso di rotazione;Giro;Angolo;Scostamento (µm)",
+        "Sentido de giro;Vuelta;Ángulo;Desviación (µm)",
+    ],
+)
+def test_a_circle_with_headings_of_another_language_is_looked_at_as_a_circle(
+    header: str, tmp_path: Path
+) -> None:
+    """It was read as a table of directions."""
+    path = tmp_path / "run.csv"
+    turn = [f"ccw;1;{angle};{angle / 100}" for angle in range(0, 360, 10)]
+    path.write_text("\n".join([header, *turn]) + "\n", encoding="utf-8")
+    looked = look_at(path, registry())
+    assert looked.source.identifier == "circle-csv"
+    np.testing.assert_allclose(looked.read.deviation * 1e6, [angle / 100 for angle in range(0, 360, 10)])

@@ -144,6 +144,43 @@ def test_the_order_of_rows_may_tell_directions_and_runs(file: File) -> None:
     assert measurements.run.tolist() == [1] * 6 + [2] * 6
 
 
+def test_a_target_that_a_run_left_out_is_missing_in_that_run(file: File) -> None:
+    """The order of the rows tells the passes; the n-th reading would be of another run."""
+    table = "target;deviation\n" + "".join(
+        f"{target};{target}\n" for target in (0, 5, 9, 9, 0, 0, 5, 9, 9, 5, 0)
+    )
+    measurements = file.read(table, direction="by-order", runs="counted")
+    assert measurements.run.tolist() == [1] * 5 + [2] * 6
+
+
+@pytest.mark.parametrize("directions", [True, False])
+def test_a_reading_too_many_is_told_where_runs_are_counted(file: File, *, directions: bool) -> None:
+    rows = [(0, "+"), (5, "+"), (5, "+"), (9, "+"), (9, "-"), (5, "-"), (0, "-")]
+    rows += [(0, "+"), (5, "+"), (9, "+"), (9, "-"), (5, "-"), (0, "-")]
+    header = "target;direction;deviation" if directions else "target;deviation"
+    table = "".join(f"{target};{sense};1\n" if directions else f"{target};1\n" for target, sense in rows)
+    keys = {} if directions else {"direction": "by-order"}
+    assert file.complaint(f"{header}\n{table}", runs="counted", **keys).endswith(
+        "target 5 ↑ was read in line 3 already, and has 3 readings where most have 2; keep one of them, for "
+        "runs are counted by them"
+    )
+
+
+def test_runs_that_number_the_passes_are_told(file: File) -> None:
+    table = "target;direction;Lauf\n;deviation".replace("\n", "") + "\n0;+;1;1\n9;+;1;1\n9;-;2;1\n0;-;2;1\n"
+    assert file.complaint(table, columns={"run": "Lauf"}) == (
+        "x.csv:4:7: each of 2 runs has one direction: the column 'Lauf' numbers the passes, and a run is one "
+        "there and back; say 'runs: counted' in the job, and 'ignore: [Lauf]'"
+    )
+
+
+def test_runs_below_each_other_in_a_wide_table_are_counted(file: File) -> None:
+    table = "target;1+;1-\n0;1;2\n9;3;4\n0;5;6\n9;7;8\n"
+    measurements = file.read(table, layout="wide", runs="counted")
+    assert (measurements.deviations() / UM).round(9).tolist() == [[[1, 5], [3, 7]], [[2, 6], [4, 8]]]
+    assert measurements.run.tolist() == [1] * 4 + [2] * 4
+
+
 def test_tables_of_one_file_are_parts_of_one_test(file: File) -> None:
     table = "forward\ntarget;Run 1\n0;1\n9;2\nback\ntarget;Run 1\n0;3\n9;4\n"
     parts = [{"lines": [2, 4], "direction": "up"}, {"lines": [6, 8], "direction": "down"}]
@@ -191,7 +228,7 @@ def test_a_cell_in_quotation_marks_may_go_over_lines(file: File) -> None:
     ("keys", "complaint"),
     [
         ({"lines": [1, 3], "skip_rows": 1}, "'lines' stands in place of"),
-        ({"layout": "wide", "runs": "counted"}, "are for 'layout: long'"),
+        ({"layout": "wide", "direction": "by-order"}, "is for 'layout: long'"),
         ({"header": ["target"], "header_rows": 2}, "remove 'header_rows'"),
         ({"thousands": "point", "decimal": "point"}, "are both point"),
     ],

@@ -193,3 +193,48 @@ def test_tables_that_differ_in_all_that_does_not_matter_are_read_alike(
     path.write_bytes(written)
     grid = look_at(path, REGISTRY).read.deviations()
     np.testing.assert_allclose(grid * 1e6, untidy_files.GRID, rtol=0, atol=1e-6)
+
+
+def test_columns_of_several_axes_are_refused_with_their_names(tmp_path: Path) -> None:
+    path = tmp_path / "pairs.csv"
+    path.write_text("Position X,Error X,Position Y,Error Y\n0,1,0,2\n9,1,9,2\n", encoding="utf-8")
+    sentence = (
+        r"several axes side by side \('Position X' and 'Position Y'\); a test is of one: name its columns"
+    )
+    with pytest.raises(InputError, match=sentence):
+        look_at(path, REGISTRY)
+
+
+def test_a_defective_test_file_of_a_laser_is_told_as_that(tmp_path: Path) -> None:
+    """The table of its targets was read as readings."""
+    path = tmp_path / "x.rtl"
+    path.write_text("HEADER::\n\nTARGET DATA::\nTargets :\n0,5  1,5\nFlags: 0\n", encoding="utf-8")
+    with pytest.raises(InputError, match="has no section DEVIATIONS"):
+        look_at(path, REGISTRY)
+
+
+def test_a_table_beside_another_with_the_same_targets_is_asked_whether_it_goes_down(tmp_path: Path) -> None:
+    path = tmp_path / "beside.csv"
+    path.write_text("Target,Run 1,,Target,Run 1\n0,1,,0,2\n9,3,,9,4\n", encoding="utf-8")
+    looked = look_at(path, REGISTRY)
+    assert [question for question in looked.proposal.asks if "second column of targets" in question]
+    np.testing.assert_allclose(looked.read.deviations()[:, :, 0] * 1e6, [[1, 3], [2, 4]])
+
+
+def test_a_table_beside_another_with_its_targets_in_another_order_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "beside.csv"
+    path.write_text("Target,Run 1,,Target,Run 1\n0,1,,9,4\n9,3,,0,2\n", encoding="utf-8")
+    with pytest.raises(InputError, match=r"beside.csv:1:1: two tables stand side by side, and a row"):
+        look_at(path, REGISTRY)
+
+
+def test_a_deviation_that_contradicts_the_position_beside_it_is_asked_about(tmp_path: Path) -> None:
+    path = tmp_path / "both.csv"
+    rows = [(0, "0.002", 2), (5, "5.003", 3), (9, "9.004", 44), (12, "12.001", 1)]
+    path.write_text(
+        "target,actual,direction,run,deviation (um)\n"
+        + "".join(f"{target},{actual},+,1,{value}\n" for target, actual, value in rows),
+        encoding="utf-8",
+    )
+    asked = [question for question in look_at(path, REGISTRY).proposal.asks if "in line 4 right?" in question]
+    assert len(asked) == 1

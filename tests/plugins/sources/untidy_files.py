@@ -473,6 +473,85 @@ def _a_table_of_each_run() -> Untidy:
     )
 
 
+def _a_table_of_each_run_with_both_directions() -> Untidy:
+    """Runs one below the other, each with a column of each direction."""
+    lines: list[str] = []
+    for run in range(2):
+        lines += [f"Run {run + 1}", "Target,Forward,Reverse"]
+        lines += [f"{target},{UP[run][index]},{DOWN[run][index]}" for index, target in enumerate(TARGETS)]
+        lines += [""]
+    return Untidy(
+        "blocks.csv",
+        text(*lines),
+        {
+            "layout": "wide",
+            "parts": [{"lines": [2, 6]}, {"lines": [9, 13]}],
+            "runs": "counted",
+            "columns": {"1+": "Forward", "1-": "Reverse"},
+        },
+    )
+
+
+def _runs_below_each_other_under_one_header() -> Untidy:
+    """A row for each target of each run, and a column of each direction."""
+    lines = [
+        f"{run + 1};{target};{UP[run][index]};{DOWN[run][index]}"
+        for run in range(2)
+        for index, target in enumerate(TARGETS)
+    ]
+    return Untidy(
+        "rows.csv",
+        text("Run;Target;Forward;Reverse", *lines),
+        {
+            "layout": "wide",
+            "runs": "counted",
+            "columns": {"1+": "Forward", "1-": "Reverse"},
+            "ignore": ["Run"],
+        },
+    )
+
+
+def _runs_with_names() -> Untidy:
+    """Runs that have words; and a target that one run left out."""
+    grid = GRID.copy()
+    grid[0, 1, 1] = np.nan
+    lines = [
+        f"{target},{sense:+d},Run {run},{value}"
+        for target, sense, run, value in rows()
+        if (target, sense, run) != (420.0, 1, 2)
+    ]
+    return Untidy(
+        "named.csv",
+        text("target,direction,run,deviation (um)", *lines),
+        {"runs": "counted", "ignore": ["run"]},
+        grid=grid,
+    )
+
+
+def _with_the_index_of_a_data_frame() -> Untidy:
+    """A first column that numbers the rows and has no name."""
+    lines = [
+        f"{index},{target},{sense:+d},{run},{value}"
+        for index, (target, sense, run, value) in enumerate(rows())
+    ]
+    names = ["column 1", "target", "direction", "run", "deviation (um)"]
+    return Untidy(
+        "frame.csv",
+        text(",target,direction,run,deviation (um)", *lines),
+        {"skip_rows": 1, "header": names, "ignore": ["column 1"]},
+    )
+
+
+def _runs_that_count_passes() -> Untidy:
+    """Each pass over the targets has a number of its own: 1 upwards, 2 downwards, 3 upwards …"""
+    lines = [f"{target},{sense:+d},{2 * run - (sense > 0)},{value}" for target, sense, run, value in rows()]
+    return Untidy(
+        "passes.csv",
+        text("target,direction,run,deviation (um)", *lines),
+        {"runs": "counted", "ignore": ["run"]},
+    )
+
+
 def _header_over_and_over() -> Untidy:
     """The header stands above each of the runs again, and nothing parts them."""
     header = "Soll;Richtung;Lauf;Abw. (µm)"
@@ -484,6 +563,17 @@ def _header_over_and_over() -> Untidy:
             "parts": [{"lines": [1, 9]}, {"lines": [10, 18]}],
             "columns": {"target": "Soll", "direction": "Richtung", "run": "Lauf", "deviation": "Abw."},
         },
+    )
+
+
+def _header_again_in_a_run() -> Untidy:
+    """The header stands a second time, in the middle of the first run: the longer table is the second."""
+    table = [f"{target};{sense:+d};{run};{value}" for target, sense, run, value in rows()]
+    header = "target;direction;run;deviation (um)"
+    return Untidy(
+        "again.csv",
+        text(header, *table[:3], header, *table[3:]),
+        {"parts": [{"lines": [1, 4]}, {"lines": [5, 18]}]},
     )
 
 
@@ -589,7 +679,13 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _abbreviated_direction,
     _without_umlauts,
     _a_table_of_each_run,
+    _a_table_of_each_run_with_both_directions,
+    _runs_below_each_other_under_one_header,
+    _runs_with_names,
+    _runs_that_count_passes,
+    _with_the_index_of_a_data_frame,
     _header_over_and_over,
+    _header_again_in_a_run,
     _runs_only_counted,
     _unit_in_the_lower_row,
     _arrows_and_statistics,

@@ -39,6 +39,7 @@ from zlmreport.plugin.source import (
     Reading,
     SourceContext,
     SourceProposal,
+    cap_problems,
     collect_readings,
 )
 from zlmreport.plugin.table import folded, heading_of
@@ -133,7 +134,7 @@ class ChannelsCsv:
         if not problems and stated is None and own.unit is None:
             problems = list(_ask_about_larger_unit(track, own))
         if problems:
-            raise InputError(problems)
+            raise InputError(cap_problems(problems))
         remarks = [_say_counted_from(options).given(channel=own.name, unit=unit.symbol)]
         averaging = None
         interval = options.interval or choose_interval_for(channels.most_readings, channels.lasts)

@@ -8,9 +8,10 @@ clockwise; runs are turns, counted in each sense; the deviation is actual − no
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -39,9 +40,10 @@ from zlmreport.plugin.source import (
     cap_problems,
     collect_readings,
 )
-from zlmreport.plugin.table import Cells, TextColumn, days_of_readings, folded, read_headings
+from zlmreport.plugin.table import Cells, TextColumn, days_of_readings, folded, heading_of, read_headings
+from zlmreport_plugins.logged_columns import list_spellings
 from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
-from zlmreport_plugins.sources.circle_csv.options import CircleCsvOptions
+from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
     CircleColumns,
     CircleRow,
@@ -89,6 +91,25 @@ _VIBRATION = Words(
 )
 
 
+#: Columns of circles as they are called beside their own names, folded.
+_CALLED: Mapping[str, str] = MappingProxyType(
+    {
+        name: column
+        for column, names in {
+            "sense": "drehsinn umlaufsinn drehrichtung sens_de_rotation sens_de_parcours senso_di_rotazione "
+            "sentido_de_giro sentido_de_rotación rotation_sense",
+            "run": "lauf umlauf umdrehung kreis turn cycle tour passe giro passata vuelta pasada",
+            "angle": "winkel polarwinkel angolo ángulo phi φ",
+            "deviation": "abweichung radialabweichung fehler error radial_deviation écart écart_radial "
+            "scostamento scostamento_radiale desviación desviación_radial",
+            "radius": "radien rayon raggio radio",
+            "time": "zeit temps tempo tiempo",
+        }.items()
+        for name in list_spellings(names)
+    }
+)
+
+
 class CircleCsv:
     """Tables of circles: text with a header row."""
 
@@ -99,7 +120,7 @@ class CircleCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a file may be read, if it has the columns of a circular test."""
-        for keys in ({}, _find_keys_of_one_turn(file)):
+        for keys in ({}, _find_columns_called_otherwise(file), _find_keys_of_one_turn(file)):
             options = CircleCsvOptions(file=file, **keys)
             circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
             try:
@@ -152,6 +173,21 @@ def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[C
     table = options.read_table()
     layout = find_circle_columns(table, options, context)
     return options.cells_of(table, [column.index for column in layout.list_number_columns()]), layout
+
+
+def _find_columns_called_otherwise(file: Path) -> dict[str, Any]:
+    """Return the keys by which a table with headings of another language is read; none for others."""
+    options = CircleCsvOptions(file=file)
+    try:
+        among = read_headings(options.read_table(_is_called_otherwise), options)
+    except InputError:
+        return {}
+    called = {column: each.name for each in among if (column := _CALLED.get(folded(each.name)))}
+    return {"columns": called} if "sense" in called else {}
+
+
+def _is_called_otherwise(name: str) -> bool:
+    return folded(heading_of(name).name) in {*_CALLED, *COLUMN_NAMES}
 
 
 def _find_keys_of_one_turn(file: Path) -> dict[str, Any]:

@@ -23,6 +23,8 @@ from zlmreport_plugins.sources.laser_csv.layouts import (
     count_runs,
     find_directions,
     find_long_layout,
+    find_passes_as_runs,
+    find_repeated,
     find_wide_layout,
     read_heading,
 )
@@ -56,18 +58,23 @@ class LaserCsv:
             cells = each.cells_of(table, [column.index for column in layout.list_number_columns()])
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
             of_table = list(layout.list_readings(cells, sense))
+            if isinstance(layout, LongLayout) and layout.run and not options.runs:
+                problems += find_passes_as_runs(of_table, layout.run)
             readings += find_directions(of_table) if each.direction == "by-order" else of_table
             if of_days := days_of_readings(cells, layout.time):
                 days.append(of_days)
             problems += [*table.problems, *cells.problems]
             said += [remark for remark in list_remarks(table, layout, each) if remark not in said]
-        if options.parts and options.layout == "wide":
+        if options.runs:
+            problems += find_repeated(readings, context.axis)
+            readings = list(count_runs(readings))
+        if options.layout == "wide" and (options.parts or options.runs):
             readings.sort(key=lambda reading: (reading.run, -reading.approach))  # as one table lists them
         provenance = Provenance(
             self.identifier, (text.source,), tuple(said), days=_join_days(days) if days else None
         )
         return collect_readings(
-            count_runs(readings) if options.runs else readings,
+            readings,
             context.axis,
             provenance,
             place=text.place(),
@@ -126,11 +133,16 @@ def list_remarks(
             "The table does not tell the order of the readings: they are listed run by run, upwards and "
             "then downwards."
         )
-    else:
-        if options.runs == "counted":
-            yield Words("Runs were counted: the n-th reading of a target in a direction is of run n.")
-        elif layout.run is None:
-            yield Words("The file names no runs: all readings were taken as one run.")
+    if options.runs == "counted":
+        yield Words("Runs were counted: the n-th reading of a target in a direction is of run n.")
+    elif isinstance(layout, LongLayout) and layout.run is None:
+        yield Words("The file names no runs: all readings were taken as one run.")
+    yield from _tell_columns(layout, options)
+
+
+def _tell_columns(layout: LongLayout | WideLayout, options: LaserCsvOptions) -> Iterator[Words]:
+    """Yield what became of columns that are no readings, and of words among them."""
+    if isinstance(layout, LongLayout):
         others = [each.text for each in layout.conditions if each.name not in COLUMN_NAMES]
         if others:
             yield Words("Columns kept as conditions, as found: {names}.").given(names=", ".join(others))

@@ -11,14 +11,15 @@ from zlmreport.plugin import listed
 from zlmreport.plugin.table import DELIMITERS, PARTED_BY_BLANKS, THOUSANDS_SIGNS, UNITS_IN_TABLES, first_cell
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
-from zlmreport_plugins.sources.laser_csv.meanings import READING, read_number
+from zlmreport_plugins.sources.laser_csv.meanings import READING, find_meaning, read_number
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
 #: What stands for a missing reading, in lower case.
 _MISSING = frozenset(
     (
         *("-", "--", "---", "–", "—", "?", "*", "x", "n/a", "na", "n.a.", "nan", "null", "none"),
-        *("missing", "fehlt", "invalid", "ungültig", "error", "err"),
+        *("missing", "fehlt", "invalid", "ungültig", "error", "err", "(null)", "void", "lost", "no signal"),
+        *("over", "overflow", "overrange", "overload", "ol"),
         *("#n/a", "#nv", "#wert!", "#value!", "#div/0!"),
     )
 )
@@ -52,6 +53,13 @@ class Draft:
     def find_column(self, what: str) -> int | None:
         """Return the place of a column; None if there is none."""
         return list(self.table.meanings).index(what) if what in self.table.meanings else None
+
+    def count_runs(self) -> None:
+        """Let runs be counted, and ask whether they may."""
+        self.keys["runs"] = "counted"
+        runs = [name for name in self.ignored if find_meaning(name) == "run"]
+        not_read = questions.RUNS_NOT_READ_ASKED.format(name=repr(runs[0])) if runs else ""
+        self.asks.append(not_read or questions.RUNS_ASKED)
 
     def name_column(self, index: int) -> str:
         """Return the name of a column."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -17,6 +18,7 @@ from zlmreport.plugin import (
     Problem,
     ReadingScale,
     Unit,
+    counted,
     quoted,
 )
 from zlmreport.plugin.source import Reading, SourceContext
@@ -171,13 +173,59 @@ def find_directions(readings: Sequence[Reading]) -> Iterator[Reading]:
         yield replace(reading, approach=Approach(sense))
 
 
-def count_runs(readings: Iterable[Reading]) -> Iterator[Reading]:
-    """Yield readings with their runs: the n-th of a target in a direction is of run n."""
+def count_runs(readings: Sequence[Reading]) -> Iterator[Reading]:
+    """Yield readings with their runs: the n-th of a target in a direction is of run n.
+
+    Where a run left a target out, the passes over the targets tell it: there are as many as runs.
+    """
     taken: Counter[tuple[float, Approach]] = Counter()
+    passes: Counter[Approach] = Counter()
+    counted, of_passes = [], []
+    before: Reading | None = None
     for reading in readings:
+        approach = reading.approach
+        taken[reading.target_position, approach] += 1
+        counted.append(taken[reading.target_position, approach])
+        if (
+            before is None
+            or before.approach != approach
+            or (reading.target_position - before.target_position) * approach <= 0
+        ):
+            passes[approach] += 1
+        of_passes.append(passes[approach])
+        before = reading
+    most = max(taken.values(), default=0)
+    runs = of_passes if passes and max(passes.values()) == most else counted
+    yield from (replace(reading, run=float(run)) for reading, run in zip(readings, runs, strict=True))
+
+
+def find_passes_as_runs(readings: Sequence[Reading], column: TextColumn) -> Iterator[Problem]:
+    """Yield where a column of runs counts the passes: each run has one direction, and both occur."""
+    ways = dict.fromkeys((reading.run, reading.approach) for reading in readings)
+    runs = {run for run, _ in ways}
+    if len({approach for _, approach in ways}) > 1 and len(ways) == len(runs):
+        second = next(reading for reading in readings if reading.run != readings[0].run)
+        yield Problem(
+            second.place,
+            f"each of {counted(len(runs), 'run')} has one direction: the column {quoted(column.text)} "
+            "numbers the passes, and a run is one there and back; say 'runs: counted' in the job, and "
+            f"'ignore: [{column.text}]'",
+        )
+
+
+def find_repeated(readings: Sequence[Reading], axis: Axis) -> Iterator[Problem]:
+    """Yield the readings that follow one of the same target and direction, and are more than others have."""
+    numbers = Counter((reading.target_position, reading.approach) for reading in readings)
+    usual = Counter(numbers.values()).most_common(1)
+    for before, reading in itertools.pairwise(readings):
         same = (reading.target_position, reading.approach)
-        taken[same] += 1
-        yield replace(reading, run=float(taken[same]))
+        if same == (before.target_position, before.approach) and numbers[same] > usual[0][0]:
+            yield Problem(
+                reading.place,
+                f"target {axis.typed(reading.target_position):.9g} {reading.approach.arrow} was read in line "
+                f"{before.place.line} already, and has {counted(numbers[same], 'reading')} where most have "
+                f"{usual[0][0]}; keep one of them, for runs are counted by them",
+            )
 
 
 def find_senses(targets: Sequence[float]) -> list[int]:

@@ -90,9 +90,17 @@ _BESIDE = frozenset(
         *list_spellings("recorrido pasada ensayo medida medición número desviación valor sentido lectura"),
     )
 )
+#: Letters that say nothing more where the direction is told: ``R1 (+)``, ``j=1 ↑``.
+_BESIDE_DIRECTIONS = frozenset({"r", "j"})
 #: More digits than a number has that counts are several numbers, which no name of a column has.
 _TOKENS = re.compile(r"[^\W\d_]+|[0-9]{1,9}|[+−↑↓→←-]")
 _MOST_RUNS = 99
+_AXIS = re.compile(
+    r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
+    re.IGNORECASE,
+)
+#: The letter of an axis before or behind a name, folded.
+_OF_AN_AXIS = re.compile(r"^[xyzabcuvw]_|_[xyzabcuvw]$")
 _UNIT_BEHIND = re.compile(r"(.*?[0-9.,])\s*[^0-9.,\s+−-]{1,8}")
 _ANGLE = re.compile(r"([+−-]?[0-9]+)\s*°.*")
 
@@ -101,8 +109,9 @@ _ANGLE = re.compile(r"([+−-]?[0-9]+)\s*°.*")
 def find_meaning(name: str) -> str | None:
     """Return what a column is by its name: one of `COLUMN_NAMES`, `PLACE`, `VALUE`; None if open."""
     called = folded(read_heading(name).name)
-    if called in _CALLED:
-        return _CALLED[called]
+    without_axis = _OF_AN_AXIS.sub("", called)
+    if called in _CALLED or without_axis in _CALLED:
+        return _CALLED.get(called) or _CALLED[without_axis]
     if called in DIFFERENCES:
         return "deviation"
     if called in COLUMN_NAMES:
@@ -125,13 +134,24 @@ def find_reading_of(name: str) -> tuple[int, Approach | None] | None:
     directions = [token for token in tokens if names_direction(token)]
     numbers = [int(token) for token in tokens if token.isdecimal()]
     others = {token for token in tokens if token not in directions and not token.isdecimal()}
-    if not tokens or not others <= _BESIDE or len(directions) > 1 or len(numbers) > 1:
+    beside = _BESIDE | _BESIDE_DIRECTIONS if directions else _BESIDE
+    if not tokens or not others <= beside or len(directions) > 1 or len(numbers) > 1:
         return None
     if not directions and not (numbers and others):
         return None
     run = numbers[0] if numbers else 1
     told = run_and_direction(f"1{directions[0]}") if directions else (1, None)
     return (run, told[1]) if told and 1 <= run <= _MOST_RUNS else None
+
+
+def find_axis_in(text: str) -> str:
+    """Return the letter of the axis that a text names; empty if it names none.
+
+    >>> find_axis_in("Achse: y"), find_axis_in("x-axis, 2nd test"), find_axis_in("maximum")
+    ('Y', 'X', '')
+    """
+    match = _AXIS.search(text)
+    return (match[1] or match[2]).upper() if match else ""
 
 
 @dataclass(frozen=True, slots=True)

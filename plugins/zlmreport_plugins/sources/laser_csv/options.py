@@ -159,7 +159,8 @@ class LaserCsvOptions(_Part, TableOptions):
     runs: Literal["counted"] | None = Field(
         None,
         description="counted: the file names no runs, and the n-th reading of a target in a direction is of "
-        "run n. Without it all are of one run.",
+        "run n; where the rows go from target to target, of the n-th pass over them. Without it all are of "
+        "one run.",
     )
     units: dict[str, str] = Field(
         default_factory=dict,
@@ -180,10 +181,9 @@ class LaserCsvOptions(_Part, TableOptions):
     def _layout_agrees(self) -> Self:
         if self.layout == "long" and self.values == "position":
             raise ValueError("'values' is for 'layout: wide'; a long table has a column 'position' instead")
-        if self.layout == "wide" and (self.runs or self.is_by_order):
+        if self.layout == "wide" and self.is_by_order:
             raise ValueError(
-                "'runs: counted' and 'direction: by-order' are for 'layout: long'; the columns of a wide "
-                "table tell run and direction"
+                "'direction: by-order' is for 'layout: long'; the columns of a wide table tell the direction"
             )
         return self
 

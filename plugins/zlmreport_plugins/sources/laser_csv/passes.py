@@ -6,7 +6,7 @@ import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from statistics import median
 from typing import Any
 
@@ -14,7 +14,7 @@ from zlmreport.plugin import Approach
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import Draft
 from zlmreport_plugins.sources.laser_csv.layouts import find_senses
-from zlmreport_plugins.sources.laser_csv.meanings import read_number
+from zlmreport_plugins.sources.laser_csv.meanings import find_axis_in, read_number
 from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction, run_and_direction
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
@@ -25,42 +25,63 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
     directions, runs = draft.find_column("direction"), draft.find_column("run")
     targets = [value for value in table.list_numbers(draft.find_column("target") or 0) if value is not None]
     if directions is not None and _are_directions(table.list_cells(directions)):
-        taken = [
-            (target, _read_direction_or_none(cell))
-            for target, cell in zip(targets, table.list_cells(directions), strict=False)
-            if cell
-        ]
-        if runs is not None and len(set(taken)) < len(taken) and len({*table.list_cells(runs)}) == 1:
-            draft.ignored.append(draft.name_column(runs))  # it numbers the test
-            draft.columns.pop("run", None)
-            runs = None
-        if runs is None and len(set(taken)) < len(taken):
-            draft.keys["runs"] = "counted"
-            draft.asks.append(questions.RUNS_ASKED)
+        _tell_runs(draft, runs, directions, targets)
         yield draft
         return
     if directions is not None:
         draft.ignored.append(draft.name_column(directions))
         draft.columns.pop("direction", None)
+    if runs is not None and _number_no_cycles(draft, runs):
+        _ignore_runs(draft, runs)
+        runs = None
     taken_in = find_senses(targets)
     goes_back = _find_way_back(targets)
     if goes_back or all(sense > 0 for sense in taken_in) or _is_one_pass_each(draft, taken_in):
         draft.keys["direction"] = goes_back or "+"
         draft.asks.append(questions.DIRECTION_ASKED)
         if runs is None and len(set(targets)) < len(targets):
-            draft.keys["runs"] = "counted"
-            draft.asks.append(questions.RUNS_ASKED)
+            draft.count_runs()
     else:
         draft.keys["direction"] = "by-order"
         draft.asks.append(questions.ORDER_ASKED)
         numbered = table.list_cells(runs) if runs is not None else []
         if runs is not None and _are_passes(numbered, taken_in):
-            draft.ignored.append(draft.name_column(runs))
-            draft.columns.pop("run", None)
+            _ignore_runs(draft, runs)
             runs = None
         if runs is None:
             draft.keys["runs"] = "counted"
     yield draft
+
+
+def _tell_runs(draft: Draft, runs: int | None, directions: int, targets: Sequence[float]) -> None:
+    """Say what tells the runs of a table whose directions are told by a column."""
+    taken = [
+        (target, _read_direction_or_none(cell))
+        for target, cell in zip(targets, draft.table.list_cells(directions), strict=False)
+        if cell
+    ]
+    if runs is not None and len(set(taken)) < len(taken) and len({*draft.table.list_cells(runs)}) == 1:
+        _ignore_runs(draft, runs)  # it numbers the test
+        runs = None
+    elif runs is not None and _number_no_cycles(draft, runs, draft.table.list_cells(directions)):
+        _ignore_runs(draft, runs)
+        runs = None
+    if runs is None and len(set(taken)) < len(taken):
+        draft.count_runs()
+
+
+def _number_no_cycles(draft: Draft, runs: int, directions: Sequence[str] = ()) -> bool:
+    """Return whether a column of runs does not count them from 1, or counts the passes in both directions."""
+    cells = draft.table.list_cells(runs)
+    if any((draft.table.list_numbers(runs)[index] or 0) < 1 for index, cell in enumerate(cells) if cell):
+        return True
+    ways = [(cell, _read_direction_or_none(way)) for cell, way in zip(cells, directions, strict=False)]
+    return len({way for _, way in ways}) > 1 and len({*ways}) == len({cell for cell, _ in ways}) > 1
+
+
+def _ignore_runs(draft: Draft, runs: int) -> None:
+    draft.ignored.append(draft.name_column(runs))
+    draft.columns.pop("run", None)
 
 
 def _are_directions(cells: Sequence[str]) -> bool:
@@ -122,19 +143,34 @@ def draft_of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iter
     best, alone = found[0], drafts[0]
     same = [each for each in found if each.header.cells == best.header.cells and each.layout.header_rows]
     sheets = {each.found.keys["sheet"]: each for each in same if "sheet" in each.found.keys}
-    tables = list(_list_sheets(sheets) if len(sheets) > 1 else _list_stacked(best))
-    if len(tables) < 2:
+    first = min((each for each in same if _are_laid_out_alike(each, best)), key=_find_line, default=best)
+    tables = list(_list_sheets(sheets) if len(sheets) > 1 else _list_stacked(first))
+    if len(tables) < 2 or len({each.axis for each in tables} - {""}) > 1:
         return
     tells_direction = "direction" in best.meanings or any(map(run_and_direction, alone.columns))
     if {each.approach for each in tables} == {*Approach} and not tells_direction:
         parts = [{**each.part, "direction": each.approach.sign} for each in tables if each.approach]
         yield _join_parts(alone, parts, questions.DIRECTION_ASKED, questions.ORDER_ASKED, without="direction")
-    elif not best.is_wide and len(sheets) < 2 and len({each.targets for each in tables}) == 1:
+    elif len(sheets) < 2 and _are_runs_of_one(tables, alone) and "header" not in alone.keys:
         draft = _join_parts(alone, [each.part for each in tables], questions.RUNS_ASKED)
         if draft.find_column("run") is None:
             draft.keys["runs"] = "counted"
         draft.asks.append(questions.PARTS_ASKED.format(count=len(tables)))
         yield draft
+
+
+def _are_laid_out_alike(one: FoundTable, other: FoundTable) -> bool:
+    """Return whether tables of one text differ by their place alone."""
+    return replace(one.layout, skipped=other.layout.skipped) == other.layout
+
+
+def _find_line(table: FoundTable) -> int:
+    return table.header.line
+
+
+def _are_runs_of_one(tables: Sequence[_Part], alone: Draft) -> bool:
+    """Return whether tables have the same targets, or a column numbers their runs."""
+    return len({each.targets for each in tables}) == 1 or alone.find_column("run") is not None
 
 
 def _join_parts(alone: Draft, parts: list[dict[str, Any]], *answered: str, without: str = "") -> Draft:
@@ -154,13 +190,14 @@ class _Part:
     part: dict[str, Any]  #: The keys of its place.
     approach: Approach | None  #: The direction that its sheet or a line above it names.
     targets: frozenset[float] = frozenset()  #: Its targets, as the file has them.
+    axis: str = ""  #: The letter of the axis that its sheet or a line above it names.
 
 
 def _list_sheets(sheets: Mapping[str, FoundTable]) -> Iterator[_Part]:
     """Yield the table of each sheet, with the direction that the sheet is called by."""
     for sheet, table in sheets.items():
         skipped = {"skip_rows": table.layout.skipped} if table.layout.skipped else {}
-        yield _Part({"sheet": sheet, **skipped}, _find_direction_in(sheet))
+        yield _Part({"sheet": sheet, **skipped}, _find_direction_in(sheet), axis=find_axis_in(sheet))
 
 
 def _list_stacked(table: FoundTable) -> Iterator[_Part]:
@@ -178,7 +215,8 @@ def _list_stacked(table: FoundTable) -> Iterator[_Part]:
     while targets:
         above = " ".join(line for number_, line in numbered.items() if before - 3 < number_ < header.line)
         last = max(targets)
-        yield _Part({"lines": [header.line, last]}, _find_direction_in(above), frozenset(targets.values()))
+        of_part = frozenset(targets.values())
+        yield _Part({"lines": [header.line, last]}, _find_direction_in(above), of_part, find_axis_in(above))
         starts = [index for index, row in enumerate(below) if row.cells == table.header.cells]
         if not starts:
             return

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
+from statistics import median
 from typing import Any
 
 from zlmreport.plugin import Approach, InputError, Place, listed
 from zlmreport.plugin.source import SourceProposal
-from zlmreport.plugin.table import folded, moment
+from zlmreport.plugin.table import EnclosureError, TextRow, folded, moment, parted_line
 from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import (
@@ -25,6 +27,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     READING,
     Notation,
     are_positions,
+    find_axis_in,
     find_meaning,
     find_reading_of,
     read_number,
@@ -40,14 +43,12 @@ _OF_READINGS = frozenset({"deviation", "position", READING})
 _AVERAGE = re.compile(
     r"(?<![^\W_])(?:avg|average|mean|mittel|mittelwert|moyenne|moyen|media|promedio)(?![^\W_])", re.IGNORECASE
 )
+#: How many times as large as any other, and as is usual, a deviation is off that is not actual − target.
+_DISAGREES = 3.0
 #: Lines of a table without a head that may be comments above its names.
 _COMMENTS = 3
 #: How a column is called that names the axis, folded.
 _OF_AXES = frozenset({"axis", "achse", "axe", "asse", "eje"})
-_AXIS = re.compile(
-    r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
-    re.IGNORECASE,
-)
 
 
 def propose(file: Path) -> Iterator[SourceProposal]:
@@ -58,10 +59,11 @@ def propose(file: Path) -> Iterator[SourceProposal]:
     axis = _find_axis(file, found)
     for table in found[:1]:
         _refuse_several_axes(table, file)
+        _refuse_axes_side_by_side(table, file)
     drafts = [each for table in found for each in _list_drafts(table)]
     for draft in (*draft_of_parts(found, drafts[:1]), *drafts):
         _ask_for_sheet(draft, found)
-        _ask_for_rows_below(draft)
+        _ask_for_rows_outside(draft)
         _ask_for_kind(draft, axis)
         yield SourceProposal(_order_keys(draft), tuple(draft.asks), axis)
     for text in () if drafts else texts:
@@ -75,9 +77,8 @@ def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
         line for table in found[:1] for line in table.found.text.lines[: table.layout.skipped + _COMMENTS]
     ]
     for text in (file.stem, *(table.found.keys.get("sheet", "") for table in found[:1]), *above):
-        match = _AXIS.search(text)
-        if match:
-            return (match[1] or match[2]).upper()
+        if letter := find_axis_in(text):
+            return letter
     return ""
 
 
@@ -93,6 +94,25 @@ def _refuse_several_axes(table: FoundTable, file: Path) -> None:
             )
 
 
+def _refuse_axes_side_by_side(table: FoundTable, file: Path) -> None:
+    """Refuse a table with columns of the same quantity of several axes: ``Error X`` and ``Error Y``."""
+    of_quantity: dict[str, dict[str, str]] = {}
+    for name in table.header.cells:
+        words = re.findall(r"[^\W_]+", read_heading(name).name.casefold())
+        letters = [word for word in words if re.fullmatch("[xyzabcuvw]", word)]
+        others = " ".join(word for word in words if word not in letters)
+        if len(letters) == 1 and others:
+            of_quantity.setdefault(others, {}).setdefault(letters[0].upper(), name)
+    for named in of_quantity.values():
+        if len(named) > 1:
+            raise InputError.at(
+                Place(str(file), table.header.line),
+                f"holds readings of several axes side by side ({listed(map(repr, named.values()))}); a test "
+                "is of one: name its columns in the job, as in 'columns: {target: …, deviation: …}', and "
+                "those of the others under 'ignore'",
+            )
+
+
 def _list_drafts(table: FoundTable) -> Iterator[Draft]:
     draft = Draft(table)
     _ask_for_averages(draft)
@@ -104,6 +124,7 @@ def _list_drafts(table: FoundTable) -> Iterator[Draft]:
         return
     _draft_value(draft)
     _draft_other_columns(draft)
+    _name_unnamed(draft)
     yield from tell_passes(draft)
 
 
@@ -126,7 +147,14 @@ def _draft_wide(draft: Draft) -> None:
     target = draft.find_column("target") or 0
     readings = [index for index, each in enumerate(table.meanings) if each == READING]
     told = [find_reading_of(draft.name_column(index)) or (1, None) for index in readings]
-    if all(approach is None for _, approach in told):
+    second = _find_second_targets(draft, target)
+    if second is not None and all(approach is None for _, approach in told):
+        told = [
+            (run, Approach.NEGATIVE if index > second else Approach.POSITIVE)
+            for index, (run, _) in zip(readings, told, strict=True)
+        ]
+        draft.asks.append(questions.SECOND_ASKED)
+    elif all(approach is None for _, approach in told):
         keys["direction"] = "+"
         draft.asks.append(questions.DIRECTION_ASKED)
     _name_target(draft, target)
@@ -142,13 +170,32 @@ def _draft_wide(draft: Draft) -> None:
             for index, name in enumerate(table.header.cells)
             if name and index != target and index not in readings
         ]
-    first = readings[0]
+    first, targets = readings[0], [each for each in table.list_numbers(target) if each is not None]
+    if len(set(targets)) < len(targets):
+        draft.count_runs()
     if are_positions(table.list_numbers(target), table.list_numbers(first)):
         keys["values"] = "position"
         name_unit("position", draft, target, first)
     else:
         draft.asks.append(questions.SIGN_ASKED)
         name_unit("deviation", draft, target, *readings)
+
+
+def _find_second_targets(draft: Draft, target: int) -> int | None:
+    """Return the place of a second column of the same targets: a table stands beside the first one.
+
+    Raises `InputError` if it has them in another order: a row is then none of one target.
+    """
+    table, name = draft.table, folded(draft.name_column(target))
+    same = (index for index, each in enumerate(table.header.cells) if index > target and folded(each) == name)
+    second = next(same, None) if name else None
+    if second is not None and table.list_numbers(second) != table.list_numbers(target):
+        raise InputError.at(
+            Place(table.found.text.name, table.header.line),
+            "two tables stand side by side, and a row holds one target in the one and another in the other; "
+            "write them one below the other, each with its header",
+        )
+    return second
 
 
 def _has_equal_names(table: FoundTable) -> bool:
@@ -231,11 +278,32 @@ def _compare(draft: Draft, target: int, deviation: int, position: int) -> None:
         )
         if at is not None and value is not None and actual is not None
     ]
+    _ask_where_they_disagree(draft, target, deviation, position)
     negative, positive = sum(each < 0 for each in products), sum(each > 0 for each in products)
     if negative > 3 * positive:
         draft.keys["sign"] = "nominal-actual"
     elif positive <= 3 * negative:
         draft.asks.append(questions.SIGN_ASKED)
+
+
+def _ask_where_they_disagree(draft: Draft, target: int, deviation: int, position: int) -> None:
+    """Ask about the row in which a deviation is not the difference that it is in all others."""
+    table = draft.table
+    columns = (table.list_numbers(index) for index in (target, position, deviation))
+    rows = [
+        (row.line, actual - at, value)
+        for row, at, actual, value in zip(table.rows, *columns, strict=True)
+        if at is not None and actual is not None and value is not None
+    ]
+    ratios = [value / difference for _, difference, value in rows if difference]
+    if not ratios:
+        return
+    ratio = median(ratios)
+    left = [abs(value - ratio * difference) for _, difference, value in rows]
+    worst = max(range(len(rows)), key=left.__getitem__)
+    others = max((each for index, each in enumerate(left) if index != worst), default=0.0)
+    if left[worst] > _DISAGREES * max(others, median(abs(value) for *_, value in rows)):
+        draft.asks.append(questions.DISAGREE_ASKED.format(line=rows[worst][0]))
 
 
 def _draft_other_columns(draft: Draft) -> None:
@@ -261,6 +329,18 @@ def _draft_other_columns(draft: Draft) -> None:
             if folded(plain) != what:
                 draft.columns[what] = plain
             is_unit_known(what, draft, index)
+
+
+def _name_unnamed(draft: Draft) -> None:
+    """Give a column that has cells and no name one, and leave it out: the index of a data frame."""
+    table = draft.table
+    names = list(table.header.cells)
+    unnamed = [index for index, name in enumerate(names) if not name and any(table.list_cells(index))]
+    if unnamed and table.layout.header_rows == 1 and not table.layout.is_transposed:
+        for index in unnamed:
+            names[index] = f"column {index + 1}"
+        draft.keys |= {"skip_rows": table.header.line, "header": names}
+        draft.ignored += [names[index] for index in unnamed]
 
 
 def _is_time(cells: Sequence[str], notation: Notation) -> bool:
@@ -290,14 +370,29 @@ def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
         draft.asks.append(questions.SHEETS_ASKED.format(sheet=repr(sheet), others=listed(others), hold=hold))
 
 
-def _ask_for_rows_below(draft: Draft) -> None:
-    """Ask whether rows of numbers below the table belong to the test, where they are no part of it."""
+def _ask_for_rows_outside(draft: Draft) -> None:
+    """Ask whether rows of numbers outside the table belong to the test, where they are no part of it."""
     table = draft.table
-    left = [
-        row.line for row in table.below if sum(_is_number(cell, table.notation) for cell in row.cells) > 1
-    ]
-    if len(left) > 1 and "parts" not in draft.keys and not table.layout.is_transposed:
-        draft.asks.append(questions.BELOW_ASKED.format(count=len(left), first=left[0]))
+    if "parts" in draft.keys or table.layout.is_transposed:
+        return
+    below = _list_lines_of_numbers(table.below, table.notation)
+    if len(below) > 1:
+        draft.asks.append(questions.BELOW_ASKED.format(count=len(below), first=below[0]))
+    above = _list_lines_of_numbers(_list_rows_above(table), table.notation)
+    if len(above) > 1:
+        draft.asks.append(questions.ABOVE_ASKED.format(count=len(above), last=above[-1]))
+
+
+def _list_lines_of_numbers(rows: Iterable[TextRow], notation: Notation) -> list[int]:
+    return [row.line for row in rows if sum(_is_number(cell, notation) for cell in row.cells) > 1]
+
+
+def _list_rows_above(table: FoundTable) -> Iterator[TextRow]:
+    """Yield the rows of a text above the header of its table."""
+    for number, line in table.found.lines:
+        if number <= table.layout.skipped and table.layout.header_rows:
+            with suppress(EnclosureError):
+                yield parted_line(number, line, table.layout.delimiter)
 
 
 def _is_number(cell: str, notation: Notation) -> bool:

@@ -5,6 +5,10 @@ from __future__ import annotations
 SIGN_ASKED = (
     "Is the deviation actual − nominal? No file tells; if it is nominal − actual, say sign: nominal-actual."
 )
+DISAGREE_ASKED = (
+    "Is the deviation in line {line} right? It is not the actual position minus the target, as in the other "
+    "rows; the deviations are read."
+)
 UNIT_ASKED = (
     "Are the deviations in {unit}? The table names no unit; {reason}if they are in {other}, say "
     "units: {{deviation: {other}}}."
@@ -15,17 +19,28 @@ AVERAGES_ASKED = (
     "error model and a compensation table alone."
 )
 DIRECTION_ASKED = "Were all readings taken upwards? The table names no direction; else say direction: '-'."
+SECOND_ASKED = (
+    "Were the readings right of the second column of targets taken downwards, and those left of it upwards? "
+    "The table names no direction."
+)
 ORDER_ASKED = (
     "Do the rows stand in the order in which the readings were taken? The table names no direction; it is "
     "told by whether the target rises or falls from row to row."
 )
 RUNS_ASKED = "Is the n-th reading of a target in a direction of the n-th run? The table names no runs."
+RUNS_NOT_READ_ASKED = (
+    "Is the n-th reading of a target in a direction of the n-th run? The column {name} is not read."
+)
 PARTS_ASKED = (
     "Are the {count} tables, one below the other, runs of one test? If they are of several axes, write a "
     "file of each."
 )
 BELOW_ASKED = (
     "Do the {count} rows of numbers below the table, from line {first} on, belong to the test? They are not "
+    "read."
+)
+ABOVE_ASKED = (
+    "Do the {count} rows of numbers above the table, up to line {last}, belong to the test? They are not "
     "read."
 )
 DECIMAL_ASKED = "Is the decimal sign a {sign}? Every number may as well have its thousands parted by it."

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -29,6 +30,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     VALUE,
     Notation,
     find_meaning,
+    find_reading_of,
     read_number,
     resolve_meanings,
 )
@@ -194,9 +196,9 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
         return
     rows = _list_rows(found.lines, delimiter)
     for index, row in enumerate(rows[:_DEEPEST]):
-        if row is None or find_meaning(row.cells[0]) not in _TARGET:
-            continue
         lines = [each for each in rows[index:] if each]
+        if row is None or not (find_meaning(row.cells[0]) in _TARGET or _are_runs_below_targets(lines)):
+            continue
         names = [each.cells[0] for each in lines if find_meaning(each.cells[0])]
         if sum(map(_is_number, row.cells[1:])) < 2 or len(set(names)) < len(names):
             continue
@@ -212,6 +214,15 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
         yield from _find_below(
             FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below
         )
+
+
+def _are_runs_below_targets(lines: Sequence[TextRow]) -> bool:
+    """Return whether a row of numbers that rise stands above rows of readings, under any name but none."""
+    first, *others = (each.cells for each in lines)
+    targets = [read_number(cell, Notation.of([cell])) for cell in first[1:] if cell]
+    known = [target for target in targets if target is not None]
+    rises = len(known) == len(targets) > 2 and all(low < high for low, high in itertools.pairwise(known))
+    return bool(first[0]) and rises and len(others) > 1 and all(find_reading_of(each[0]) for each in others)
 
 
 def _are_counted(cells: Sequence[str]) -> bool:
@@ -307,6 +318,8 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     meanings = resolve_meanings(header.cells, columns)
     if not any(header.cells):
         meanings = ["target", *[None] * (width - 1)]
+    elif layout.is_transposed:
+        meanings[0] = "target"
     if "target" not in meanings:
         return
     ends = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import AfterValidator, Field
@@ -33,9 +34,11 @@ from zlmreport.plugin.source import (
     Provenance,
     Reading,
     SourceContext,
+    SourceProposal,
     TextFile,
     collect_readings,
     known_encoding,
+    likely_encodings,
     parse_number,
     read_text,
 )
@@ -168,6 +171,17 @@ class RenishawRtl:
     title = Words("Renishaw test file (.rtl, .rta)")
     options: type[Options] = RenishawRtlOptions
     suffixes = (".rtl", ".rta")
+
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return no keys for a file that begins as these do, and nothing for any other."""
+        for encoding in likely_encodings(file):
+            try:
+                text = read_text(file, encoding)
+            except InputError:
+                continue
+            if next(filter(None, map(str.strip, text.lines)), "").upper() == "HEADER::":
+                yield SourceProposal({"encoding": encoding} if encoding else {}, is_certain=True)
+            return
 
     def read(self, options: RenishawRtlOptions, context: SourceContext) -> MeasurementSet:
         """Read a test file; raise `InputError` with every defect and its place."""

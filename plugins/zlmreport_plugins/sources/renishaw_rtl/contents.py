@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from zlmreport.plugin import Approach, InputError, Place, Problem, counted, did_you_mean, quoted
-from zlmreport.plugin.source import TextFile, parse_number
+from zlmreport.plugin.source import TextFile, cap_problems, parse_number
 
 _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
 
@@ -132,7 +132,7 @@ def read_target_positions(section: RtlSection) -> tuple[float, ...]:
     if not problems:
         problems.extend(_find_miscounted(section, begin, len(positions)))
     if problems:
-        raise InputError(problems)
+        raise InputError(cap_problems(problems))
     return tuple(positions)
 
 

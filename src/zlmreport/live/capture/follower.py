@@ -315,7 +315,8 @@ class Follower:
             return
         self._track.add(reading.value)
         if self._track.direction is not None:
-            yield MovedBeforeDatum(datum)
+            spacing, largest = self._pace.least, self._settings.largest_gap
+            yield TooSlow(spacing, largest) if spacing > largest else MovedBeforeDatum(datum)
         elif self._window.is_still:
             self._track.forget()
             self._stood_at = datum
@@ -392,9 +393,16 @@ class Follower:
         if self._stay is not None and target == self.progress.visits[self._stay.index].target:
             yield from self._take_later_standstill(self._stay, mean, zero)
         elif target is None:
-            yield name_elsewhere(mean, zero, self.progress, self._settings, self._offsets)
+            if not self._is_turning_place(self._stood_at):
+                yield name_elsewhere(mean, zero, self.progress, self._settings, self._offsets)
         else:
             yield from self._place_at_target(target, approach, mean, zero)
+
+    def _is_turning_place(self, position: float) -> bool:
+        """Tell whether it is where the axis turns round beyond its outermost targets: it may rest there."""
+        targets = [target for target, _ in self._targets]
+        places = (min(targets) - self._settings.overrun, max(targets) + self._settings.overrun)
+        return any(abs(position - place) <= self._settings.tolerance for place in places)
 
     def _find_failure_of_display(self, latest: LiveReading, reading: LiveReading) -> Event | None:
         """Return what a jump of the display is; None without one."""

@@ -29,6 +29,11 @@ class Pace:
         self._elapsed = 0.0
         self._count = 0
 
+    @property
+    def least(self) -> float:
+        """How far apart the first readings were at least, as far as there are any, s."""
+        return min(self._first, default=0.0)
+
     def measure_gap(self, before: float, now: float, lost: int) -> float:
         """Return how long no reading came, s.
 
@@ -41,7 +46,7 @@ class Pace:
         self._count += lost + 1
         if len(self._first) < _GAPS:
             self._first.append(elapsed)
-            self.shortest = min(self._first) if len(self._first) == _GAPS else 0.0
+            self.shortest = self.least if len(self._first) == _GAPS else 0.0
         return max(elapsed, expected)
 
 

@@ -318,7 +318,7 @@ def choose_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: Axi
     try:
         return FormulaEffect(choice.settings, kind)
     except FormulaError as error:
-        raise InputError.at(choice.place, f"{choice.identifier}: {error}") from error
+        raise InputError.at(choice.place, f"{'.'.join((choice.identifier, *error.key))}: {error}") from error
 
 
 def choose_terms(
