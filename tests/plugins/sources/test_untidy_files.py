@@ -79,6 +79,17 @@ def test_a_unit_that_stands_above_the_table_is_taken(line: str, unit: str, tmp_p
     assert look_at(path, REGISTRY).proposal.keys["units"] == {"deviation": unit}
 
 
+def test_readings_back_under_a_name_of_their_own_are_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "back.csv"
+    path.write_text("Soll;hin (µm);gegen (µm);T (°C)\n0;1,2;0,3;20,1\n9;1,8;1,1;20,2\n", encoding="utf-8")
+    (asked,) = (each for each in look_at(path, REGISTRY).proposal.asks if "other direction" in each)
+    assert "'gegen (µm)'" in asked
+    path.write_text(path.read_text(encoding="utf-8").replace("gegen", "her"), encoding="utf-8")
+    looked = look_at(path, REGISTRY)
+    assert looked.proposal.keys["columns"]["1-"] == "her"
+    assert not [each for each in looked.proposal.asks if "other direction" in each]
+
+
 def test_values_too_small_for_micrometres_are_taken_for_millimetres_and_asked(tmp_path: Path) -> None:
     path = tmp_path / "small.csv"
     path.write_text("target,1+,1-\n0,0.0012,0.0003\n50,0.0018,0.0011\n", encoding="utf-8")

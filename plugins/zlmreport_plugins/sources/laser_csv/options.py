@@ -43,7 +43,7 @@ _WORDS = {
         (
             *("down", "reverse", "rev", "backward", "backwards", "bwd"),
             *("negative", "neg", "minus", "decreasing"),
-            *("ab", "abwärts", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
+            *("ab", "abwärts", "her", "rück", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
             *("negativ", "fallend"),
             *list_spellings("retour descendant descente négatif décroissant"),
             *list_spellings("ritorno discesa indietro negativo negativa decrescente"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence, Set as AbstractSet
 from contextlib import suppress
 from pathlib import Path
 from statistics import median
@@ -170,6 +170,7 @@ def _draft_wide(draft: Draft) -> None:
             for index, name in enumerate(table.header.cells)
             if name and index != target and index not in readings
         ]
+        _ask_for_other_direction(draft, readings, {approach for _, approach in told})
     first, targets = readings[0], [each for each in table.list_numbers(target) if each is not None]
     if len(set(targets)) < len(targets):
         draft.count_runs()
@@ -179,6 +180,19 @@ def _draft_wide(draft: Draft) -> None:
     else:
         draft.asks.append(questions.SIGN_ASKED)
         name_unit("deviation", draft, target, *readings)
+
+
+def _ask_for_other_direction(
+    draft: Draft, readings: Sequence[int], approaches: AbstractSet[Approach | None]
+) -> None:
+    """Ask whether columns that are not read, as many and in the same unit, are the readings moving back."""
+    units = {read_heading(draft.name_column(index)).bracket for index in readings}
+    others = [name for name in draft.ignored if read_heading(name).bracket in units - {None}]
+    if approaches == {Approach.POSITIVE} and len(others) == len(readings):
+        first = read_heading(others[0]).name
+        draft.asks.append(
+            questions.OTHER_DIRECTION_ASKED.format(names=listed(map(repr, others)), first=first)
+        )
 
 
 def _find_second_targets(draft: Draft, target: int) -> int | None:
