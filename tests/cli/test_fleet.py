@@ -62,7 +62,7 @@ def test_the_log_says_what_happened_to_each_job_and_why(run: Run) -> None:
         "issued    CAL-X  jobs/x.yaml: new",
         "issued    CAL-Y  jobs/y.yaml: new",
         "failed    CAL-Z  jobs/z.yaml: new",
-        "            jobs/z.txt: cannot be read",
+        "            jobs/z.txt: cannot be read (named in jobs/z.yaml:12:11)",
     ]
     assert lines(output)[-1].endswith(": 2 issued, 1 failed")
     assert not messages
@@ -86,7 +86,11 @@ def test_what_is_made_again_for_a_new_release_alone_is_a_count() -> None:
 
 @pytest.mark.usefixtures("fleet")
 def test_quiet_leaves_the_failures(run: Run) -> None:
-    assert run("fleet", "fleet.yaml", "--quiet") == (4, "", "jobs/z.txt: cannot be read\n")
+    assert run("fleet", "fleet.yaml", "--quiet") == (
+        4,
+        "",
+        "jobs/z.txt: cannot be read (named in jobs/z.yaml:12:11)\n",
+    )
 
 
 def test_the_second_night_counts_what_is_unchanged(fleet: Fleet, run: Run) -> None:
@@ -110,7 +114,12 @@ def test_a_summary_for_programs(run: Run) -> None:
     first, *_, last = summary["jobs"]
     assert (first["what"], first["number"], first["files"]) == ("issued", "CAL-X", ["17/X/CAL-X.txt"])
     assert last["problems"] == [
-        {"file": "jobs/z.txt", "line": None, "column": None, "message": "cannot be read"}
+        {
+            "file": "jobs/z.txt",
+            "line": None,
+            "column": None,
+            "message": "cannot be read (named in jobs/z.yaml:12:11)",
+        }
     ]
 
 

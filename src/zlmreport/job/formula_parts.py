@@ -279,7 +279,8 @@ class Formula:
             **_TRIED,
             "P": np.resize(places, count),
             "D": random.choice([-1.0, 1.0], count),
-            "t": np.resize(moments, count),
+            # Not in the order of the places: what shows at a place and what at a moment would be one.
+            "t": random.permutation(np.resize(moments, count)),
             "run": random.integers(1, 9, count).astype(np.float64),
             "v": random.uniform(0.01, 0.1, count),
             **{name: random.uniform(15.0, 25.0, count) for name in self.columns},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
@@ -113,6 +114,8 @@ _NUMBER_AND_UNIT = re.compile(
 )
 
 _DATE = "a date such as 2026-11-20"
+#: How much alike a key of the same group is, of 1, that is meant before any of another group.
+_MISTYPED = 0.9
 #: Groups that are looked through for a key that stands in another; how deep, and how many are named at most.
 _DEEPEST_HOME, _MOST_HOMES = 2, 3
 #: Keys under which whole jobs stand, or measurements.
@@ -199,7 +202,8 @@ def _say_unknown(mistake: Mistake, model: type[BaseModel], within: str, also_kno
     space = next((each for each in key if each.isspace() and each != " "), None)
     if space:
         return f"unknown key {quoted(key)}; {describe_character(space)} stands where a space belongs"
-    homes = [] if within else _find_homes(key, model)
+    is_mistyped = difflib.get_close_matches(key.casefold(), known, n=1, cutoff=_MISTYPED)
+    homes = [] if within or is_mistyped else _find_homes(key, model)
     advice = f"it is a key of {list_names(homes, 'or of')}" if homes else did_you_mean(key, known)
     return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {advice}"
 

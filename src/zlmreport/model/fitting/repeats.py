@@ -214,7 +214,9 @@ def list_spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest
 def _examine_spreads(design: Design, deviation: FloatArray) -> tuple[tuple[SpreadTest, ...], FloatArray]:
     """Return the tests, and the variance of each reading by its growth along the axis; 1 where it is none."""
     random = np.random.default_rng(_SEED).standard_normal((len(deviation), _TRIALS))
-    sizes = np.abs(_remove_drift(design, np.column_stack([deviation, random])))
+    pairs = np.column_stack([deviation, random])
+    sizes = np.abs(_remove_drift(design, pairs))
+    whole = sizes if is_apart_in_time(design) else np.abs(_remove_drift(design, pairs, with_jumps=True))
     grown = np.ones(len(deviation))
     found: list[SpreadTest] = []
     if sizes[:, 0].max() <= _NOTHING * np.abs(deviation).max():
@@ -227,19 +229,21 @@ def _examine_spreads(design: Design, deviation: FloatArray) -> tuple[tuple[Sprea
             others = np.flatnonzero(design.cycle != run)
             part = select_readings(design, others)
             if len(others) > len(np.unique(number_cells(part))):
-                without = np.abs(_remove_drift(part, np.column_stack([deviation, random])[others]))
+                without = np.abs(_remove_drift(part, pairs[others]))
                 p_value = max(p_value, _fit_slope(away[others], without)[1])
         widest = int(design.target[np.argmax(away * slope)])
         found.append(SpreadTest(SpreadFactor.GROWTH, p_value, widest))
         if found[0].is_refuted:
             grown = _fit_growth(design, deviation)
-            sizes[:, 0] = np.abs(_estimate_scatter(design, deviation, grown)) / np.sqrt(grown)
+            for each, with_jumps in ((sizes, False), (whole, True)):
+                scatter = _estimate_scatter(design, deviation, grown, with_jumps=with_jumps)
+                each[:, 0] = np.abs(scatter) / np.sqrt(grown)
     for factor, labels in _make_groupings(design).items():
         names, group = np.unique(labels, return_inverse=True)
         fewest = 3 if factor is SpreadFactor.RUN else 2  # two runs lie as far from their means as each other
         if len(names) < fewest or np.bincount(group).min() < _FEWEST_READINGS:
             continue
-        ratios, widest = _compute_levene(sizes, group)
+        ratios, widest = _compute_levene(sizes if factor is SpreadFactor.POSITION else whole, group)
         reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))
         found.append(SpreadTest(factor, (1 + reached) / (_TRIALS + 1), int(names[widest])))
     return tuple(found), grown
@@ -275,10 +279,12 @@ def _fit_growth(design: Design, deviation: FloatArray) -> FloatArray:
 
 def compute_weights(design: Design, deviation: FloatArray) -> FloatArray:
     """Return w, the variance of each reading over the mean one, shape (N,)."""
-    tests, found = _examine_spreads(design, deviation)
-    scatter = _estimate_scatter(design, deviation, found)
+    tests, grown = _examine_spreads(design, deviation)
+    found = grown
     for test in tests:
         if test.is_refuted and test.factor in (groupings := _make_groupings(design)):
+            is_whole = test.factor is not SpreadFactor.POSITION
+            scatter = _estimate_scatter(design, deviation, grown, with_jumps=is_whole)
             found = found * _shrink_variances(scatter / np.sqrt(found), groupings[test.factor])
     return np.asarray(found / found.mean(), dtype=np.float64)
 
@@ -291,28 +297,33 @@ def _make_groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     }
 
 
-def _estimate_scatter(design: Design, deviation: FloatArray, variance: FloatArray) -> FloatArray:
+def _estimate_scatter(
+    design: Design, deviation: FloatArray, variance: FloatArray, *, with_jumps: bool = False
+) -> FloatArray:
     """Return the scatter of readings of known relative variance as `_remove_drift` does, shape (N,)."""
-    return _remove_drift(design, deviation[:, np.newaxis], variance)[:, 0]
+    return _remove_drift(design, deviation[:, np.newaxis], variance, with_jumps=with_jumps)[:, 0]
 
 
-def _remove_drift(design: Design, values: FloatArray, variance: FloatArray | None = None) -> FloatArray:
+def _remove_drift(
+    design: Design, values: FloatArray, variance: FloatArray | None = None, *, with_jumps: bool = False
+) -> FloatArray:
     """Return the scatter of readings about their cells, and about offset and slope of their passes.
 
     A pass is what one run takes in one direction. Without it, an effect that grows with position and time
     would pass for scatter, and be given little weight just where it shows. So would a jump of the zero while
     one target is measured again and again: where a target's readings follow one another, of each the best
-    jump goes, too.
+    jump goes, too, unless they are compared from run to run, or up and down: all targets show that alike.
 
     `values`, (N, B): Deviations of B sets.
     `variance`, (N,) array or None: Of each reading over the mean one; the readings of a cell share it.
+    `with_jumps`: Whether jumps stay in it.
     """
     cell = number_cells(design)
     count = np.bincount(cell)
     root = np.ones(len(cell)) if variance is None else np.sqrt(variance)
     membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
     left = (values - (membership @ values)[cell]) / root[:, np.newaxis]
-    if not is_apart_in_time(design):
+    if not with_jumps and not is_apart_in_time(design):
         _remove_jumps(design, cell, left)
     kept = 1.0 - 1.0 / count[cell]
     _, passes = np.unique(2 * design.cycle + (design.direction > 0), return_inverse=True)
@@ -336,7 +347,8 @@ def _remove_jumps(design: Design, cell: IntArray, left: FloatArray) -> FloatArra
     explained = np.zeros((len(targets), left.shape[1]))
     for place, target in enumerate(targets):
         taken = np.flatnonzero(design.target == target)
-        jumps = (taken[:, np.newaxis] > taken[:-1]).astype(np.float64)
+        # One reading that stands off is no jump, and lies within what the scatter may be.
+        jumps = (taken[:, np.newaxis] > taken[1:-2]).astype(np.float64)
         for each in np.unique(cell[taken]):
             own = cell[taken] == each
             jumps[own] -= jumps[own].mean(axis=0)
