@@ -7,12 +7,13 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.effect_set import EffectSet, make_member
+from zlmreport.model.diagnosis.effect_set import EffectSet, count_nameless, has_nameless, make_member
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.refining import jump_along_grids
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
+from zlmreport.model.diagnosis.set_members import make_members_of, renumber
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.plugin import FloatArray
@@ -85,7 +86,7 @@ def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
     found = search.find_best()
     assert "backlash" in _names(found)
     assert "polynomial" not in _names(found)
-    assert search.has_nameless(found)
+    assert has_nameless(search.contest, found)
 
 
 def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
@@ -130,8 +131,8 @@ def test_an_effect_for_which_others_may_stand_has_less_evidence_than_the_set_los
     found = search.find_best()
     for own, member in zip(search.compute_own_evidence(found), found.members, strict=True):
         if member.family.is_named:
-            assert search.compute_evidence_of(found, {member.identifier}) <= own + 1e-9
-    assert search.compute_evidence_of(found, {"backlash"}) > 6
+            assert search.seen.compute_evidence_of(found, {member.identifier}) <= own + 1e-9
+    assert search.seen.compute_evidence_of(found, {"backlash"}) > 6
 
 
 def test_what_is_left_of_a_set_has_the_same_effects_and_no_others() -> None:
@@ -147,11 +148,11 @@ def test_names_alone_take_the_place_of_what_has_none_one_for_each() -> None:
     assert _names(whole) == {"screw-pitch", "backlash", "polynomial"}
     [place] = [number for number, each in enumerate(whole.members) if each.identifier == "polynomial"]
     beside = search.without(whole, place)
-    assert search.count_nameless(beside) == 1
-    alone = search.find_names_alone(beside, 0.0)
+    assert count_nameless(search.contest, beside) == 1
+    alone = search.seen.find_names_alone(beside, 0.0)
     assert alone is not None
     assert _names(alone) == _names(whole)
-    assert search.find_names_alone(beside, whole.score - beside.score - 1.0) is None
+    assert search.seen.find_names_alone(beside, whole.score - beside.score - 1.0) is None
 
 
 def test_a_late_beginning_does_not_begin_with_the_test() -> None:
@@ -212,7 +213,7 @@ def test_a_drift_that_begins_late_is_neither_a_step_of_the_zero_nor_a_passing_wa
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:
     contest = _contest(_hiding(("screw-pitch", [0.01]), ("backlash", [])))
     search = SetSearch(contest)
-    [start] = search.make_members_of([(EFFECTS["first-run"], np.empty(0))])
+    [start] = make_members_of(search.contest, [(EFFECTS["first-run"], np.empty(0))])
     assert _names(search.find_best([start])) == {"screw-pitch", "backlash"}
 
 
@@ -220,7 +221,7 @@ def test_without_any_effect_there_is_nothing_but_noise() -> None:
     search = SetSearch(_contest(4e-6 + noise(DESIGN)))
     found = search.find_best()
     assert found.members == ()
-    assert not search.has_nameless(found)
+    assert not has_nameless(search.contest, found)
 
 
 def test_evidence_of_its_own_is_what_the_set_loses_without_an_effect() -> None:
@@ -247,7 +248,7 @@ def test_a_pitch_between_those_that_are_tried_is_not_given_up_for_the_stated_one
     pitch = np.array([0.01053])
     readings = noise(DESIGN) + 2 * SIGMA * np.sqrt(2) * other.columns(DESIGN, pitch)[:, 0]
     contest = _contest(readings)
-    (member,) = SetSearch(contest).make_members_of([(other, pitch)])
+    (member,) = make_members_of(contest, [(other, pitch)])
     (kept,), has_moved = jump_along_grids(contest, [member], contest.quiet)
     assert not has_moved
     assert kept.theta == pytest.approx(pitch)
@@ -309,8 +310,8 @@ def test_a_name_of_a_value_reaches_as_far_as_the_value_may() -> None:
 
 def test_a_member_that_is_there_costs_what_its_value_had_to_be_searched_for() -> None:
     search = SetSearch(_contest(_hiding(("time-periodic", [290.0]), ("backlash", []))))
-    wave, lost = search.make_members_of(
-        [(EFFECTS["time-periodic"], np.array([290.0])), (EFFECTS["backlash"], np.empty(0))]
+    wave, lost = make_members_of(
+        search.contest, [(EFFECTS["time-periodic"], np.array([290.0])), (EFFECTS["backlash"], np.empty(0))]
     )
     assert wave.spread > 2
     assert lost.spread == pytest.approx(0.0, abs=1e-9)
@@ -325,8 +326,8 @@ def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
 
 def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None:
     search, (first, second) = _with_two_joints(0.5)
-    once, twice = search.make_members_of([(first, np.array([0.3])), (second, np.array([0.5]))])
-    alone, both = (search.renumber(search.as_noise(each)) for each in ((twice,), (once, twice)))
+    once, twice = make_members_of(search.contest, [(first, np.array([0.3])), (second, np.array([0.5]))])
+    alone, both = (renumber(search.contest, search.as_noise(each)) for each in ((twice,), (once, twice)))
     assert [each.identifier for each in alone.members] == ["scale-joint"]
     assert alone.members[0].theta == pytest.approx([0.5])
     assert [each.identifier for each in both.members] == ["scale-joint", "scale-joint-2"]
@@ -334,7 +335,7 @@ def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None
 
 def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
     search, (first, _) = _with_two_joints(0.5)
-    found = search.as_noise(search.make_members_of([(first, np.array([0.5]))]))
+    found = search.as_noise(make_members_of(search.contest, [(first, np.array([0.5]))]))
     assert search.list_rivals(found, search.without(found, 0), 40.0) == []
 
 

@@ -11,7 +11,14 @@ from itertools import chain
 
 import numpy as np
 
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name
+from zlmreport.model.diagnosis.effect_set import (
+    EffectSet,
+    SetMember,
+    compute_fit,
+    find_installed_name,
+    has_nameless,
+    is_only_from_run_to_run,
+)
 from zlmreport.model.diagnosis.sets import SetSearch
 
 # Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
@@ -47,22 +54,23 @@ def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str]) -
 def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
     kept = _drop_needless(search, found)
     # What is unusual, or took long to be found, costs evidence, but makes the same shape no other thing.
-    while (alike := search.find_named_alike(kept, BEHIND, MENTION)) is not None:
+    while (alike := search.seen.find_named_alike(kept, BEHIND, MENTION)) is not None:
         kept = _drop_needless(search, alike)
-    irregular = search.find_irregular_instead(kept, _IRREGULAR)
+    irregular = search.seen.find_irregular_instead(kept, _IRREGULAR)
     if irregular is not None:
         kept = _drop_needless(search, irregular)
         # Beside a few names it may be needless: what then explains all is as sure as any set of names.
-        return _keep_sure(search, kept) if search.has_nameless(kept) else kept
-    if search.has_nameless(found):
-        alone = search.find_names_alone(kept, _find_least_lead(search, kept)) if kept.named else None
-        if alone is None or search.find_irregular_instead(alone, _IRREGULAR) is not None:
+        return _keep_sure(search, kept) if has_nameless(search.contest, kept) else kept
+    if has_nameless(search.contest, found):
+        alone = search.seen.find_names_alone(kept, _find_least_lead(search, kept)) if kept.named else None
+        if alone is None or search.seen.find_irregular_instead(alone, _IRREGULAR) is not None:
             return _keep_sure(search, kept)
         kept = _drop_needless(search, alone)
     # With enough names any curve is described: several that one curve replaces are not told.
     for names, within in _REPLACED:
-        fewer = None if search.has_nameless(kept) else search.find_fewer_beside_curve(kept, names, within)
-        kept = kept if fewer is None else _drop_needless(search, fewer)
+        if not has_nameless(search.contest, kept):
+            fewer = search.seen.find_fewer_beside_curve(kept, names, within)
+            kept = kept if fewer is None else _drop_needless(search, fewer)
     # Where names alone explain all, a curve in the place of one of them makes the others no less sure.
     return kept
 
@@ -73,7 +81,7 @@ def _find_least_lead(search: SetSearch, found: EffectSet) -> float:
     They have to be better than a toss-up. That every run is another has to be sure: one that stands off is
     the rule, by a knock, a new zero, a cold start.
     """
-    return TOLD_APART if search.is_only_from_run_to_run(found) else MENTION
+    return TOLD_APART if is_only_from_run_to_run(search.contest, found) else MENTION
 
 
 def _keep_what_stands(search: SetSearch, found: EffectSet, standing: frozenset[str]) -> EffectSet:
@@ -105,7 +113,7 @@ def _drop_needless(search: SetSearch, found: EffectSet) -> EffectSet:
         if needless is None:
             break
         # Beside it other names may have been the best: the rest is the best that does with as little.
-        found = search.find_best_as_small(without[needless])
+        found = search.seen.find_best_as_small(without[needless])
     return found
 
 
@@ -116,7 +124,7 @@ def _leave_out(search: SetSearch, found: EffectSet, number: int) -> EffectSet:
     than the other says little for the name: the readings ask for neither.
     """
     rest = search.without(found, number)
-    if search.has_nameless(rest) and not search.has_nameless(found):
+    if has_nameless(search.contest, rest) and not has_nameless(search.contest, found):
         quiet = search.settle_beside_noise(rest)
         if quiet.score < found.score + NAMED_BESIDE:
             return quiet
@@ -131,9 +139,9 @@ def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet
     lost, is_named = _compute_lost(search, found, number, rest), found.members[number].family.is_named
     needed = NAMED
     if is_named and len(found.named) > 1:
-        if not search.has_nameless(rest):
+        if not has_nameless(search.contest, rest):
             needed = NAMED_BESIDE
-        elif not search.has_nameless(found):
+        elif not has_nameless(search.contest, found):
             # Where names explain all, none of them goes for a curve that is no better.
             needed = -_find_least_lead(search, rest)
     if 0.0 < lost < needed and is_named:
@@ -154,7 +162,8 @@ def _compute_lost(search: SetSearch, found: EffectSet, number: int, rest: Effect
     `rest`: The set without it.
     """
     member = found.members[number]
-    own = search.compute_fit(rest) - search.compute_fit(found) - member.family.price - member.spread
+    lost = compute_fit(search.contest, rest) - compute_fit(search.contest, found)
+    own = lost - member.family.price - member.spread
     return min(rest.score - found.score, own)
 
 
@@ -179,7 +188,7 @@ def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
         ]
         if min(evidence) >= NAMED_BESIDE:
             break
-        one = search.find_one_instead(kept, several, TOLD_APART)
+        one = search.seen.find_one_instead(kept, several, TOLD_APART)
         if one is not None:
             kept = one
             continue
@@ -200,5 +209,5 @@ def _compute_evidence_of(
 ) -> float:
     """Return the evidence of a member of a set, or of it and its rivals together, against all other sets."""
     name = find_installed_name(member.effect)
-    own = search.compute_evidence_of(found, {name})
-    return own if own >= NAMED_BESIDE else search.compute_evidence_of(found, rivals | {name})
+    own = search.seen.compute_evidence_of(found, {name})
+    return own if own >= NAMED_BESIDE else search.seen.compute_evidence_of(found, rivals | {name})

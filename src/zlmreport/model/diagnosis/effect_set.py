@@ -9,7 +9,8 @@ from typing import TypeAlias
 from zlmreport.job.effect_choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.families import Family
-from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes
+from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes, Likelihood
+from zlmreport.model.diagnosis.random_curves import Along
 from zlmreport.model.effects.effect import Effect
 
 #: By what members of a contest are told apart: family, columns, what the search cost, tangents.
@@ -110,9 +111,36 @@ def list_unnamed(found: EffectSet) -> frozenset[str]:
     return frozenset(each.identifier for each in found.unnamed)
 
 
+def list_loud(likelihood: Likelihood, found: EffectSet) -> list[int]:
+    """Return the parts without a name that are more than noise in a set."""
+    quiet = likelihood.as_noise(found.amplitudes)
+    return [number for number, level in enumerate(found.amplitudes) if level != quiet[number]]
+
+
+def count_nameless(likelihood: Likelihood, found: EffectSet) -> int:
+    """Return how many forms and curves without a name are in a set, beyond what noise may be."""
+    return len(found.unnamed) + len(list_loud(likelihood, found))
+
+
+def has_nameless(likelihood: Likelihood, found: EffectSet) -> bool:
+    """Return whether anything without a name is in a set, beyond what noise may be."""
+    return count_nameless(likelihood, found) > 0
+
+
+def is_only_from_run_to_run(likelihood: Likelihood, found: EffectSet) -> bool:
+    """Return whether all that is in a set without a name is another from run to run."""
+    loud = [likelihood.parts[number].course.along for number in list_loud(likelihood, found)]
+    return not found.unnamed and set(loud) == {Along.RUN}
+
+
 def find_score(found: EffectSet) -> float:
     """Return the score of a set: what a search makes small, to where rounding begins."""
     return round(found.score, DIGITS_OF_SCORE)
+
+
+def compute_fit(likelihood: Likelihood, found: EffectSet) -> float:
+    """Return the score of a set but for what its effects cost."""
+    return likelihood.compute_criterion(found.amplitudes, found.columns)
 
 
 def list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:

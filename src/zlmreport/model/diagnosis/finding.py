@@ -15,7 +15,13 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.believing import BEHIND, MENTION, TOLD_APART, believe_set
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
+from zlmreport.model.diagnosis.effect_set import (
+    EffectSet,
+    SetMember,
+    count_nameless,
+    find_installed_name,
+    list_names,
+)
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import (
@@ -26,6 +32,7 @@ from zlmreport.model.diagnosis.null_distribution import (
     simulate_null,
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
+from zlmreport.model.diagnosis.set_members import make_members_of, renumber
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.trials import Trials
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
@@ -235,8 +242,9 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     search = SetSearch(contest)
     pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
     start = search.as_noise(
-        search.make_members_of(
-            [(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go]
+        make_members_of(
+            search.contest,
+            [(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go],
         )
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
@@ -255,7 +263,7 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, 0.0, visible), None)
     found = search.find_best(start.members, lambda share: told(0.2 + 0.6 * share))
-    found = search.renumber(believe_set(search, found, stated.may_go))
+    found = renumber(search.contest, believe_set(search, found, stated.may_go))
     named = tuple(_name_effects(search, found, [each.effect for each in start.members]))
     finding = ContestFinding(
         fit=fitted,
@@ -338,13 +346,13 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
     design = search.contest.design
     # What takes the place of several at once, or asks for a curve beside it, leads in the place of none.
     others = list_names(found.named) - {find_installed_name(member.effect)}
-    nameless = search.count_nameless(found)
+    nameless = count_nameless(search.contest, found)
     near = [
         each
         for each, whole in zip(rivals, sets, strict=True)
         if each.evidence > rivals[0].evidence - MENTION
         and others < list_names(whole.named)
-        and search.count_nameless(whole) <= nameless
+        and count_nameless(search.contest, whole) <= nameless
         and (each is rivals[0] or each.identifier not in taken)
     ]
     leading = min(
@@ -358,7 +366,11 @@ def _name_effect(search: SetSearch, found: EffectSet, number: int, taken: Abstra
     # What contains it and explains no more is no other cause: its further terms do nothing. And what asks for
     # a curve beside it is no equal.
     behind = [
-        (each, each.evidence > rivals[0].evidence - TOLD_APART and search.count_nameless(whole) <= nameless)
+        (
+            each,
+            each.evidence > rivals[0].evidence - TOLD_APART
+            and count_nameless(search.contest, whole) <= nameless,
+        )
         for each, whole in zip(rivals, sets, strict=True)
         if each is not leading and leading.identifier not in each.member.effect.contains
     ]

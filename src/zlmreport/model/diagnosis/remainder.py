@@ -16,9 +16,16 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray, make_orthonormal
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.believing import TOLD_APART
-from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name, list_names
+from zlmreport.model.diagnosis.effect_set import (
+    EffectSet,
+    SetMember,
+    find_installed_name,
+    has_nameless,
+    list_names,
+)
 from zlmreport.model.diagnosis.forms import CARRIERS, FADING, IN_TIME, LOCAL, UnnamedForm
 from zlmreport.model.diagnosis.random_curves import Along, Course
+from zlmreport.model.diagnosis.set_members import renumber
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
@@ -104,7 +111,7 @@ def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remai
 
     `fitted`: The job's model beside which the set stands.
     """
-    if not search.has_nameless(found):
+    if not has_nameless(search.contest, found):
         return None
     bare = search.as_noise(found.named)
     if bare.score - found.score < _WORTH_SAYING:
@@ -165,11 +172,11 @@ def _describe_part(share: _Share, design: Design) -> RemainderPart:
 
 def _find_names_instead(search: SetSearch, found: EffectSet) -> NamesInstead | None:
     """Return the few effects that may be what a set leaves, where they are not told from it."""
-    instead = search.find_names_instead(found, _MOST_NAMES, TOLD_APART)
+    instead = search.seen.find_names_instead(found, _MOST_NAMES, TOLD_APART)
     if instead is None:
         return None
     (alone, lacking), own = instead, list_names(found.named)
-    named = search.renumber(alone).named
+    named = renumber(search.contest, alone).named
     further = tuple(each.effect for each in named if find_installed_name(each.effect) not in own)
     return NamesInstead(further, float(np.exp(-0.5 * lacking)))
 

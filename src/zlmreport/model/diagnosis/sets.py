@@ -9,14 +9,10 @@ set that is found without it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence, Set as AbstractSet
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import chain, combinations
 
-import numpy as np
-
-from zlmreport.job.effect_choices import number_effect, part_number
-from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.climbing import BROAD, FOLLOWED, GAIN, PROMISING, Breadth, Climb, Scope
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
@@ -25,16 +21,18 @@ from zlmreport.model.diagnosis.effect_set import (
     SetMember,
     find_installed_name,
     find_score,
+    has_nameless,
     list_beside,
+    list_loud,
     list_names,
     list_unnamed,
 )
-from zlmreport.model.diagnosis.families import make_orthonormal
 from zlmreport.model.diagnosis.forms import IN_TIME, UnnamedForm
 from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.diagnosis.random_curves import Along
 from zlmreport.model.diagnosis.scored_sets import ScoredSets
-from zlmreport.model.effects.effect import Effect
+from zlmreport.model.diagnosis.seen_sets import SeenSets
+from zlmreport.model.diagnosis.set_members import renumber
 
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
 #: One beside smooth curves may lack as much.
@@ -56,6 +54,7 @@ class SetSearch:
     def __init__(self, contest: Contest) -> None:
         self.contest = contest
         self._sets = ScoredSets(contest)
+        self.seen = SeenSets(self._sets)  #: All sets that were looked at.
         self._climbs = Climb(self._sets)
         self._climb = self._climbs.climb
         # Of each part all levels are thought of, those that are noise, or nothing but white noise.
@@ -86,7 +85,7 @@ class SetSearch:
         beside = self._climb_beside_curves(start, released)
         told(0.4)
         released = self._begin_with_forms(start, released, beside)
-        if not self._list_loud(released):
+        if not list_loud(self.contest, released):
             released = self._climb(released, self._whole, is_thorough=True)
             released = self._put_pairs_for_one(self._do_without_each(released, self._whole))
             released = self._put_forms_for_two(released)
@@ -116,7 +115,7 @@ class SetSearch:
         begun = apart.score_near(start, self.contest.quiet, self._forms.levels)
         end = Climb(apart).climb(begun, self._forms)
         whole = apart.score_near(end.members, end.amplitudes, self._whole.levels)
-        if self._list_loud(whole) or whole.score > min(named.score, beside.score) - _SURE:
+        if list_loud(self.contest, whole) or whole.score > min(named.score, beside.score) - _SURE:
             return named
         return self._climb(self._release(end), self._whole)
 
@@ -131,7 +130,7 @@ class SetSearch:
     def _go_back_to_names(self, best: EffectSet, named: EffectSet) -> EffectSet:
         """Return the best of a set and of what thorough climbs by names alone lead to."""
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
-        if is_near and self.has_nameless(best):
+        if is_near and has_nameless(self.contest, best):
             for near in (named, *self._list_named_near(best)):
                 whole = self._climb(self._begin(near.members, self._names), self._names, is_thorough=True)
                 end = self._climb(self._release(whole), self._whole, is_thorough=True)
@@ -143,9 +142,9 @@ class SetSearch:
 
         `named`: The best set of names alone: it is gone on from too.
         """
-        if self.has_nameless(best):
+        if has_nameless(self.contest, best):
             begun = [(named, self._names, PROMISING)]
-            parts = [self.contest.parts[number] for number in self._list_loud(best)]
+            parts = [self.contest.parts[number] for number in list_loud(self.contest, best)]
             is_irregular = any(part.irregular is not None for part in parts)
             if is_irregular:
                 best = self._begin_anew(best, (self._regular, self._forms))
@@ -167,7 +166,7 @@ class SetSearch:
         that bow neither is needed, and neither by itself takes its place. Beside what has no name, two names
         more would only describe that.
         """
-        while not self.has_nameless(now):
+        while not has_nameless(self.contest, now):
             tried = (
                 self._climbs.look_ahead_by_pairs(now.without(number), _FIRSTS, now.score + PROMISING)
                 for number, each in enumerate(now.members)
@@ -247,7 +246,9 @@ class SetSearch:
 
         Where effects that each look needless beside a curve explain all together, a climb passes by them.
         """
-        passed = [each for each in self._sets.best.values() if each.named and not self.has_nameless(each)]
+        passed = [
+            each for each in self._sets.best.values() if each.named and not has_nameless(self.contest, each)
+        ]
         near = [each for each in passed if each.score < found.score + PROMISING]
         return sorted(near, key=find_score)[:_MOST_PASSED]
 
@@ -259,171 +260,9 @@ class SetSearch:
                 members = (*members, each)
         return self._sets.score_near(members, found.amplitudes, self._whole.levels)
 
-    def _list_loud(self, found: EffectSet) -> list[int]:
-        """Return the parts without a name that are more than noise in a set."""
-        quiet = self.contest.as_noise(found.amplitudes)
-        return [number for number, level in enumerate(found.amplitudes) if level != quiet[number]]
-
     def make_bare_set(self) -> EffectSet:
         """Return what there is without any effect."""
         return self._begin((), self._whole)
-
-    def has_nameless(self, found: EffectSet) -> bool:
-        """Whether anything without a name is in a set, beyond what noise may be."""
-        return self.count_nameless(found) > 0
-
-    def is_only_from_run_to_run(self, found: EffectSet) -> bool:
-        """Whether all that is in a set without a name is another from run to run."""
-        loud = [self.contest.parts[number].course.along for number in self._list_loud(found)]
-        return not found.unnamed and set(loud) == {Along.RUN}
-
-    def count_nameless(self, found: EffectSet) -> int:
-        """Return how many forms and curves without a name are in a set, beyond what noise may be."""
-        return len(found.unnamed) + len(self._list_loud(found))
-
-    def compute_evidence_of(self, found: EffectSet, names: AbstractSet[str]) -> float:
-        """Return the evidence that the best set without any of some effects lacks, of all looked at.
-
-        All else may be another there: other effects, and the size of every curve without a name. It has no
-        form without a name that is not in the set: what has a name goes before a form that does the same. And
-        where the same curves are left, it has no more names: one cause goes before two that do the same.
-
-        `names`: As they are installed.
-        """
-        forms, loud = list_unnamed(found), self._list_loud(found)
-        others = [
-            each.score
-            for (known, own), each in self._sets.best.items()
-            if not known & names
-            and own <= forms
-            and (len(each.named) <= len(found.named) or (own, self._list_loud(each)) != (forms, loud))
-        ]
-        return min(others, default=np.inf) - found.score
-
-    def find_best_as_small(self, found: EffectSet) -> EffectSet:
-        """Return the best of a set and all looked at with no more names, beside nothing more without one."""
-        forms, loud = list_unnamed(found), set(self._list_loud(found))
-        as_small = (
-            each
-            for (_, unnamed), each in self._sets.best.items()
-            if unnamed <= forms
-            and len(each.named) <= len(found.named)
-            and len(each.unnamed) <= len(found.unnamed)
-            and not set(self._list_loud(each)) - loud
-        )
-        return min((found, *as_small), key=find_score)
-
-    def find_fewer_beside_curve(self, found: EffectSet, names: int, within: float) -> EffectSet | None:
-        """Return the best of all sets looked at in which curves without a name replace several names each.
-
-        `names`: How many one replaces at least; each further one replaces one more.
-        `within`: What evidence it may lack; None where all lack more.
-        """
-        fewer = [
-            each
-            for each in self._sets.best.values()
-            if 0 < self.count_nameless(each) <= len(found.named) - len(each.named) - names + 1
-            and each.score < found.score + within
-        ]
-        return min(fewer, key=find_score, default=None)
-
-    def find_irregular_instead(self, found: EffectSet, within: Sequence[float]) -> EffectSet | None:
-        """Return the best of all sets looked at in which what is irregular has the place of names.
-
-        `within`: What evidence it may lack in the place of one name, of two and so on, the last also of more;
-        None where all lack more.
-        """
-        forms, loud = list_unnamed(found), set(self._list_loud(found))
-        irregular = {number for number, part in enumerate(self.contest.parts) if part.irregular is not None}
-        instead = []
-        for (_, unnamed), each in self._sets.best.items():
-            more, fewer = set(self._list_loud(each)) - loud, len(found.named) - len(each.named)
-            is_irregular = more and more <= irregular and unnamed <= forms
-            if not is_irregular or fewer < 1:
-                continue
-            if each.score < found.score + within[min(fewer, len(within)) - 1]:
-                instead.append(each)
-        return min(instead, key=find_score, default=None)
-
-    def find_names_instead(
-        self, found: EffectSet, names: int, within: float
-    ) -> tuple[EffectSet, float] | None:
-        """Return the set in which fewest names more do all that forms and curves do, and what it lacks.
-
-        `names`: How many more at most: with enough names any curve is described.
-        `within`: What evidence it may lack of the best set that has something without a name.
-        """
-        own, known = list_names(found.named), self._sets.best.values()
-        best = min((each.score for each in known if self.has_nameless(each)), default=np.inf)
-        alone = [
-            each
-            for each in known
-            if own < list_names(each.named)
-            and len(each.named) <= len(found.named) + names
-            and not self.has_nameless(each)
-            and each.score < best + within
-        ]
-        instead = min(alone, key=lambda each: (len(each.named), find_score(each)), default=None)
-        return None if instead is None else (instead, instead.score - best)
-
-    def find_names_alone(self, found: EffectSet, within: float) -> EffectSet | None:
-        """Return the best of all sets looked at in which one name each does what forms and curves do.
-
-        `within`: What evidence it may lack; None where all lack more.
-        """
-        most = len(found.named) + self.count_nameless(found)
-        alone = [
-            each
-            for each in self._sets.best.values()
-            if each.score < found.score + within and len(each.named) <= most and not self.has_nameless(each)
-        ]
-        return min(alone, key=find_score, default=None)
-
-    def find_one_instead(self, found: EffectSet, names: AbstractSet[str], within: float) -> EffectSet | None:
-        """Return the best of all sets looked at in which one name stands in the place of several.
-
-        `names`: Those that may, as they are installed.
-        `within`: What evidence it may lack; None where all lack more.
-        """
-        own, forms = list_names(found.named), list_unnamed(found)
-        instead = [
-            each
-            for (known, unnamed), each in self._sets.best.items()
-            if len(known - own) == 1
-            and known - own <= names
-            and len(own - known) > 1
-            and unnamed <= forms
-            and not set(self._list_loud(each)) - set(self._list_loud(found))
-            and each.score < found.score + within
-        ]
-        return min(instead, key=find_score, default=None)
-
-    def find_named_alike(self, found: EffectSet, within: float, fit_within: float) -> EffectSet | None:
-        """Return the best of all sets looked at in which one name has the place and the shape of one form.
-
-        It has no more columns than the form: a polynomial does what many a form does.
-
-        `within`: What evidence it may lack; None where all lack more.
-        `fit_within`: The same of the fit alone, whatever the name costs.
-        """
-        fit, names, forms = self.compute_fit(found), list_names(found.named), list_unnamed(found)
-        alike = [
-            each
-            for (own, unnamed), each in self._sets.best.items()
-            if names < own
-            and unnamed < forms
-            and len(each.members) == len(found.members)
-            and len(each.named) == len(found.named) + 1
-            and sum(member.rank for member in each.members) <= sum(member.rank for member in found.members)
-            and not set(self._list_loud(each)) - set(self._list_loud(found))
-            and each.score < found.score + within
-            and self.compute_fit(each) < fit + fit_within
-        ]
-        return min(alike, key=find_score, default=None)
-
-    def compute_fit(self, found: EffectSet) -> float:
-        """Return the score of a set but for what its effects cost."""
-        return self.contest.compute_criterion(found.amplitudes, found.columns)
 
     def compute_evidence_of_changes(self, found: EffectSet) -> float:
         """Return the evidence of what changes in time, or from run to run, and has no name in a set."""
@@ -479,53 +318,6 @@ class SetSearch:
         """Return a set beside which there is nothing but noise."""
         return self._begin(members, self._names)
 
-    def make_members_of(self, effects: Sequence[tuple[Effect, FloatArray]]) -> list[SetMember]:
-        """Return effects of the contest at values of their searched parameters as members of a set.
-
-        Each costs what had to be searched for, as if it had been found.
-        """
-        members = [self._make_member_at(effect, theta) for effect, theta in effects]
-        for number, each in enumerate(members):
-            rest = [other.columns for place, other in enumerate(members) if place != number]
-            own = next(place for place, other in enumerate(self.contest.families) if other is each.family)
-            spread = self.contest.scan(self.contest.quiet, rest, [own]).spread[own]
-            members[number] = replace(each, spread=float(spread))
-        return members
-
-    def _make_member_at(self, effect: Effect, theta: FloatArray) -> SetMember:
-        family = next(
-            each
-            for each in self.contest.families
-            if each.identifier == effect.identifier and each.effect.settings == effect.settings
-        )
-        contest = self.contest
-        blocks, ranks, _ = make_orthonormal(
-            contest.space, contest.design, effect, theta[np.newaxis], contest.least_visible
-        )
-        return SetMember(family, theta, contest.columns.add(blocks[:, 0, : ranks[0]]))
-
-    def renumber(self, found: EffectSet) -> EffectSet:
-        """Return a set in which no effect stands for the second time that does not stand there once."""
-        members = list(found.members)
-        for place, each in enumerate(members):
-            name, number = find_installed_name(each.effect), part_number(each.identifier)[1]
-            if not each.effect.several or number == 1:
-                continue
-            taken = {other.identifier for other in members}
-            for lower in (number_effect(name, other) for other in range(1, number)):
-                family = next(
-                    (
-                        family
-                        for family in self.contest.families
-                        if family.identifier == lower and family.effect.settings == each.effect.settings
-                    ),
-                    None,
-                )
-                if family is not None and lower not in taken:
-                    members[place] = replace(each, family=family)
-                    break
-        return replace(found, members=tuple(members))
-
     def list_rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
         """Return the sets in which another effect stands in the place of a member, best first.
 
@@ -539,23 +331,10 @@ class SetSearch:
             for start in (rest, beside)
             for each in self._climbs.look_ahead(start, others, BROAD, found.score + within + PROMISING)
         ]
-        seen = map(self.renumber, self._list_seen_instead(found, rest))
+        seen = (renumber(self.contest, each) for each in self.seen.list_with_one_instead(found, rest))
         near = sorted((*tried, *seen), key=find_score, reverse=True)
         best = {each.members[-1].identifier: each for each in near if each.score < found.score + within}
         return sorted(best.values(), key=find_score)
-
-    def _list_seen_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
-        """Yield the sets looked at that have one new effect, as their last, and not what `rest` is without.
-
-        It may make others of the set needless, too.
-        """
-        own, forms = list_names(found.named), list_unnamed(found)
-        gone = own - list_names(rest.named)
-        for (names, unnamed), each in self._sets.best.items():
-            others = [member for member in each.named if find_installed_name(member.effect) not in own]
-            if len(others) == 1 and not names & gone and unnamed <= forms:
-                beside = (member for member in each.members if member is not others[0])
-                yield replace(each, members=(*beside, others[0]))
 
     def look_ahead(self, found: EffectSet) -> list[EffectSet]:
         """Return a set with one more installed effect, each effect once, the most promising first."""
