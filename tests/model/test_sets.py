@@ -7,12 +7,18 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.effect_set import EffectSet, count_nameless, has_nameless, make_member
+from zlmreport.model.diagnosis.effect_set import (
+    EffectSet,
+    SetMember,
+    count_nameless,
+    has_nameless,
+    make_member,
+)
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.refining import jump_along_grids
-from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
+from zlmreport.model.diagnosis.set_costs import UNUSUAL, SetCosts, weigh_size
 from zlmreport.model.diagnosis.set_members import make_members_of, renumber
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
@@ -21,6 +27,8 @@ from zlmreport.plugin.effect import Design, Effect
 
 DESIGN = linear_test()
 EMPTY = model_of("offset")
+#: Variances of an effect before any reading, in that of one reading, and their weights (error-model.md).
+_WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
 
 
 def _contest(
@@ -269,6 +277,37 @@ def test_a_value_beyond_what_is_usual_costs_evidence_and_is_found_all_the_same()
     assert _names(found) == {"backlash"}
     usual = _found(huge / 10)
     assert found.score > usual.score
+
+
+@pytest.mark.parametrize("step", [1, 20], ids=["nearly the same period", "another period"])
+def test_coefficients_cost_what_their_sizes_do_and_not_what_they_leave_of_each_other(step: int) -> None:
+    def pair(contest: Contest) -> list[SetMember]:
+        waves = next(each for each in contest.families if each.identifier == "wave-lever")
+        return [make_member(waves, number, 0.0) for number in (0, step)]
+
+    members = pair(empty := _contest(noise(DESIGN)))
+    columns = empty.columns.select_columns(np.concatenate([each.columns for each in members]))
+    readings = noise(DESIGN) + columns @ np.array([1e3, 2e3, -1e3, -2e3]) * SIGMA
+    contest = _contest(readings)
+    members = pair(contest)
+    columns = contest.columns.select_columns(np.concatenate([each.columns for each in members]))
+    observed = contest.space.of(readings)
+    gram = columns.T @ columns
+    sizes = np.linalg.solve(gram, columns.T @ observed)
+    degrees = len(readings) - 1
+    variance = float(np.sum((observed - columns @ sizes) ** 2)) / degrees
+    expected = 0.0
+    for number, each in enumerate(members):
+        own = slice(2 * number, 2 * number + 2)
+        before, left = np.linalg.inv(gram[own, own]), np.linalg.inv(gram)[own, own]
+        likelihood = sum(
+            weight
+            * np.exp(-0.5 * sizes[own] @ np.linalg.solve(size * before + left, sizes[own]) / variance)
+            / (1 + size)
+            for weight, size in ((share, worth * degrees) for worth, share in _WORTHS)
+        )
+        expected += each.family.price - 2 * np.log(likelihood)
+    assert SetCosts(contest).compute(members, contest.quiet) == pytest.approx(expected, rel=1e-6)
 
 
 def test_of_the_forms_of_an_effect_one_is_chosen() -> None:

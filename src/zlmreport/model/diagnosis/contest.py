@@ -237,10 +237,16 @@ class Contest(Likelihood):
         gained = self.compute_logarithm(left) - self.compute_logarithm(squares)
         return average_likelihoods(gained + ranks * np.log1p(priors) + costs, 0)
 
-    def weigh_block(self, explained: float, rank: int, square: float) -> float:
-        """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
+    def weigh_block(self, explained: FloatArray, shares: FloatArray, square: float) -> float:
+        """Return what a block costs, its coefficients averaged over.
+
+        `explained`, (k,): Square of each coefficient, beside the others of a set, in the variance
+            that it has there.
+        `shares`, (k,): Share of the information on each that these leave.
+        """
         priors, costs = self._list_priors(square)
-        return float(average_likelihoods(explained / (1.0 + priors) + rank * np.log1p(priors) + costs, 0))
+        sizes = (explained / (1.0 + np.outer(priors, shares))).sum(axis=1)
+        return float(average_likelihoods(sizes + len(explained) * np.log1p(priors) + costs, 0))
 
     def _list_priors(self, square: FloatArray | float) -> tuple[FloatArray, FloatArray]:
         """Return variances of effects before any reading, over σ², along a first axis, and what each costs.
