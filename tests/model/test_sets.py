@@ -279,35 +279,34 @@ def test_a_value_beyond_what_is_usual_costs_evidence_and_is_found_all_the_same()
     assert found.score > usual.score
 
 
-@pytest.mark.parametrize("step", [1, 20], ids=["nearly the same period", "another period"])
-def test_coefficients_cost_what_their_sizes_do_and_not_what_they_leave_of_each_other(step: int) -> None:
-    def pair(contest: Contest) -> list[SetMember]:
-        waves = next(each for each in contest.families if each.identifier == "wave-lever")
-        return [make_member(waves, number, 0.0) for number in (0, step)]
+@pytest.mark.parametrize("is_near", [True, False], ids=["much alike", "hardly alike"])
+def test_an_effect_may_be_ten_times_what_it_adds_to_others_and_a_larger_one_costs_its_size(
+    is_near: bool,
+) -> None:
+    def list_late(contest: Contest) -> list[SetMember]:
+        late = next(each for each in contest.families if each.identifier == "late-lever")
+        return [make_member(late, number, 0.0) for number in range(len(late.thetas))]
 
-    members = pair(empty := _contest(noise(DESIGN)))
-    columns = empty.columns.select_columns(np.concatenate([each.columns for each in members]))
-    readings = noise(DESIGN) + columns @ np.array([1e3, 2e3, -1e3, -2e3]) * SIGMA
-    contest = _contest(readings)
-    members = pair(contest)
-    columns = contest.columns.select_columns(np.concatenate([each.columns for each in members]))
-    observed = contest.space.of(readings)
-    gram = columns.T @ columns
-    sizes = np.linalg.solve(gram, columns.T @ observed)
-    degrees = len(readings) - 1
-    variance = float(np.sum((observed - columns @ sizes) ** 2)) / degrees
+    quiet = _contest(noise(DESIGN))
+    columns = quiet.columns.select_columns(np.concatenate([each.columns for each in list_late(quiet)]))
+    alike = np.abs(columns[:, 0] @ columns)
+    other = 1 + int(np.argmax(alike[1:]) if is_near else np.argmin(alike[1:]))
+    left = 1 - float(alike[other]) ** 2  # of the length of one beside the other, squared
+    assert (left < 0.01) is is_near
+    deviation = noise(DESIGN) + columns[:, [0, other]] @ [3e3, -3e3] * SIGMA
+    contest = _contest(deviation)
+    late, observed = list_late(contest), contest.space.of(deviation)
+    sizes, (rest,), *_ = np.linalg.lstsq(columns[:, [0, other]], observed, rcond=None)
+    degrees = len(observed) - 1
     expected = 0.0
-    for number, each in enumerate(members):
-        own = slice(2 * number, 2 * number + 2)
-        before, left = np.linalg.inv(gram[own, own]), np.linalg.inv(gram)[own, own]
-        likelihood = sum(
-            weight
-            * np.exp(-0.5 * sizes[own] @ np.linalg.solve(size * before + left, sizes[own]) / variance)
-            / (1 + size)
-            for weight, size in ((share, worth * degrees) for worth, share in _WORTHS)
-        )
+    for size, each in zip(sizes, (late[0], late[other]), strict=True):
+        adds = float(size) ** 2 * left / (rest / degrees)
+        prior = degrees * np.array([worth for worth, _ in _WORTHS])
+        odds = np.array([share for _, share in _WORTHS]) / np.sqrt(1 + prior)
+        likelihood = odds @ np.exp(-0.5 * adds / (1 + prior * min(100 * left, 1.0)))
         expected += each.family.price - 2 * np.log(likelihood)
-    assert SetCosts(contest).compute(members, contest.quiet) == pytest.approx(expected, rel=1e-6)
+    found = SetCosts(contest).compute([late[0], late[other]], contest.quiet)
+    assert found == pytest.approx(expected, rel=1e-6)
 
 
 def test_of_the_forms_of_an_effect_one_is_chosen() -> None:

@@ -136,6 +136,18 @@ def test_given_value_of_the_wrong_sign_is_said_before_any_cause() -> None:
     assert "fits, the job says 4.00 µm." in _said(found)
 
 
+def test_given_value_that_is_a_little_wrong_is_said_before_an_effect_that_is_like_it() -> None:
+    targets = np.array([0.0, 0.037, 0.081, 0.122, 0.160, 0.199])
+    design = linear_test(6, 3, places=targets)
+    readings = 5e-5 * design.position + 3e-6 * design.direction + noise(design, sigma=0.3e-6)
+    terms = model_of("offset", "backlash").terms
+    given = {"backlash": {"lost_motion": 5e-6}}
+    model = AxisModel(tuple(replace(each, fixed=given.get(each.effect.identifier, {})) for each in terms))
+    found = diagnosed(model, design, readings)
+    assert found.together == ()
+    assert "fits, the job says 5.00 µm." in _said(found)
+
+
 def test_given_value_is_not_blamed_for_an_effect_that_is_missing() -> None:
     readings = noise(_DESIGN) - 2e-6 * _DESIGN.direction + 4e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.01)
     found = diagnosed(_with_given_play(-4e-6), _DESIGN, readings)

@@ -143,6 +143,9 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         steps = (*rounds[-1].steps, *taken)
         may_go = frozenset(each.identifier for each in steps) - own
         diagnosis = diagnosing(extended, may_go, _tell_part(told, len(rounds)))
+        if diagnosis.verdict is not DiagnosisVerdict.MISSING:
+            # What is said in the end is what is said of the job as it is then written, where nothing may go.
+            diagnosis = diagnosing(extended, frozenset(), _tell_part(told, len(rounds)))
         # Readings that were set aside beside the lesser model may be none that stand off beside this one.
         steps = (*steps[:-1], replace(steps[-1], after=diagnosis.error))
         rounds.append(_Round(extended, steps, diagnosis))

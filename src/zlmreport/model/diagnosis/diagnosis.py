@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -11,8 +11,9 @@ import numpy as np
 from zlmreport.errors import count_in_words
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import IntArray
-from zlmreport.model.diagnosis.candidate import EffectCandidate, list_candidates, say_other_value
+from zlmreport.model.diagnosis.candidate import EffectCandidate, list_candidates
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
+from zlmreport.model.diagnosis.contradicted import list_contradicted
 from zlmreport.model.diagnosis.effects_to_try import NotTestable, list_effects_to_try
 from zlmreport.model.diagnosis.error_numbers import (
     LARGEST_RATIO,
@@ -27,7 +28,7 @@ from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagg
 from zlmreport.model.diagnosis.residuals import Failure, find_residuals_of
 from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.diagnosis.visibility import Visibility
-from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect, is_of_another_axis
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import Outliers, find_outliers
@@ -46,8 +47,6 @@ _FEWEST_DEGREES = 6
 _LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
-#: By how many of its own U the readings' value differs from the given one before they contradict it.
-_CONTRADICTS = 2.0
 
 
 class DiagnosisVerdict(StrEnum):
@@ -229,8 +228,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
     rivals = [complete] if together else []
     faults = find_faults_of(observed, fitted, rivals, asked.effects, changes=finding.changes)
     left = held.left
-    # Where an effect is named, it may be what pulls at the given value.
-    contradicted = _list_contradicted(fitted) if left is not None and not together else ()
+    contradicted = list_contradicted(complete, together) if together or left is not None else ()
     if contradicted or any(each.comes_first for each in faults):
         # No cause is sought before data and given values are right: what has no name may be the fault.
         together, candidates, complete, left = (), (), fitted, None
@@ -261,41 +259,6 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
         faults=faults,
         contradicted=contradicted,
     )
-
-
-def _list_contradicted(fitted: Fit) -> tuple[Words, ...]:
-    """Return of each value that is given, and that the readings contradict, what they say instead.
-
-    What a given value leaves has the shape of its own effect. That stands in the model already, so that no
-    contest names it: what is left would be taken for something unknown.
-    """
-    if not any(_list_given(term) for term in fitted.model.terms):
-        return ()
-    model = AxisModel(tuple(_free(term) for term in fitted.model.terms))
-    try:
-        freed = fit(model, fitted.design, fitted.deviation, fitted.assumptions)
-    except ModelError:  # it is given because the readings do not tell it from another
-        return ()
-    return tuple(_find_contradictions(fitted, freed))
-
-
-def _list_given(term: Term) -> set[str]:
-    """Return the parameters whose values are given, and not only held at a bound."""
-    return {each.name for each in term.parameters if each.name in term.fixed and not term.find_bound(each)}
-
-
-def _free(term: Term) -> Term:
-    given = _list_given(term)
-    return replace(term, fixed={name: value for name, value in term.fixed.items() if name not in given})
-
-
-def _find_contradictions(fitted: Fit, freed: Fit) -> Iterator[Words]:
-    said = {(each.effect, each.parameter.name): each for each in freed.estimates}
-    for term in fitted.model.terms:
-        for name in sorted(_list_given(term)):
-            stated, found = term.fixed[name], said[term.effect.identifier, name]
-            if abs(found.value - stated) > _CONTRADICTS * found.expanded_uncertainty:
-                yield say_other_value(found, stated, fitted.design)
 
 
 def _select_of_the_set(readings: IntArray) -> IntArray:
