@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from zlmreport.plugin import MILLIMETRE, REFERENCE_TEMPERATURE, InputError, Place
+from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.program import PartProgram
 from zlmreport.testing.expectations import check, expect, list_checks_of, run_all
 from zlmreport.testing.part_programs import (
@@ -152,9 +153,7 @@ def check_probing_program(
 
     Raises `AssertionError` with a line for every check that fails.
     """
-    keys = keys or {}
-    is_named(program, recogniser, keys)
-    run_all(PROBING_PROGRAM_CHECKS, program, recogniser, keys)
+    run_all(PART_PROGRAM, PROBING_PROGRAM_CHECKS, program, recogniser, keys or {})
 
 
 #: Where the kit asks for a program.
