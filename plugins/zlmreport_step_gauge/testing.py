@@ -183,10 +183,7 @@ def sample_path(
     whole = StepGauge(gauge, "", "", faces, None, None, REFERENCE_TEMPERATURE, _STEP, _STEP, PLACE)
     begin = (0.3, 0.04, 0.2)
     x, y, z = (at + 4 * _STEP * by for at, by in zip(begin, _DIRECTION, strict=True))
-    front, back = tuple(-each for each in _DIRECTION), _DIRECTION
-    location = GaugeLocation(
-        begin, (x, y, z), _DIRECTION, _UPWARD, (front[0], front[1], front[2]), back, 1e-5
-    )
+    location = GaugeLocation(begin, (x, y, z), _DIRECTION, _UPWARD, 1e-5)
     settings = PathSettings(
         kind=kind,
         clearance=5e-3,
