@@ -30,3 +30,18 @@ def test_what_a_model_cannot_carry_comes_out_of_another_process_as_it_went_in() 
 def test_a_standard_without_its_edition_is_answered_with_the_last_one() -> None:
     known = ["iso230-2:1997", "iso230-2:2014", "iso230-3", "nmtba"]
     assert did_you_mean("ISO230-2", known).startswith("did you mean 'iso230-2:2014'? (known: ")
+
+
+def test_names_that_are_known_are_listed_once_for_all_that_is_unknown_among_them() -> None:
+    known, others = ["axis", "kind"], ["date", "feed"]
+    unknown = [("axsi", known), ("feeed", others), ("kindd", known), ("datte", others)]
+    error = InputError(
+        Problem(Place("job.yaml", line), did_you_mean(name, among))
+        for line, (name, among) in enumerate(unknown, start=1)
+    )
+    assert [each.message for each in error.problems] == [
+        "did you mean 'axis'? (known: axis, kind)",
+        "did you mean 'feed'? (known: date, feed)",
+        "did you mean 'kind'?",
+        "did you mean 'date'?",
+    ]

@@ -24,7 +24,7 @@ from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.observations import make_observations_of
-from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.model.fitting.sessions import add_zeros, join_sessions
 from zlmreport.model.planning.deciding import find_question_of_tie
 from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest
@@ -95,7 +95,7 @@ def _followed(trial: Trial, advice: Experiment, plan: AxisPlan, expected: Design
     try:
         if plan.after:
             first = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
-            observed = hold_together(observed, [("the first", first)])
+            observed = join_sessions(observed, [("the first", first)])
         said = diagnose(add_zeros(trial.model, observed.design), observed, INSTALLED)
     except ModelError as error:
         return {"decision": "refused", "message": str(error)}

@@ -75,7 +75,4 @@ class GaugeLocation:
     direction: tuple[float, float, float]  #: Unit vector from C1 to C2.
     #: Unit vector out of the top of the blocks, at right angles to `direction`: the way over them.
     upward: tuple[float, float, float]
-    #: begin_normal and end_normal: Outward normals N1 and N2 of the faces that were probed, unit vectors.
-    begin_normal: tuple[float, float, float]
-    end_normal: tuple[float, float, float]
     direction_uncertainty: float  #: Standard uncertainty of the direction at right angles to it, rad.

@@ -120,8 +120,6 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
         end=_take_triple(squared.centre[1]),
         direction=_take_triple(direction),
         upward=_take_triple(upward / np.linalg.norm(upward)),
-        begin_normal=_take_triple(begin.normal),
-        end_normal=_take_triple(end.normal),
         direction_uncertainty=of_direction,
     )
     return Located(location, begin, end, taken, begin_misalignment, end_misalignment)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from zlmreport.plugin import MILLIMETRE, REFERENCE_TEMPERATURE, InputError, Place
+from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.program import PartProgram
 from zlmreport.testing.expectations import check, expect, list_checks_of, run_all
 from zlmreport.testing.part_programs import (
@@ -152,9 +153,7 @@ def check_probing_program(
 
     Raises `AssertionError` with a line for every check that fails.
     """
-    keys = keys or {}
-    is_named(program, recogniser, keys)
-    run_all(PROBING_PROGRAM_CHECKS, program, recogniser, keys)
+    run_all(PART_PROGRAM, PROBING_PROGRAM_CHECKS, program, recogniser, keys or {})
 
 
 #: Where the kit asks for a program.
@@ -184,10 +183,7 @@ def sample_path(
     whole = StepGauge(gauge, "", "", faces, None, None, REFERENCE_TEMPERATURE, _STEP, _STEP, PLACE)
     begin = (0.3, 0.04, 0.2)
     x, y, z = (at + 4 * _STEP * by for at, by in zip(begin, _DIRECTION, strict=True))
-    front, back = tuple(-each for each in _DIRECTION), _DIRECTION
-    location = GaugeLocation(
-        begin, (x, y, z), _DIRECTION, _UPWARD, (front[0], front[1], front[2]), back, 1e-5
-    )
+    location = GaugeLocation(begin, (x, y, z), _DIRECTION, _UPWARD, 1e-5)
     settings = PathSettings(
         kind=kind,
         clearance=5e-3,

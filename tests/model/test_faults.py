@@ -11,15 +11,15 @@ from model.axis_tests import INSTALLED, formula, hidden, linear_test, model_of, 
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
-    find_gaps,
     find_lagging_sensors,
+    find_pauses_between_runs,
     find_recorded_faults,
     run_faults,
 )
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import select_readings
-from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.model.fitting.sessions import add_zeros, join_sessions
 from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
 
@@ -245,7 +245,7 @@ def test_a_lagging_sensor_is_known_by_the_clock_of_each_session() -> None:
         design = replace(base, conditions={"axis_temperature": 293.15 + 3.0 * sign * course})
         deviation = 11e-6 * design.position * true + noise(design, seed=seed, sigma=1e-7)
         sessions.append(observations(design, deviation))
-    both = hold_together(sessions[0], [("second", sessions[1])])
+    both = join_sessions(sessions[0], [("second", sessions[1])])
     fitted = fit(add_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
     (found,) = find_lagging_sensors(fitted, [fitted], INSTALLED)
     assert found.kind is FaultKind.LAGGING_SENSOR
@@ -282,9 +282,9 @@ def test_targets_that_lie_micrometres_apart_are_not_taken_for_each_other() -> No
 
 def test_a_night_between_two_runs_parts_two_sessions() -> None:
     time = _DESIGN.time + 22 * 3600.0 * (_DESIGN.run > 3)
-    (said,) = find_gaps(replace(_DESIGN, time=time))
+    (said,) = find_pauses_between_runs(replace(_DESIGN, time=time))
     assert said.in_language(Language.ENGLISH).startswith("Between run 3 and run 4 lie 22 h")
-    assert not list(find_gaps(_DESIGN))
+    assert not list(find_pauses_between_runs(_DESIGN))
 
 
 def test_repeats_that_no_machine_has_are_asked_for_their_unit() -> None:

@@ -14,7 +14,7 @@ from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.fitting.observations import Observations, select_of_the_job
-from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.model.fitting.sessions import add_zeros, join_sessions
 from zlmreport.plugin import FloatArray, Language, same_in_all_languages as same
 from zlmreport.plugin.effect import Design
 
@@ -48,20 +48,20 @@ def test_two_temperatures_decide_what_one_leaves_open(hidden: str) -> None:
     cool, warm = _session(2.0, 1, hidden), _session(5.0, 2, hidden, zero=-7e-6)
     alone = _diagnosed(cool).candidates[0]
     assert {alone.identifier, *alone.equals} == {"scale-error", "scale-expansion"}
-    together = _diagnosed(hold_together(cool, [("warm.yaml", warm)])).candidates[0]
+    together = _diagnosed(join_sessions(cool, [("warm.yaml", warm)])).candidates[0]
     assert (together.identifier, together.equals) == (hidden, ())
     assert together.probability > 0.95  # odds of 20 to 1
 
 
 def test_two_tests_at_one_temperature_decide_nothing() -> None:
     cool, again = (_session(2.0, seed, "scale-expansion") for seed in (1, 2))
-    leading = _diagnosed(hold_together(cool, [("again.yaml", again)])).candidates[0]
+    leading = _diagnosed(join_sessions(cool, [("again.yaml", again)])).candidates[0]
     assert {leading.identifier, *leading.equals} == {"scale-error", "scale-expansion"}
 
 
 def test_the_fit_of_two_sessions_is_least_squares_on_their_readings_below_one_another() -> None:
     cool, warm = (_session(2.0, 1, "scale-expansion"), _session(5.0, 2, "scale-expansion", zero=-7e-6))
-    both = hold_together(cool, [("warm.yaml", warm)])
+    both = join_sessions(cool, [("warm.yaml", warm)])
     model = add_zeros(model_of("offset", "backlash", "scale-expansion"), both.design)
     fitted = fit(model, both.design, both.deviation)
     first, second = cool.design, warm.design
@@ -83,7 +83,7 @@ def test_the_fit_of_two_sessions_is_least_squares_on_their_readings_below_one_an
 
 def test_each_session_has_its_own_clock_drift_and_first_run_and_shares_its_targets() -> None:
     cool, warm = _session(2.0, 1, "scale-error"), _session(5.0, 1, "scale-error")
-    both = hold_together(cool, [("warm.yaml", warm)])
+    both = join_sessions(cool, [("warm.yaml", warm)])
     design, count = both.design, len(cool.deviation)
     assert design.time[count] == design.time[0] == 0.0
     assert sorted(set(design.cycle.tolist())) == [1, 2, 3, 4, 5, 6]
@@ -102,7 +102,7 @@ def test_each_session_has_its_own_clock_drift_and_first_run_and_shares_its_targe
 def test_a_log_that_one_session_lacks_is_left_out_and_said() -> None:
     cool, warm = _session(2.0, 1, "scale-error"), _session(5.0, 2, "scale-error")
     warm = replace(warm, design=replace(warm.design, conditions={}))
-    both = hold_together(cool, [("warm.yaml", warm)])
+    both = join_sessions(cool, [("warm.yaml", warm)])
     assert not both.design.conditions
     said = [each.in_language(Language.ENGLISH) for each in both.remarks]
     assert said[0].startswith("Session 2, warm.yaml: runs 4 to 6")
@@ -115,7 +115,7 @@ def test_a_remark_on_one_session_says_on_which_and_one_on_all_stands_once() -> N
         replace(each, remarks=(same("An overrun is taken."), same(f"A noise of {noise}.")))
         for each, noise in ((cool, 2), (warm, 3))
     )
-    said = [each.in_language(Language.ENGLISH) for each in hold_together(cool, [("w", warm)]).remarks]
+    said = [each.in_language(Language.ENGLISH) for each in join_sessions(cool, [("w", warm)]).remarks]
     assert said[:3] == ["An overrun is taken.", "Session 1: A noise of 2.", "Session 2: A noise of 3."]
 
 
@@ -123,4 +123,4 @@ def test_times_in_one_session_and_none_in_the_other_are_refused() -> None:
     cool, warm = _session(2.0, 1, "scale-error"), _session(5.0, 2, "scale-error")
     warm = replace(warm, design=replace(warm.design, time_is_counted=True))
     with pytest.raises(ModelError, match=r"warm\.yaml and the job must both have a time"):
-        hold_together(cool, [("warm.yaml", warm)])
+        join_sessions(cool, [("warm.yaml", warm)])

@@ -58,7 +58,7 @@ def location(begin: Point, direction: Point, upward: Point, length: float) -> Ga
     unit = np.array(direction) / np.linalg.norm(direction)
     x, y, z = (np.array(begin) + length * unit).tolist()
     i, j, k = unit.tolist()
-    return GaugeLocation(begin, (x, y, z), (i, j, k), upward, (-i, -j, -k), (i, j, k), 0.0)
+    return GaugeLocation(begin, (x, y, z), (i, j, k), upward, 0.0)
 
 
 def planned(

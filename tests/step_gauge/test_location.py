@@ -83,10 +83,10 @@ def test_the_direction_is_that_of_the_gauge_in_any_orientation(x: float, y: floa
     if length < 0.1 or abs(z) > 2 * length:  # upright gauges have no top that looks up
         return
     direction = np.array([x, y, z]) / np.linalg.norm([x, y, z])
-    found = located(points((x, y, z))).location
-    assert np.allclose(found.direction, direction, atol=1e-9)
-    assert np.allclose(found.begin_normal, -direction, atol=1e-9)
-    assert abs(np.dot(found.upward, direction)) < 1e-9
+    found = located(points((x, y, z)))
+    assert np.allclose(found.location.direction, direction, atol=1e-9)
+    assert np.allclose(found.begin.normal, -direction, atol=1e-9)
+    assert abs(np.dot(found.location.upward, direction)) < 1e-9
 
 
 def test_the_centre_lies_in_the_middle_of_the_block_whatever_the_radius() -> None:

@@ -83,8 +83,8 @@ SINS = [
     (renderers.is_named, {"identifier": "PDF!"}, "lower-case ASCII"),
     (renderers.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
     (renderers.is_named, {"suffix": "html"}, "must be like '.pdf'"),
-    (renderers.writes_every_block, {"render": lambda *_: "text"}, "must return the bytes of a file, not str"),
-    (renderers.writes_every_block, {"render": lambda *_: b""}, "must return the bytes of a file"),
+    (renderers.writes_every_block, {"render": lambda *_: "text"}, "bytes is expected"),
+    (renderers.writes_every_block, {"render": lambda *_: b""}, "an empty file"),
     (renderers.writes_every_block, {"render": german_only}, "English is not written"),
     (
         renderers.reads_no_clock,

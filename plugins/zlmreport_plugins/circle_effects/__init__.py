@@ -13,7 +13,15 @@ from zlmreport_plugins.circle_effects.drives import (
     ServoMismatch,
     Vibration,
 )
-from zlmreport_plugins.circle_effects.geometry import Bow, CyclicError, ScaleMismatch, Squareness
+from zlmreport_plugins.circle_effects.geometry import (
+    Bow,
+    CentreOffset,
+    CyclicError,
+    Radius,
+    RadiusDrift,
+    ScaleMismatch,
+    Squareness,
+)
 from zlmreport_plugins.circle_effects.reversals import (
     CircleBacklash,
     LateralPlay,
@@ -21,7 +29,6 @@ from zlmreport_plugins.circle_effects.reversals import (
     ReversalSpikes,
     StickSlip,
 )
-from zlmreport_plugins.circle_effects.set_up import CentreOffset, Radius, RadiusDrift
 
 
 @hookimpl

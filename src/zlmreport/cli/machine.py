@@ -15,7 +15,7 @@ from zlmreport.files import Document, write, write_new
 from zlmreport.language import Language
 from zlmreport.machines.comparison import compare_circles, compare_tests
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
-from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_table_documents, make_trial
+from zlmreport.machines.cross_making import CrossWanted, make_cross, make_table_documents, make_trial
 from zlmreport.machines.cross_report import (
     CONFIRMATION_SCHEMA,
     SCHEMA,
@@ -232,7 +232,7 @@ def compensate(
         control, table, files = make_trial(machine, registry, wanted)
         written = _write_tables(files, machine, options, "-trial")
         values = {"schema": SCHEMA, "controller": control.identifier, "trial": True}
-        return [lay_out_trial(table, PEAK, _SAY)], written, {**values, "files": list(map(str, written))}
+        return [lay_out_trial(table, _SAY)], written, {**values, "files": list(map(str, written))}
     made = make_cross(machine, registry, wanted)
     if options.confirm:
         found = confirm(machine, made, options.confirm, registry, _COMMAND)

@@ -63,8 +63,8 @@ def _make_draft(certificate: Certificate) -> Certificate:
 class Limits:
     """What a job may take: time, s, and memory for its data, MB."""
 
-    seconds: float = 600.0
-    megabytes: int = 2000
+    seconds: float
+    megabytes: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ class Task:
     folder: str  #: Where these are, relative to the folder of certificates.
     plugins: tuple[Path, ...]  #: Plugins in files of their own.
     programs: Mapping[str, str]  #: Versions of the program and of all plugins, as the night began with them.
-    limits: Limits = Limits()  #: What it may take.
+    limits: Limits  #: What it may take.
     #: What the certificate states that has this number, where nothing but programs changed since; else None.
     stated: tuple[RecordedParameter, ...] | None = None
     confine: Path | None = None  #: The folder outside of which nothing is read or written; None without one.

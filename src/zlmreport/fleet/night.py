@@ -45,8 +45,8 @@ from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, list_job_files
 from zlmreport.language import Words, same
 from zlmreport.plugin.protocols import Occasion
 
-#: A job may take so many times as long as it ever took.
-_TIMES_LONGEST = 10
+#: A job may take so long, s, or so many times as long as it ever took.
+_PATIENCE, _TIMES_LONGEST = 600.0, 10
 _UNTAUGHT = Words("what the tests teach was not written: {problem}")
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 
@@ -324,7 +324,7 @@ def _find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Ha
 
 def _make_task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
     issued, limits = planned.issued, known.fleet.keys.limits
-    patience = max(Limits().seconds, _TIMES_LONGEST * work.longest.get(planned.job, 0.0))
+    patience = max(_PATIENCE, _TIMES_LONGEST * work.longest.get(planned.job, 0.0))
     is_elsewhere = known.fleet.keys.executor.kind == "dask"  # other machines work in other folders
     return Task(
         fleet=known.fleet.path.absolute() if is_elsewhere else known.fleet.path,

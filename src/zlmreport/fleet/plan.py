@@ -22,7 +22,7 @@ from zlmreport.fleet.basis import (
 )
 from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
-from zlmreport.job.extends import compose
+from zlmreport.job.extends import read_composition
 from zlmreport.job.fleet import FleetFile, number_of
 from zlmreport.job.tree import find_at, walk_scalars
 
@@ -143,7 +143,7 @@ def digest_inputs(path: Path, evening: Evening) -> str:
     """
     digest = hashlib.sha256(repr((sorted(evening.now.programs.items()), evening.now.defaults)).encode())
     try:
-        composed = compose(path, defaults=evening.fleet.defaults)
+        composed = read_composition(path, defaults=evening.fleet.defaults)
     except ZlmreportError as error:
         digest.update(str(error).encode())
         return digest.hexdigest()

@@ -67,7 +67,7 @@ class Edit:
         it cannot be written.
         """
         place = Place(str(self.path))
-        rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
+        rewrite(self.path, self.content, lambda found: refuse_changed(found, self.digest, place))
 
 
 def read_named_effect(text: str, registry: Registry, place: Place) -> WrittenEffect:
@@ -182,11 +182,12 @@ def _edit_list(text: str, change: ListChange) -> str:
 def read_content_of(path: Path, job: Job) -> bytes:
     """Return what a job file holds; refuse one that is no longer what was loaded."""
     content = demand(path, LARGEST)
-    _refuse_changed(content, job.files[0].sha256, Place(str(path)))
+    refuse_changed(content, job.files[0].sha256, Place(str(path)))
     return content
 
 
-def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
+def refuse_changed(content: bytes, digest: str, place: Place) -> None:
+    """Refuse to write a file that no longer holds what was read."""
     if hashlib.sha256(content).hexdigest() != digest:
         raise InputError.at(
             place, "was changed by somebody else meanwhile, and was left as it is; give the command again"

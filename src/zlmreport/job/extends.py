@@ -94,7 +94,9 @@ class Composition:
     files: tuple[SourceFile, ...]
 
 
-def compose(path: Path, content: bytes | None = None, defaults: Defaults | None = None) -> Composition:
+def read_composition(
+    path: Path, content: bytes | None = None, defaults: Defaults | None = None
+) -> Composition:
     """Read a job file and every file that it extends.
 
     `defaults`: Keys that it builds on as if it extended a file of them.

@@ -16,7 +16,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.files import confine as confined, demand, say_outside
 from zlmreport.job.contradictions import find_problems_in_part, validate
-from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
+from zlmreport.job.extends import FLEET, Defaults, read_composition, refuse_other_format
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Scalar, find_key_place, place_of, walk
@@ -327,7 +327,7 @@ def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
 
     Raises `InputError` if the job is no YAML; `AccessError` if it, or a file that it extends, cannot be read.
     """
-    tree = compose(job, defaults=defaults).keys
+    tree = read_composition(job, defaults=defaults).keys
     found = list(walk(tree, ("certificate", "number")))
     _, place, value = found[-1] if found else ("", tree.place, None)
     return (value.text, place) if isinstance(value, Scalar) else ("", place)

@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
-from zlmreport.job.extends import FileFormat, compose, refuse_other_format
+from zlmreport.job.extends import FileFormat, read_composition, refuse_other_format
 from zlmreport.job.tree import Keys, place_of
 from zlmreport.measurement.provenance import SourceFile
 
@@ -53,7 +53,7 @@ def read_keys_file(path: Path, model: type[Model], file_format: FileFormat) -> K
     AccessError
         If it cannot be read.
     """
-    composition = compose(path)
+    composition = read_composition(path)
     refuse_other_format(composition.keys, file_format)
     problems: list[Problem] = []
     keys = validate(model, composition.keys, problems)

@@ -23,7 +23,7 @@ from zlmreport.job.choices import (
 from zlmreport.job.circle_keys import find_circle_contradictions, find_lack_of_circle
 from zlmreport.job.contradictions import find_all_contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys
-from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, compose, refuse_other_format
+from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, read_composition, refuse_other_format
 from zlmreport.job.implied_keys import (
     add_axis,
     add_shared_source,
@@ -86,7 +86,7 @@ def load(
     Raises `InputError` with every mistake, in the order of their places; `AccessError` if the job, or a file
     that it extends, cannot be read.
     """
-    composition = compose(path, content, defaults)
+    composition = read_composition(path, content, defaults)
     if MEASUREMENTS in composition.keys.entries:
         return _collect_jobs(composition, path, registry, formats)
     return _add_sessions(_check_job(composition, path.parent, registry, formats), path, registry)
@@ -101,7 +101,7 @@ def _collect_jobs(composition: Composition, path: Path, registry: Registry, form
     first: Keys | None = None
     for file, place in named:
         try:
-            own = compose(file)
+            own = read_composition(file)
             keys = make_part_of(own.keys, document, place)
             first = first or keys
             part = _check_job(replace(own, keys=keys), file.parent, registry, formats)
@@ -287,7 +287,7 @@ def _read_sessions(job: Job, path: Path, registry: Registry) -> tuple[Job, ...]:
         if stated.resolve() in named:
             raise InputError.at(place, "this test is in the model already; name each further test once")
         named.append(stated.resolve())
-        other = _check_job(compose(stated), stated.parent, registry)
+        other = _check_job(read_composition(stated), stated.parent, registry)
         same = _list_measured(other.axis) == _list_measured(job.axis)
         if not same or other.keys.machine.is_other_than(keys.machine):
             name, kind, what = _list_measured(other.axis)

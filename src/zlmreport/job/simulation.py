@@ -15,7 +15,7 @@ from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
 from zlmreport.job.effect_choices import EffectChoice, choose_effects_of
 from zlmreport.job.evaluation_keys import AxisModelKeys
-from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
+from zlmreport.job.extends import SIMULATION, read_composition, refuse_other_format
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, find_at, find_key_place, place_of
 from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text, optional
@@ -162,7 +162,7 @@ def load_simulation(path: Path, registry: Registry, content: bytes | None = None
     Raises `InputError` with every mistake, in the order of their places; `AccessError` if it, or a file that
     it names, cannot be read.
     """
-    composition = compose(path, content)
+    composition = read_composition(path, content)
     tree = composition.keys
     refuse_other_format(tree, SIMULATION)
     problems: list[Problem] = []

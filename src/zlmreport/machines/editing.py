@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
-from pathlib import Path
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import demand, rewrite
 from zlmreport.job.contradictions import validate
+from zlmreport.job.edit import refuse_changed
 from zlmreport.job.extents import Written
 from zlmreport.job.list_edits import ListKey, UneditableError, add_item, add_list, drop_item, find_own_list
 from zlmreport.job.parse import LARGEST, decode, parse
@@ -59,7 +58,8 @@ def put_back(machine: MachineFile, content: bytes) -> None:
 
     Raises as `edit_effects`.
     """
-    rewrite(machine.path, content, lambda latest: _refuse_changed(machine.path, latest, machine))
+    place = Place(str(machine.path))
+    rewrite(machine.path, content, lambda latest: refuse_changed(latest, machine.file.file.sha256, place))
 
 
 def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
@@ -69,8 +69,9 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
     changing more; `AccessError` if it cannot be written.
     """
     path, before = machine.path, machine.file.keys.model.effects
+    digest, whole = machine.file.file.sha256, Place(str(path))
     content = demand(path, LARGEST)
-    _refuse_changed(path, content, machine)
+    refuse_changed(content, digest, whole)
     text = decode(content, str(path))
     place = machine.file.place_of("model", "effects")
     try:
@@ -83,7 +84,7 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
         raise InputError.at(
             place, f"cannot be changed here without changing more; write it by hand: effects: [{written}]"
         )
-    rewrite(path, edited.encode(), lambda latest: _refuse_changed(path, latest, machine))
+    rewrite(path, edited.encode(), lambda latest: refuse_changed(latest, digest, whole))
 
 
 def _edit_text(text: str, before: Sequence[str], effects: tuple[str, ...], place: Place) -> str:
@@ -94,11 +95,3 @@ def _edit_text(text: str, before: Sequence[str], effects: tuple[str, ...], place
     for index in sorted((i for i, each in enumerate(before) if each not in effects), reverse=True):
         text = drop_item(text, _EFFECTS, index)
     return text
-
-
-def _refuse_changed(path: Path, content: bytes, machine: MachineFile) -> None:
-    if hashlib.sha256(content).hexdigest() != machine.file.file.sha256:
-        raise InputError.at(
-            Place(str(path)),
-            "was changed by somebody else meanwhile, and was left as it is; give the command again",
-        )

@@ -69,7 +69,7 @@ def compute_left_beside(columns: FloatArray, values: FloatArray) -> FloatArray:
     return np.asarray(values - scaled @ np.linalg.lstsq(scaled, values, rcond=None)[0], dtype=np.float64)
 
 
-def make_orthonormal(columns: FloatArray, dependent: float) -> FloatArray:
+def make_orthonormal_basis(columns: FloatArray, dependent: float) -> FloatArray:
     """Return orthonormal columns of the same span, (N, r), of columns of any lengths, (N, q).
 
     `dependent`: Singular value over the largest, up to which a combination of columns is no further one.

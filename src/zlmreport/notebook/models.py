@@ -33,7 +33,7 @@ from zlmreport.model.diagnosis.report import (
 )
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, choose_terms
-from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.model.effects.effect import find_unit_on
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError
@@ -350,9 +350,7 @@ class Model:
         return [
             (
                 columns.index(own),
-                find_unit_of(
-                    own[1].dimension, design.axis.kind, time_is_counted=design.time_is_counted
-                ).per_si,
+                find_unit_on(design, own[1].dimension).per_si,
             )
             for each in self.fit.estimates
             if (own := (each.effect, each.parameter)) in columns

@@ -6,7 +6,7 @@ from zlmreport.document.typesetting.compose import (
     GRAPH_ADDRESS,
     LOGO_ADDRESS,
     Setting as HtmlSetting,
-    compose as compose_html,
+    compose_html,
 )
 
 __all__ = [

@@ -14,8 +14,15 @@ from zlmreport.evaluation.statistics import PositionStatistics, join_statistics,
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.plugin.kinds import STANDARD
 from zlmreport.plugin.protocols import Standard
-from zlmreport.testing.expectations import check, expect, is_same_value, list_checks_of
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    guard_subject,
+    is_same_value,
+    list_checks_of,
+)
 from zlmreport.testing.measurements import is_of_circles, names_of_lines
 
 _POSITIONS, _RUNS = 7, 5
@@ -34,25 +41,8 @@ _RELATIVE, _ABSOLUTE = 1e-9, 1e-9 * _SPREAD
 @check
 def gives_every_quantity(standard: Standard, options: Options, *_: Any) -> None:
     """Check that there is one value for each parameter, and one at each position for each own column."""
-    arithmetic = _find_arithmetic(standard, options, _sample_readings(3))
-    for owner, given, declared, shape in (
-        ("quantities", arithmetic.parameters, standard.quantities, (3,)),
-        ("position_quantities", arithmetic.positions, standard.position_quantities, (3, _POSITIONS)),
-    ):
-        symbols = {quantity.symbol for quantity in declared}
-        missing, unknown = sorted(symbols - given.keys()), sorted(given.keys() - symbols)
-        expect(not missing, f"{standard.identifier}: arithmetic gives no {', '.join(missing)} of its {owner}")
-        expect(not unknown, f"{standard.identifier}: arithmetic gives {', '.join(unknown)}, not in {owner}")
-        for symbol, value in given.items():
-            expect(
-                np.asarray(value).dtype.kind in "iuf",
-                f"{standard.identifier}: {symbol} is {np.asarray(value).dtype}, and no real number",
-            )
-            expect(
-                np.shape(value) == shape,
-                f"{standard.identifier}: {symbol} of a stack of 3 tests at {_POSITIONS} positions has shape "
-                f"{np.shape(value)}; expected {shape}",
-            )
+    statistics = _make_statistics(standard, _sample_readings(3))
+    guard_subject(standard, STANDARD).arithmetic(statistics, options)
 
 
 @check

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import replace
-from math import isfinite
 from typing import Any
 
 import numpy as np
 
-from zlmreport.errors import count_in_words
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.effects.circle_design import CircleDesign, CircleTest, find_axes_of
@@ -24,7 +22,15 @@ from zlmreport.model.effects.circle_effect import (
     SearchedParameter,
 )
 from zlmreport.plugin.kinds import CIRCLE_EFFECT
-from zlmreport.testing.expectations import check, expect, expect_named, expect_words, list_checks_of, run_all
+from zlmreport.testing.expectations import (
+    check,
+    expect,
+    expect_named,
+    expect_words,
+    guard_subject,
+    list_checks_of,
+    run_all,
+)
 
 #: m: what no effect of a usual size makes of a radius; micrometres given as metres do.
 _NO_DEVIATION = 0.01
@@ -107,20 +113,15 @@ def has_columns(effect: CircleEffect, designs: Designs) -> None:
     for name, design in designs.items():
         for searched in _make_grid(effect, design):
             where = f"{effect.identifier} on {name}, searched {searched}"
-            terms = effect.terms(design, searched)
+            terms = guard_subject(effect, CIRCLE_EFFECT).terms(design, searched)
             expect(terms, f"{where}: has no terms; an effect has a size at least")
             twice = [each for each, times in Counter(term.name for term in terms).items() if times > 1]
             expect(not twice, f"{where}: two terms are called {twice[:1]}")
             for term in terms:
-                _expect_term(term, design, f"{where}: {term.name}")
+                _expect_term(term, f"{where}: {term.name}")
 
 
-def _expect_term(term: CircleTerm, design: CircleDesign, where: str) -> None:
-    expect(isinstance(term, CircleTerm), f"{where} must be a CircleTerm")
-    expect(
-        np.shape(term.column) == (design.count,) and np.isfinite(term.column).all(),
-        f"{where}: column must be {design.count} finite numbers",
-    )
+def _expect_term(term: CircleTerm, where: str) -> None:
     if term.title is not None:
         expect_words(term.title, f"{where}: title")
     expect(term.low < term.high, f"{where}: low must be below high")
@@ -214,14 +215,8 @@ def says_what_it_found(effect: CircleEffect, designs: Designs) -> None:
                     expect_words(sentence, f"{effect.identifier}: what it says")
 
 
-def _make_grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
-    grid = [tuple(each) for each in effect.grid(design)]
-    for each in grid:
-        expect(
-            len(each) == len(effect.searched) and all(map(isfinite, each)),
-            f"{effect.identifier}: a row of its grid has {count_in_words(len(each), 'value')} for "
-            f"{count_in_words(len(effect.searched), 'searched parameter')}",
-        )
+def _make_grid(effect: CircleEffect, design: CircleDesign) -> tuple[Searched, ...]:
+    grid: tuple[Searched, ...] = guard_subject(effect, CIRCLE_EFFECT).grid(design)
     return grid
 
 
@@ -230,4 +225,4 @@ CIRCLE_EFFECT_CHECKS = list_checks_of(__name__)
 
 def check_circle_effect(effect: CircleEffect) -> None:
     """Run every check on an effect of circles; raise one `AssertionError` with all that fails."""
-    run_all(CIRCLE_EFFECT_CHECKS, effect, make_circle_designs())
+    run_all(CIRCLE_EFFECT, CIRCLE_EFFECT_CHECKS, effect, make_circle_designs())

@@ -16,7 +16,7 @@ from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.planning.circle_path import CirclePath, list_planned_turns
 from zlmreport.plugin.kinds import PART_PROGRAM
 from zlmreport.plugin.protocols import PartProgram, find_circle_writer
-from zlmreport.testing.expectations import check, expect, expect_members, list_checks_of, run_all
+from zlmreport.testing.expectations import check, expect, list_checks_of, run_all
 from zlmreport.testing.part_programs import HOSTILE, NUMBER, PLACE, expect_plain_text
 
 #: Digits that every control takes, mm, and what a circle may miss by them.
@@ -178,6 +178,5 @@ def check_circle_program(
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(program, PART_PROGRAM)
     expect(find_circle_writer(program), f"{program.identifier}: has no write_circle")
-    run_all(CIRCLE_PROGRAM_CHECKS, program, interpreter, keys or {})
+    run_all(PART_PROGRAM, CIRCLE_PROGRAM_CHECKS, program, interpreter, keys or {})

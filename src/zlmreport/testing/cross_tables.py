@@ -12,7 +12,8 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.compensation.curve import CrossTable
-from zlmreport.testing.expectations import expect, expect_words
+from zlmreport.plugin.kinds import CONTROLLER
+from zlmreport.testing.expectations import expect, expect_words, guard_subject
 
 #: Of a deviation, what rounding in a file may take, m.
 _ROUNDING = 0.06e-6
@@ -96,12 +97,9 @@ def check_cross_files(controller: Any, example: CrossExample | None) -> None:
 
 
 def _write_files(controller: Any, tables: Sequence[CrossTable], moves: int, where: str) -> Mapping[str, str]:
-    files: Mapping[str, str] = controller.cross_files(tables, moves)
-    expect(
-        isinstance(files, Mapping)
-        and all(isinstance(text, str) and text.isascii() for text in files.values()),
-        f"{where}: cross_files must return texts in plain ASCII by the ends of their names, not {files!r}",
-    )
+    files: Mapping[str, str] = guard_subject(controller, CONTROLLER).cross_files(tables, moves)
+    is_ascii = all(text.isascii() for text in files.values())
+    expect(is_ascii, f"{where}: cross_files must return texts in plain ASCII, not {files!r}")
     expect(files, f"{where}: of tables with slopes nothing is written")
     return files
 

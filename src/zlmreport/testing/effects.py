@@ -25,9 +25,10 @@ from zlmreport.testing.expectations import (
     check,
     expect,
     expect_identifier,
-    expect_members,
+    expect_named,
     expect_options,
     expect_words,
+    guard_subject,
     is_same_value,
     list_checks_of,
     run_all,
@@ -50,16 +51,9 @@ _FOLLOWED = {
 
 
 @check
-def is_complete(effect: Effect, *_more: Any) -> None:
-    """Check that nothing is missing that an `Effect` has."""
-    expect_members(effect, EFFECT)
-
-
-@check
 def is_described(effect: Effect, *_more: Any) -> None:
     """Check that it has a name that can be typed, and says in every language what it is and looks like."""
-    expect_identifier(effect.identifier, repr(effect))
-    expect_words(effect.title, f"{effect.identifier}: title")
+    expect_named(effect, EFFECT)
     expect(write_plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
     expect(isinstance(effect.shape, Shape), f"{effect.identifier}: shape must be a Shape")
     expect_words(effect.look, f"{effect.identifier}: look")
@@ -267,30 +261,21 @@ def grid_stays_in_range(effect: Effect, designs: Designs, *_more: Any) -> None:
 @check
 def grid_is_one(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the grid has a finite row for each start, and a column for each searched parameter."""
-    for form, kind, design in _list_tested(effect, designs):
-        grid = form.grid(design)
-        where = f"{effect.identifier}: grid on {kind}"
-        wanted = len(form.searched)
-        expect(
-            grid.ndim == 2 and grid.shape[0] >= 1 and grid.shape[1] == wanted,
-            f"{where} has shape {grid.shape}; expected (1 or more, {wanted})",
-        )
-        expect(np.all(np.isfinite(grid)), f"{where} must be finite")
+    for form, _, design in _list_tested(effect, designs):
+        guard_subject(form, EFFECT).grid(design)
 
 
 @check
 def columns_are_readings_by_parameters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check the columns' shape, that they are finite, and that the same question has the same answer."""
     for form, kind, design in _list_tested(effect, designs):
+        guarded = guard_subject(form, EFFECT)
         for theta in _select_some(form.grid(design)):
-            where = f"{effect.identifier}: columns on {kind} for θ = {theta}"
-            columns = form.columns(design, theta)
-            wanted = (len(design.position), len(form.linear))
-            expect(columns.shape == wanted, f"{where} have shape {columns.shape}; expected {wanted}")
-            expect(columns.dtype == np.float64, f"{where} must be doubles, not {columns.dtype}")
-            expect(np.all(np.isfinite(columns)), f"{where} must be finite")
-            again = form.columns(design, theta)
-            expect(is_same_value(columns, again), f"{where}: the second answer differs from the first")
+            expect(
+                is_same_value(guarded.columns(design, theta), guarded.columns(design, theta)),
+                f"{effect.identifier}: columns on {kind} for θ = {theta}: the second answer differs from the "
+                "first",
+            )
 
 
 @check
@@ -388,12 +373,8 @@ def formula_determines_its_parameters(effect: Effect, *_more: Any) -> None:
 @check
 def expected_values_are_of_parameters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that values which follow from the axis are finite, and those of its parameters."""
-    for kind, design in designs.items():
-        names = {parameter.name for parameter in (*effect.linear, *effect.searched)}
-        for name, value in effect.expected(design.axis).items():
-            where = f"{effect.identifier}: expected on {kind}: {name!r}"
-            expect(name in names, f"{where} is none of its parameters ({', '.join(sorted(names))})")
-            expect(np.isfinite(value), f"{where} must be finite, not {value}")
+    for design in designs.values():
+        guard_subject(effect, EFFECT).expected(design.axis)
 
 
 def _expect_parameter(parameter: Parameter, where: str) -> None:
@@ -447,5 +428,4 @@ def check_effect(effect: Effect, designs: Designs | None = None, *, beside: Iter
         With a line for every check that fails.
     """
     tried = {**full_designs(), **(designs or {})}
-    is_complete(effect, tried)
-    run_all(EFFECT_CHECKS, effect, tried, tuple(beside))
+    run_all(EFFECT, EFFECT_CHECKS, effect, tried, tuple(beside))

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.errors import ZlmreportError
+from zlmreport.errors import PluginError, ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
-from zlmreport.plugin.boundary import tell_failure
+from zlmreport.plugin.boundary import Guarded, tell_failure
 from zlmreport.plugin.kinds import Kind
 
 #: How long a check may take, s: on a busy computer a renderer of pages needs some of them.
@@ -56,8 +56,13 @@ def check(body: Callable[..., None]) -> Callable[..., None]:
         for error in raised:
             if isinstance(error, AssertionError):
                 raise error
-            sentence = str(error) if isinstance(error, ZlmreportError) else tell_failure(error, subject[0])
-            raise AssertionError(f"{name}: {sentence}") from error
+            if isinstance(error, PluginError):
+                sentence = error.problems[0].message  # it names the plugin
+            elif isinstance(error, ZlmreportError):
+                sentence = f"{name}: {error}"
+            else:
+                sentence = f"{name}: {tell_failure(error, subject[0])}"
+            raise AssertionError(sentence) from error
 
     _MADE_IN.setdefault(body.__module__, []).append(checked)
     return checked
@@ -68,8 +73,20 @@ def list_checks_of(module: str) -> tuple[Callable[..., None], ...]:
     return tuple(_MADE_IN[module])
 
 
-def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
-    """Run every check on the subject; raise one `AssertionError` with the sentences of all that fail."""
+@check
+def expect_members(offered: object, kind: Kind[Any]) -> None:
+    """Expect that an object has every member that is asked of its kind."""
+    missing = [name for name in kind.members if not hasattr(offered, name)]
+    where = f"zlmreport.plugin.{kind.door}.{kind.interface}"
+    expect(not missing, f"{offered!r} has no {', '.join(missing)} (see {where})")
+
+
+def run_all(kind: Kind[Any], checks: Iterable[Callable[..., None]], *subject: object) -> None:
+    """Run every check on the subject; raise one `AssertionError` with the sentences of all that fail.
+
+    Where a member that its kind has is missing, that alone is said.
+    """
+    expect_members(subject[0], kind)
     failures = []
     for check in checks:
         try:
@@ -79,12 +96,9 @@ def run_all(checks: Iterable[Callable[..., None]], *subject: object) -> None:
     expect(not failures, "\n".join(failures))
 
 
-@check
-def expect_members(offered: object, kind: Kind[Any]) -> None:
-    """Expect that an object has every member that is asked of its kind."""
-    missing = [name for name in kind.members if not hasattr(offered, name)]
-    where = f"zlmreport.plugin.{kind.door}.{kind.interface}"
-    expect(not missing, f"{offered!r} has no {', '.join(missing)} (see {where})")
+def guard_subject(subject: Any, kind: Kind[Any]) -> Any:
+    """Return it as the program has it: an answer that it must not give fails in the same words."""
+    return Guarded(kind, subject, subject.identifier)
 
 
 def expect_identifier(identifier: object, owner: str) -> None:

@@ -71,4 +71,4 @@ EXTENSION_CHECKS = list_checks_of(__name__)
 
 def check_extension(extension: Extension) -> None:
     """Run every check on an extension; raise `AssertionError` with a line for every check that fails."""
-    run_all(EXTENSION_CHECKS, extension)
+    run_all(EXTENSION, EXTENSION_CHECKS, extension)

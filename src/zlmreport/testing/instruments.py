@@ -25,7 +25,6 @@ from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_members,
     expect_named,
     expect_options,
     list_checks_of,
@@ -399,5 +398,4 @@ def check_instrument(instrument: Instrument, *, traits: InstrumentTraits | None 
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(instrument, INSTRUMENT)
-    run_all(INSTRUMENT_CHECKS, instrument, traits)
+    run_all(INSTRUMENT, INSTRUMENT_CHECKS, instrument, traits)

@@ -12,9 +12,9 @@ from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_members,
     expect_named,
     expect_options,
+    guard_subject,
     list_checks_of,
     run_all,
 )
@@ -76,11 +76,8 @@ def options_are_described(notifier: Notifier, _trial: NotifierTrial) -> None:
 @check
 def names_who_is_told(notifier: Notifier, trial: NotifierTrial) -> None:
     """Check that the receiver is one line, always the same, and no secret."""
-    named = [notifier.receiver(_make_options(notifier, trial.keys)) for _ in range(2)]
-    expect(
-        isinstance(named[0], str) and named[0].strip() and len(named[0].splitlines()) == 1,
-        f"{notifier.identifier}: receiver must return a text of one line, not {named[0]!r}",
-    )
+    guarded = guard_subject(notifier, NOTIFIER)
+    named = [guarded.receiver(_make_options(notifier, trial.keys)) for _ in range(2)]
     expect(named[0] == named[1], f"{notifier.identifier}: receiver gives another name each time: {named}")
     _check_shows_no_secret(notifier, named[0], trial)
 
@@ -150,5 +147,4 @@ NOTIFIER_CHECKS = list_checks_of(__name__)
 
 def check_notifier(notifier: Notifier, trial: NotifierTrial) -> None:
     """Run every check on a notifier; raise `AssertionError` with a line for every check that fails."""
-    expect_members(notifier, NOTIFIER)
-    run_all(NOTIFIER_CHECKS, notifier, trial)
+    run_all(NOTIFIER, NOTIFIER_CHECKS, notifier, trial)

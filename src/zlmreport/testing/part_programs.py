@@ -21,7 +21,6 @@ from zlmreport.plugin.protocols import PartProgram
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_members,
     expect_named,
     expect_options,
     list_checks_of,
@@ -282,5 +281,4 @@ def check_part_program(
         With a line for every check that fails.
     """
     keys = keys or {}
-    expect_members(program, PART_PROGRAM)
-    run_all(PART_PROGRAM_CHECKS, program, interpreter, keys)
+    run_all(PART_PROGRAM, PART_PROGRAM_CHECKS, program, interpreter, keys)

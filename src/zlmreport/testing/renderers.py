@@ -31,8 +31,8 @@ from zlmreport.testing.certificates import (
 from zlmreport.testing.expectations import (
     check,
     expect,
-    expect_members,
     expect_named,
+    guard_subject,
     list_checks_of,
     run_all,
 )
@@ -54,11 +54,7 @@ def is_named(renderer: Renderer, _read: Reader | None = None) -> None:
 def writes_every_block(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that a certificate with one of everything becomes a file, in every language."""
     for language in Language:
-        content = renderer.render(sample_certificate(language))
-        expect(
-            isinstance(content, bytes) and content,
-            f"{renderer.identifier}: render must return the bytes of a file, not {type(content).__name__}",
-        )
+        guard_subject(renderer, RENDERER).render(sample_certificate(language))
 
 
 @check
@@ -302,5 +298,4 @@ def check_renderer(renderer: Renderer, read: Reader | None = None) -> None:
     AssertionError
         With a line for every check that fails.
     """
-    expect_members(renderer, RENDERER)
-    run_all(RENDERER_CHECKS, renderer, read)
+    run_all(RENDERER, RENDERER_CHECKS, renderer, read)

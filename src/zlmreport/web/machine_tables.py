@@ -13,7 +13,6 @@ from zlmreport.files import Document, write_new
 from zlmreport.language import Language
 from zlmreport.machines.cross_confirmation import confirm
 from zlmreport.machines.cross_making import (
-    PEAK,
     CrossWanted,
     list_cross_controls,
     make_cross,
@@ -82,7 +81,7 @@ def make_tables(
     folder = bench.path.resolve().parent
     if wanted.action == "trial":
         _, table, files = make_trial(machine, registry, asked)
-        sections = [lay_out_trial(table, PEAK, say)]
+        sections = [lay_out_trial(table, say)]
         documents = make_table_documents(files, folder, f"{machine.number}-trial")
     else:
         made = make_cross(machine, registry, asked)

@@ -10,7 +10,8 @@ from fontTools.ttLib import TTFont, woff2
 from jinja2 import TemplateNotFound
 from jinja2.exceptions import SecurityError, UndefinedError
 
-from zlmreport.document.typesetting.resources import FAMILY, FontFace, find_page_file, read_page_files
+from zlmreport.document.figures.canvas import FAMILY
+from zlmreport.document.typesetting.resources import FontFace, find_page_file, read_page_files
 from zlmreport.document.typesetting.templates import make_environment
 from zlmreport.plugin.page import FONT_FACES, font_face_rules, font_file, style_sheet
 

@@ -16,7 +16,8 @@ Colour: TypeAlias = tuple[float, float, float]
 #: the coordinates x, y, x, y, …
 Segment: TypeAlias = tuple[str, tuple[float, ...]]
 
-_FONT = "'IBM Plex Sans', sans-serif"
+#: The family of the bundled typeface, as style sheets know it.
+FAMILY = "IBM Plex Sans"
 
 
 class TypeFace(Enum):
@@ -143,7 +144,8 @@ class SvgCanvas:
         size = f'width="{_number(width)}pt" height="{_number(height)}pt"'
         view = f'viewBox="0 0 {_number(width)} {_number(height)}"'
         role = f'role="img" aria-label="{escape(title)}"'
-        self._parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} {role} font-family="{_FONT}">']
+        font = f"font-family=\"'{FAMILY}', sans-serif\""
+        self._parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} {role} {font}>']
 
     def outline(
         self, kind: str, segments: Sequence[Segment], stroke: Stroke | None, fill: Fill | None

@@ -15,7 +15,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
-from zlmreport.measurement.units import write_behind
+from zlmreport.measurement.units import SECONDS_PER_MINUTE, write_behind
 from zlmreport.model.diagnosis.candidate import EffectCandidate
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.design import Design
@@ -23,7 +23,6 @@ from zlmreport.model.effects.effect import Dimension, find_unit_of
 
 #: Groups of readings that follow one another, through whose means a curve leads.
 _GROUPS = 12
-_MINUTE = 60.0
 _LONG = 600.0
 
 _AGAINST_MODEL = Words(
@@ -101,8 +100,9 @@ def choose_time(design: Design) -> tuple[FloatArray, tuple[Words, Words], str]:
     """Return when each reading was taken, what that is called alone and in a sentence, and its unit."""
     if design.time_is_counted:
         return 1.0 + design.time, _COUNTED, ""
-    in_minutes = design.duration > _LONG
-    return design.time / _MINUTE if in_minutes else design.time, _TIME, "min" if in_minutes else "s"
+    if design.duration > _LONG:
+        return design.time / SECONDS_PER_MINUTE, _TIME, "min"
+    return design.time, _TIME, "s"
 
 
 def draw_slopes_over_time(diagram: ModelDiagram) -> Figure:

@@ -28,7 +28,7 @@ from zlmreport.model.compensation.basis import find_too_fine, find_waves_of
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Wave, list_one_way, list_waves, list_what_moves_with_time
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, find_unit_of
+from zlmreport.model.effects.effect import Dimension, find_unit_on
 from zlmreport.model.fitting.estimate import ParameterEstimate, Plausibility
 from zlmreport.model.fitting.fit import Fit
 
@@ -106,8 +106,8 @@ class ParameterRow:
     @classmethod
     def of(cls, estimate: ParameterEstimate, design: Design, language: Language) -> ParameterRow:
         """Return an estimated parameter."""
-        own, is_counted = estimate.parameter, design.time_is_counted
-        unit = find_unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)
+        own = estimate.parameter
+        unit = find_unit_on(design, own.dimension)
         value, half, number = _round_with_uncertainty(
             estimate.value, estimate.expanded_uncertainty, unit, language
         )
@@ -125,13 +125,13 @@ class ParameterRow:
             value,
             half,
             _READINGS.in_language(language)
-            if is_counted and own.dimension is Dimension.TIME
+            if design.time_is_counted and own.dimension is Dimension.TIME
             else unit.symbol,
             number,
             estimate.is_given,
             estimate.at_bound,
             estimate.is_scanned and not estimate.is_given,
-            estimate.plausibility(time_is_counted=is_counted),
+            estimate.plausibility(time_is_counted=design.time_is_counted),
             "" if expected is None else write_general_number(unit.from_si(expected), language.decimal_sign),
         )
 

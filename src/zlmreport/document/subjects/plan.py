@@ -32,7 +32,7 @@ from zlmreport.language.formatting import (
 from zlmreport.language.numbers import write_significant
 from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import MILLIMETRE, with_unit, write_behind
+from zlmreport.measurement.units import MILLIMETRE, SECONDS_PER_MINUTE, with_unit, write_behind
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Shape, find_unit_of
 from zlmreport.model.planning.circle_path import SENSES, CirclePath
@@ -42,7 +42,6 @@ from zlmreport.model.planning.planned_test import PlannedTest
 from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.model.planning.visibility import Remedy, SeenEffect, Sight
 
-_MINUTE = 60.0
 _MOST_STRETCHES = 6
 _COUNT = Words("{targets}, {readings}")
 _COUNTED_TARGETS = Words("{number} target", plural="{number} targets")
@@ -148,7 +147,7 @@ class _Plan(LanguageWriter):
         yield Paragraph(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
         motion = _MOTION.given(
             overrun=position_in_words(self.axis, plan.overrun),
-            feed=self.write_stated(unit.from_si(plan.feed) * _MINUTE),
+            feed=self.write_stated(unit.from_si(plan.feed) * SECONDS_PER_MINUTE),
             unit=unit.symbol,
             is_feed=self.say_assumed("measurement.feed"),
             dwell=self.write_stated(plan.dwell),
@@ -156,7 +155,7 @@ class _Plan(LanguageWriter):
         )
         yield Paragraph(self.say(motion))
         way = with_unit(self.say(write_significant(unit.from_si(planned.travelled))), unit.symbol)
-        minutes = max(1, round(planned.duration / _MINUTE))
+        minutes = max(1, round(planned.duration / SECONDS_PER_MINUTE))
         yield Paragraph(self.say(_TRAVELLED.given(way=way, minutes=minutes)))
         if self.axis.travel is not None and planned.beyond_travel is not None:
             names = ("low", "high", "first", "last")
@@ -343,7 +342,12 @@ def _lay_out_feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[
     rows = tuple(
         tuple(
             write_general_number(float(f"{value:.{_DIGITS}g}"), sign)
-            for value in (path.feed, _compute_time_of_turn(path), path.duration / _MINUTE, path.acceleration)
+            for value in (
+                path.feed,
+                _compute_time_of_turn(path),
+                path.duration / SECONDS_PER_MINUTE,
+                path.acceleration,
+            )
         )
         for path in paths
     )
@@ -354,7 +358,7 @@ def _lay_out_feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[
 def _compute_time_of_turn(path: CirclePath) -> float:
     """Return the time of what is evaluated of a turn, s."""
     turn = path.turns[0]
-    return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * _MINUTE
+    return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * SECONDS_PER_MINUTE
 
 
 def collect_circle_plan(job: Job, paths: Sequence[CirclePath], written: Sequence[Path]) -> dict[str, Any]:

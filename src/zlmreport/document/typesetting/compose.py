@@ -82,7 +82,7 @@ class Setting:
     is_for_screens: bool = False
 
 
-def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
+def compose_html(certificate: Certificate, setting: Setting = Setting()) -> str:
     """Set a certificate; the result starts with a document type and parses as XML."""
     own = certificate.look.templates
     cover, *sections = (

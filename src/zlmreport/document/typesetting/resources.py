@@ -20,13 +20,11 @@ from markupsafe import Markup
 
 from zlmreport.document.certificate.document import Linked, Look
 from zlmreport.document.certificate.own_look import STYLE_SHEET
+from zlmreport.document.figures.canvas import FAMILY
 from zlmreport.job.document_keys import ACCENT
 
 #: The package whose templates, styles and scripts are used, and no others.
 PACKAGE = "zlmreport_templates"
-
-#: The family under which the faces are known to style sheets.
-FAMILY = "IBM Plex Sans"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Se
 from zlmreport.language import Words, join_parts, list_in_words
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
-from zlmreport.machines.cross_making import CrossMade
+from zlmreport.machines.cross_making import PEAK, CrossMade
 from zlmreport.machines.cross_tables import CrossForecast, forecast, plan_worthwhile
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
@@ -88,7 +88,7 @@ def _lay_out_sign(moves: int, say: Sayer) -> Section:
     return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
 
 
-def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
+def lay_out_trial(table: CrossTable, say: Sayer) -> Section:
     """Return what to do with the trial file, and what its outcome says."""
     middle = float(table.positions[len(table.positions) // 2])
     said = _TRIAL.given(
@@ -96,7 +96,7 @@ def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
         input=table.input,
         low=say.write_millimetres(float(table.positions[0])),
         at=say.write_millimetres(middle),
-        peak=say.write_micrometres(peak),
+        peak=say.write_micrometres(PEAK),
     )
     return Section("trial", say(Words("A trial value")), (Paragraph(say(said)),))
 

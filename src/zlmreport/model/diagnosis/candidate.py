@@ -8,14 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import write_share, write_significant
+from zlmreport.language.numbers import write_share
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.diagnosis.finding import ContestFinding, StandIn, fit_with_member
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter, find_unit_of
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_on
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.model.effects.sizes import ask_of, find_usual_range
 from zlmreport.model.fitting.estimate import ParameterEstimate
@@ -36,7 +35,6 @@ _EXPLAINS = Words("explains {share} % of what the noise leaves open")
 _CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
 _NOTHING = Words("explains nothing by itself of what the noise leaves open")
 _NO_FLOOR = Words("takes the error from {before} to {after}")
-_IN_UNIT = Words("{value}{unit}")
 _JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
 #: Of a ratio, whose meaning is that of the expected value: "1: exactly one row off".
 _NOT_AS_MEANT = Words("{effect}: a {name} of {fitted} fits ({meaning}).")
@@ -202,7 +200,7 @@ def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | N
         return _NOT_AS_MEANT.given(
             effect=estimate.effect,
             name=parameter.name,
-            fitted=_write_value(parameter, estimate.value, design),
+            fitted=wording.quantity(find_unit_on(design, parameter.dimension), estimate.value),
             meaning=parameter.description,
         )
     return _say_other_value(estimate, estimate.expected, design)
@@ -215,13 +213,9 @@ def say_other_value(estimate: ParameterEstimate, stated: float, design: Design) 
 
 def _say_other_value(estimate: ParameterEstimate, stated: float, design: Design) -> Words:
     parameter = estimate.parameter
-    fitted, given = (_write_value(parameter, value, design) for value in (estimate.value, stated))
+    unit = find_unit_on(design, parameter.dimension)
+    fitted, given = (wording.quantity(unit, value) for value in (estimate.value, stated))
     return _JOB_SAYS.given(fitted=fitted, stated=given, name=parameter.description)
-
-
-def _write_value(parameter: Parameter, value: float, design: Design) -> Words:
-    unit = find_unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
-    return _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
 
 
 def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:

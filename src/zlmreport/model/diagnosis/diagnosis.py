@@ -21,7 +21,7 @@ from zlmreport.model.diagnosis.error_numbers import (
     choose_scattering,
     compute_error_numbers,
 )
-from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_gaps
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_pauses_between_runs
 from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, find, fit_with_member
 from zlmreport.model.diagnosis.remainder import Remainder, find_irregular_remainder, make_remainder_of_run
 from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
@@ -253,7 +253,7 @@ def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> AxisDiagnosi
         outliers=_select_of_the_set(observed.reading[aside.readings]),
         remarks=(
             *observed.remarks,
-            *find_gaps(observed.design),
+            *find_pauses_between_runs(observed.design),
         ),
         lasting_noise=estimate_lasting_floor(fitted.design, choose_scattering(fitted)),
         faults=faults,

@@ -128,7 +128,7 @@ def find_faults_of(
     return (*found, *known.values())
 
 
-def find_gaps(design: Design) -> Iterator[Words]:
+def find_pauses_between_runs(design: Design) -> Iterator[Words]:
     """Yield what is to be said of long gaps in time: what lies on either side is a session of its own."""
     for place in np.flatnonzero(find_pauses(design) & (np.diff(design.cycle) != 0)).tolist():
         hours = write_significant(float(design.time[place + 1] - design.time[place]) / 3600.0, 2)

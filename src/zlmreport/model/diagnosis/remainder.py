@@ -13,7 +13,7 @@ import numpy as np
 
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words
-from zlmreport.measurement.arrays import FloatArray, make_orthonormal
+from zlmreport.measurement.arrays import FloatArray, make_orthonormal_basis
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.believing import TOLD_APART
 from zlmreport.model.diagnosis.effect_set import (
@@ -30,7 +30,7 @@ from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_on
 from zlmreport.model.fitting.fit import Fit
 
 #: Evidence that what has no name must have, prior odds counted.
@@ -185,7 +185,7 @@ def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArra
     """Return what leaves of a curve only that which neither the model nor a set can do as well."""
     design = fitted.design
     columns = [each.effect.columns(design, each.theta) for each in found.named]
-    known = make_orthonormal(np.concatenate([fitted.compute_base(), *columns], axis=1), _DEPENDENT)
+    known = make_orthonormal_basis(np.concatenate([fitted.compute_base(), *columns], axis=1), _DEPENDENT)
     return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
 
 
@@ -335,7 +335,7 @@ def _make_sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
 def _choose_unit(design: Design, *, is_time: bool) -> Unit:
     """Return the unit of places on an axis, or that of times: readings where these are counted."""
     dimension = Dimension.TIME if is_time else Dimension.POSITION
-    return find_unit_of(dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+    return find_unit_on(design, dimension)
 
 
 def _place(share: _Share, design: Design) -> tuple[Words, float, float, Unit]:

@@ -14,7 +14,6 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language, Words, list_alternatives, list_in_words
 from zlmreport.language.numbers import write_share
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.candidate import Doubt, EffectCandidate, ask_about, find_doubts
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
@@ -26,7 +25,7 @@ from zlmreport.model.diagnosis.residuals import ResidualTest
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Parameter, find_unit_of
+from zlmreport.model.effects.effect import find_unit_on
 from zlmreport.model.fitting.estimate import ParameterEstimate
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import Noise
@@ -239,7 +238,7 @@ def report_precision(fitted: Fit, *, with_residuals: bool = True) -> dict[str, A
 
 def _collect_covariance(fitted: Fit) -> dict[str, Any]:
     """Return how the estimated parameters hang together, in the units in which they are reported."""
-    units = [_choose_unit(each, fitted.design) for _, each in fitted.columns]
+    units = [find_unit_on(fitted.design, each.dimension) for _, each in fitted.columns]
     covariance = fitted.uncertainties.covariance
     scale = np.array([each.per_si for each in units])
     deviations = np.sqrt(np.diagonal(covariance))
@@ -257,7 +256,7 @@ def _collect_intervals(fitted: Fit) -> list[dict[str, Any]]:
     return [
         {
             "parameter": f"{each.effect}.{each.parameter.name}",
-            "unit": (unit := _choose_unit(each.parameter, fitted.design)).ascii,
+            "unit": (unit := find_unit_on(fitted.design, each.parameter.dimension)).ascii,
             "low": each.low * unit.per_si if isfinite(each.low) else None,
             "high": each.high * unit.per_si if isfinite(each.high) else None,
             "open": [side for side in ("low", "high") if getattr(each, f"{side}_is_open")],
@@ -277,10 +276,6 @@ def _collect_residuals(fitted: Fit) -> list[dict[str, Any]]:
         {"target": target, "direction": sign, "run": run, "residual": residual, "unit": unit.ascii}
         for target, sign, run, residual in zip(positions, signs, design.run.tolist(), residuals, strict=True)
     ]
-
-
-def _choose_unit(parameter: Parameter, design: Design) -> Unit:
-    return find_unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
 
 
 def report_error(error: ErrorNumbers, axis: Axis) -> dict[str, Any]:
@@ -314,7 +309,7 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
 
 
 def _estimate(estimate: ParameterEstimate, design: Design) -> dict[str, Any]:
-    unit = _choose_unit(estimate.parameter, design)
+    unit = find_unit_on(design, estimate.parameter.dimension)
     found = {
         "name": estimate.parameter.name,
         "value": estimate.value * unit.per_si,

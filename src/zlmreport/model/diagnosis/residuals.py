@@ -8,7 +8,7 @@ from enum import Enum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal, read_only_integers
+from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal_basis, read_only_integers
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.contrasts import Whitener, make_whitener
 from zlmreport.model.fitting.distributions import f_tail
@@ -134,6 +134,6 @@ class Residuals:
 def find_residuals_of(fit: Fit, noise: Noise) -> Residuals:
     """Return the residuals of a fit under a noise: one that holds no more than noise may."""
     whiten = make_whitener(list_noise_parts(fit.design), noise)
-    base = make_orthonormal(whiten(fit.compute_base()), _DEPENDENT)
+    base = make_orthonormal_basis(whiten(fit.compute_base()), _DEPENDENT)
     whitened = whiten(fit.residual)
     return Residuals(fit, whiten, base, whitened - base @ (base.T @ whitened))

@@ -42,7 +42,7 @@ from zlmreport.model.fitting.observations import (
     thin,
 )
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.model.fitting.sessions import add_zeros, join_sessions
 
 if TYPE_CHECKING:
     from zlmreport.plugin.registry import Registry
@@ -125,7 +125,7 @@ class Study:
         names = [each.files[0].name for each in job.sessions]
         others = [_observe(each, other) for each, other in zip(sessions, job.sessions, strict=True)]
         try:
-            together = hold_together(own, list(zip(names, others, strict=True)))
+            together = join_sessions(own, list(zip(names, others, strict=True)))
         except ModelError as error:
             raise InputError(Problem(job.place_of(_SESSIONS), each) for each in error.sentences) from error
         return cls(

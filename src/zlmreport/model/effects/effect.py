@@ -79,13 +79,15 @@ _ROTARY = _LINEAR | {
 _READINGS = Unit("readings", "readings", 1.0)
 
 
-def find_unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
-    """Return the unit in which a parameter is read and printed.
-
-    `time_is_counted`: Whether the design counts readings instead of seconds.
-    """
-    if dimension is Dimension.TIME and time_is_counted:
+def find_unit_on(design: Design, dimension: Dimension) -> Unit:
+    """Return the unit in which a parameter is printed of a test, which may count readings, not seconds."""
+    if dimension is Dimension.TIME and design.time_is_counted:
         return _READINGS
+    return find_unit_of(dimension, design.axis.kind)
+
+
+def find_unit_of(dimension: Dimension, kind: AxisKind) -> Unit:
+    """Return the unit in which a parameter is read and printed on a kind of axis."""
     return (_LINEAR if kind is AxisKind.LINEAR else _ROTARY)[dimension]
 
 

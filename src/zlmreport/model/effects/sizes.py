@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.units import write_behind
+from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Parameter, find_unit_of
 
 #: So many times beyond what is usual, or below it, a value is asked for.
 _FAR = 2.0
-_VALUE = Words("{value}{unit}")
 _IS_IT = Words("{name} {value}: {times} times what is usual; measured so, and in the right unit?")
 _IS_IT_SO_LITTLE = Words(
     "{name} {value}, where {least} or more is usual: measured so, and in the right unit?"
@@ -60,8 +58,7 @@ def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
 
 
 def _write_value(parameter: Parameter, value: float, axis: Axis) -> Words:
-    unit = find_unit_of(parameter.dimension, axis.kind)
-    return _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
+    return wording.quantity(find_unit_of(parameter.dimension, axis.kind), value, 2)
 
 
 def name_of(parameter: Parameter, value: float) -> Words | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from zlmreport.language import Words
 from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import SECONDS_PER_MINUTE, write_behind
+from zlmreport.measurement.units import SECONDS_PER_MINUTE, Unit, write_behind
 from zlmreport.model.effects.design import Design
 
 _QUANTITY = Words("{value}{unit}")
@@ -16,23 +16,25 @@ _LONG = 600.0
 _ROUNDING = 1e-14
 
 
+def quantity(unit: Unit, value: float, digits: int = 3) -> Words:
+    """Return an SI value in a unit, rounded to some digits."""
+    number = write_significant(unit.from_si(value), digits)
+    return _QUANTITY.given(value=number, unit=write_behind(unit.symbol))
+
+
 def deviation(axis: Axis, value: float) -> Words:
     """Return a deviation given in m or rad."""
-    unit = axis.deviation_unit
-    value = 0.0 if abs(value) < _ROUNDING else value
-    return _QUANTITY.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
+    return quantity(axis.deviation_unit, 0.0 if abs(value) < _ROUNDING else value, 2)
 
 
 def position(axis: Axis, value: float) -> Words:
     """Return a position on the axis given in m or rad."""
-    unit = axis.position_unit
-    return _QUANTITY.given(value=write_significant(unit.from_si(value), 4), unit=write_behind(unit.symbol))
+    return quantity(axis.position_unit, value, 4)
 
 
 def length(axis: Axis, value: float) -> Words:
     """Return a distance along the axis given in m or rad."""
-    unit = axis.position_unit
-    return _QUANTITY.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
+    return quantity(axis.position_unit, value)
 
 
 def span_of_time(design: Design, value: float) -> Words:

@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal
+from zlmreport.measurement.arrays import FloatArray, IntArray, make_orthonormal_basis
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.by_target import FactorsByTarget, ProductsByTarget, RootByTarget
 from zlmreport.model.fitting.noise import BY_TARGET, Noise, NoisePart
@@ -189,7 +189,7 @@ def make_contrasts_of(
     `weights`: w, the variance of each reading over the mean one, shape (N,); or how readings scatter singly.
     """
     single = weights if isinstance(weights, SingleReadings) else SingleReadings(1.0 / np.sqrt(weights))
-    return Contrasts(make_orthonormal(single.whiten(base), _DEPENDENT), single, tuple(parts))
+    return Contrasts(make_orthonormal_basis(single.whiten(base), _DEPENDENT), single, tuple(parts))
 
 
 def estimate_restricted(

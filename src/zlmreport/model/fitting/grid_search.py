@@ -13,7 +13,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray, make_orthonormal
+from zlmreport.measurement.arrays import FloatArray, make_orthonormal_basis
 from zlmreport.model.fitting.search import FitProblem, Solution, Thetas, refine
 
 _SWEEPS = 4
@@ -111,7 +111,7 @@ def _list_left(deviation: FloatArray, beside: Sequence[tuple[_Grid, int]], grid:
     """
     empty = np.empty((len(deviation), 0))
     others = np.concatenate([empty, *(each.columns[row] for each, row in beside)], axis=1)
-    basis = make_orthonormal(others, _IMITATED**0.5)
+    basis = make_orthonormal_basis(others, _IMITATED**0.5)
     left = deviation - sum(each.given[row] for each, row in beside) - grid.given
     left = left - (left @ basis) @ basis.T
     with np.errstate(over="ignore", invalid="ignore"):  # a row without a finite value is never the best

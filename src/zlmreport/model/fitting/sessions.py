@@ -57,7 +57,7 @@ def add_zeros(model: AxisModel, design: Design) -> AxisModel:
     return AxisModel((Term(SessionZeros(sessions)), *model.terms)) if sessions > 1 else model
 
 
-def hold_together(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
+def join_sessions(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
     """Return the readings of several tests below one another.
 
     Targets are numbered anew, equal positions alike; readings of other sessions have the place −1.

@@ -16,7 +16,7 @@ from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import NoisePart, NoiseSource, list_noise_parts, make_ratio_grid
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.fitting.sessions import SessionZeros, hold_together
+from zlmreport.model.fitting.sessions import SessionZeros, join_sessions
 from zlmreport.model.planning.plan import AxisPlan, ExpectedTest
 from zlmreport.model.planning.visibility import expect_design, list_logs_of
 
@@ -184,7 +184,7 @@ class Question:
         planned = Observations(
             own, read_only_floats(np.zeros(count)), read_only_integers(np.arange(count)), ()
         )
-        return replace(hold_together(planned, [("", self.first)]).design, span=own.span)
+        return replace(join_sessions(planned, [("", self.first)]).design, span=own.span)
 
     def make_next_design(self, plan: AxisPlan, expected: ExpectedTest) -> Design:
         """Return a plan by itself, with the logs of the test and those that the rivals ask for.

@@ -209,11 +209,6 @@ class Registry:
         return self.list_all(kinds.CIRCLE_EFFECT)
 
     @property
-    def part_programs(self) -> tuple[PartProgram, ...]:
-        """All writers of part programs."""
-        return self.list_all(kinds.PART_PROGRAM)
-
-    @property
     def controllers(self) -> tuple[Controller, ...]:
         """All controls for which compensation tables are written."""
         return self.list_all(kinds.CONTROLLER)
@@ -284,7 +279,7 @@ class Registry:
 
     def list_programs_for(self, takes: type | None = None) -> tuple[PartProgram, ...]:
         """Return the part programs that are written of this; without it, of the motion of a planned test."""
-        return tuple(each for each in self.part_programs if _is_for(each, takes))
+        return tuple(each for each in self.list_all(kinds.PART_PROGRAM) if _is_for(each, takes))
 
     def controller(self, identifier: str, named_at: Place | None = None) -> Controller:
         """Return a control for which compensation tables are written, as `find` does."""
