@@ -35,7 +35,14 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
-from zlmreport.model.diagnosis.building import Built, ModelStep, is_outstanding, list_needless, name_steps
+from zlmreport.model.diagnosis.building import (
+    Built,
+    ModelStep,
+    is_outstanding,
+    list_needless,
+    name_changes,
+    name_steps,
+)
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -232,10 +239,10 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
 
 def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
-    names, last = name_steps(built.steps), built.last
+    last = built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap_steps(_write_staircase(built))
-    yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
+    yield from wrap(write_statement_after_build(last, has_steps=bool(built.steps)).in_language(_ENGLISH), "")
     if built.exchange is not None:
         coming, going = map(" and ".join, (built.exchange.coming, built.exchange.going))
         yield from wrap(
@@ -247,7 +254,7 @@ def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
     yield from _tell_needless(built.needless, path)
-    yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
+    yield from lay_out_changes(path, () if edit is None else name_changes(built), is_tried=is_tried)
     if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
     else:
