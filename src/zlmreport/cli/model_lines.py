@@ -206,9 +206,7 @@ def tell_change(path: Path, change: ModelChange, writer: Writer) -> Iterator[str
     """Yield what became of the job, and how the error changed."""
     shown, after = show_path(path), change.history[-1]
     axis = after.fit.design.axis
-    if change.edit.inherited_from:
-        origin = show_path(path.parent / change.edit.inherited_from)
-        yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
+    yield from _tell_origin(change.edit, path)
     done = [f"− {name}" for name in change.removed] + ([f"+ {change.added}"] if change.added else [])
     yield f"{shown}: {', '.join(done)}"
     yield ""
@@ -224,6 +222,13 @@ def tell_change(path: Path, change: ModelChange, writer: Writer) -> Iterator[str
     yield from _draw_fall(change.history, change.forecasts, writer)
     yield ""
     yield f"next: zlmreport model diagnose {shown}"
+
+
+def _tell_origin(edit: Edit, path: Path) -> Iterator[str]:
+    """Yield that the job has its effects from another file no longer."""
+    if edit.inherited_from:
+        shown, origin = show_path(path), show_path(path.parent / edit.inherited_from)
+        yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
 
 
 def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
@@ -254,6 +259,8 @@ def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
     yield from _tell_needless(built.needless, path)
+    if edit is not None and not is_tried:
+        yield from _tell_origin(edit, Path(path))
     yield from lay_out_changes(path, () if edit is None else name_changes(built), is_tried=is_tried)
     if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
