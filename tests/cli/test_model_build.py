@@ -61,6 +61,16 @@ def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     assert (shop.folder / "job.yaml").read_bytes() == before
 
 
+@pytest.mark.parametrize("trial", [(), ("--dry-run",)])
+def test_a_build_tells_that_a_job_has_its_effects_from_another_no_longer(
+    shop: Shop, trial: tuple[str, ...]
+) -> None:
+    (shop.folder / "own.yaml").write_text("extends: job.yaml\n", encoding="utf-8")
+    run = shop.run("model", "build", "own.yaml", *trial)
+    told_of_origin = "own.yaml had its effects from job.yaml; now they stand in own.yaml itself\n"
+    assert (told_of_origin in run.output) == (not trial)
+
+
 def test_no_line_of_a_build_is_wider_than_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     names = ["+ backlash", "− compensation-shift", "+ scale-expansion or material-expansion"]

@@ -60,6 +60,20 @@ def test_effects_of_the_same_columns_are_named() -> None:
     assert sentence == "these readings cannot tell scale-error and cosine-error apart; remove one of them"
 
 
+@pytest.mark.parametrize("first", [0.0, 0.003, 1e-7])
+def test_a_wave_of_which_the_targets_see_one_phase_is_refused_and_not_fitted_with_rounding(
+    first: float,
+) -> None:
+    """At whole and half pitches the sine is rounding: it was fitted with thousands of metres."""
+    design = linear_test(places=first + 0.025 * np.arange(21))
+    screw = EFFECTS["screw-pitch"]
+    wave = screw.with_settings(screw.options(harmonics=[1]))
+    with pytest.raises(ModelError) as refused:
+        fit(model_of("offset", "backlash", wave), design, np.zeros(len(design.position)))
+    (sentence,) = refused.value.sentences
+    assert sentence == "these readings do not determine all parameters of screw-pitch; remove it"
+
+
 def test_all_mistakes_are_said_at_once() -> None:
     twice = Term(EFFECTS["polynomial"])
     model = AxisModel((Term(EFFECTS["offset"], {"level": 0.0}), twice, twice))

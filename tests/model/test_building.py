@@ -11,7 +11,14 @@ from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observ
 from model.hidden_effect import example as study_of_example, example_diagnosis
 from zlmreport.cli.model_lines import tell_build
 from zlmreport.measurement.arrays import read_only_integers
-from zlmreport.model.diagnosis.building import Built, build, is_outstanding, list_needless, name_steps
+from zlmreport.model.diagnosis.building import (
+    Built,
+    build,
+    is_outstanding,
+    list_needless,
+    name_changes,
+    name_steps,
+)
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
@@ -39,6 +46,25 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
     found = build(model_of("offset"), diagnosing)
     # What came in later is told from it.
     assert name_steps(found.steps) == ("+ scale-kink or backlash", "+ first-run")
+
+
+def test_what_another_effect_contains_is_told_to_have_gone_and_what_only_passed_is_not() -> None:
+    example = example_diagnosis()
+    said = iter(
+        [
+            replace(example, together=(EFFECTS["first-run"], EFFECTS["backlash"]), candidates=()),
+            replace(example, together=(EFFECTS["polynomial"],), makeshift=("first-run",), candidates=()),
+            replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE),
+        ]
+    )
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        return replace(next(said), fit=fit(model, example.fit.design, example.fit.deviation))
+
+    found = build(model_of("offset"), diagnosing)
+    assert found.model.identifiers == ("backlash", "polynomial")
+    assert name_steps(found.steps) == ("+ first-run", "+ backlash", "+ polynomial", "− first-run")
+    assert name_changes(found) == ("+ backlash", "+ polynomial", "− offset")
 
 
 def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -296,6 +297,18 @@ def test_entrants_are_the_forms_that_the_test_can_show() -> None:
     assert reasons["eccentricity"] == "for rotary axes only"
     assert reasons["scale-error"] == "at these targets polynomial imitates it entirely"
     assert "backlash" not in reasons  # it is in the model
+
+
+def test_what_imitates_an_effect_is_that_of_the_model_which_does_so_by_itself() -> None:
+    """A slope is taken for growth while warming up, and is not it; growth that falls back in a pause is."""
+    growth = EFFECTS["growth-after-pause"]
+    design = linear_test()
+    still = replace(design, time=design.time + np.where(design.cycle > 3, 3600.0, 0.0))
+    listed = list_effects_to_try(
+        model_of("offset", "scale-error", growth), still, [EFFECTS["thermal-growth"]]
+    ).not_testable
+    (reason,) = [each.reason.in_language(Language.ENGLISH) for each in listed]
+    assert reason.startswith("at these targets growth-after-pause imitates it entirely")
 
 
 def test_what_is_imitated_entirely_comes_with_what_would_show_it() -> None:

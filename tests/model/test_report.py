@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, hidden, linear_test, model_of, noise, observations
-from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.diagnosis.report import report
+from model.hidden_effect import example_diagnosis
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+from zlmreport.model.diagnosis.report import report, write_verdict_statement
 from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin import Language, same_in_all_languages as same
 from zlmreport.plugin.effect import report_model, report_precision
 
 _DESIGN = linear_test(11, 3)
@@ -83,3 +88,23 @@ def test_parts_of_what_is_left_are_reported_each_with_its_place_and_size() -> No
     assert stretched["from"] == pytest.approx(300, abs=50)
     assert stretched["to"] == pytest.approx(500, abs=50)
     assert also["rms"] <= left["rms"]
+
+
+def test_of_a_wrong_unit_it_is_not_said_that_no_cause_is_sought() -> None:
+    """What is missing is named beside it, and `model build` adds it: nothing depends on the unit."""
+    unit = DataFault(FaultKind.WRONG_UNIT, None, 0.9, same("as if in mm"), same("state source.units"))
+    found = replace(
+        example_diagnosis(),
+        verdict=DiagnosisVerdict.UNEXPLAINED,
+        together=(),
+        remainder=None,
+        failures=(),
+        faults=(unit,),
+    )
+    said = write_verdict_statement(found).in_language(Language.ENGLISH)
+    assert said.startswith(
+        "The data look wrong: as if in mm. Remedy: state source.units. The model describes"
+    )
+    swapped = replace(unit, kind=FaultKind.SWAPPED_DIRECTION, run=3, probability=1.0)
+    said = write_verdict_statement(replace(found, faults=(swapped,))).in_language(Language.ENGLISH)
+    assert said.startswith("The data look wrong, and no cause is sought before they are right: as if in mm.")

@@ -9,7 +9,10 @@ import pytest
 
 from model.hidden_effect import LAST, example, example_diagnosis, example_history, study, written
 from refusals import refused
+from zlmreport.model.diagnosis.error_numbers import compute_error_numbers
+from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.fitting.estimate import InstrumentError
+from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import InputError
 
 
@@ -95,6 +98,15 @@ def test_the_history_ends_with_the_model_that_is_diagnosed() -> None:
 def test_the_history_takes_a_fit_that_is_there() -> None:
     whole = example_history()[-1]
     assert example().fit_history(whole)[-1] is whole
+
+
+def test_a_history_is_one_of_the_readings_that_the_whole_model_was_fitted_to() -> None:
+    """A diagnosis sets aside what stands off beside its own curves, which need not be what a fit does."""
+    every = example().together
+    fewer = every.without(np.array([3, 40]))
+    found = fit(example().model, fewer.design, fewer.deviation)
+    history = example().fit_history(Fitted(found, compute_error_numbers(found)))
+    assert {len(each.fit.deviation) for each in history} == {len(every.deviation) - 2}
 
 
 def test_the_error_falls_to_the_noise_when_the_hidden_effect_is_added(tmp_path: Path) -> None:

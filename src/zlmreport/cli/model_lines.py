@@ -35,7 +35,14 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
-from zlmreport.model.diagnosis.building import Built, ModelStep, is_outstanding, list_needless, name_steps
+from zlmreport.model.diagnosis.building import (
+    Built,
+    ModelStep,
+    is_outstanding,
+    list_needless,
+    name_changes,
+    name_steps,
+)
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.looking import look_for
@@ -199,9 +206,7 @@ def tell_change(path: Path, change: ModelChange, writer: Writer) -> Iterator[str
     """Yield what became of the job, and how the error changed."""
     shown, after = show_path(path), change.history[-1]
     axis = after.fit.design.axis
-    if change.edit.inherited_from:
-        origin = show_path(path.parent / change.edit.inherited_from)
-        yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
+    yield from _tell_origin(change.edit, path)
     done = [f"− {name}" for name in change.removed] + ([f"+ {change.added}"] if change.added else [])
     yield f"{shown}: {', '.join(done)}"
     yield ""
@@ -219,6 +224,13 @@ def tell_change(path: Path, change: ModelChange, writer: Writer) -> Iterator[str
     yield f"next: zlmreport model diagnose {shown}"
 
 
+def _tell_origin(edit: Edit, path: Path) -> Iterator[str]:
+    """Yield that the job has its effects from another file no longer."""
+    if edit.inherited_from:
+        shown, origin = show_path(path), show_path(path.parent / edit.inherited_from)
+        yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
+
+
 def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
     """Yield the first lines: which job, which axis, which model, and what it is held together with."""
     model = " + ".join(fit.model.identifiers) or "no effects yet"
@@ -232,10 +244,10 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
 
 def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
-    names, last = name_steps(built.steps), built.last
+    last = built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap_steps(_write_staircase(built))
-    yield from wrap(write_statement_after_build(last, has_steps=bool(names)).in_language(_ENGLISH), "")
+    yield from wrap(write_statement_after_build(last, has_steps=bool(built.steps)).in_language(_ENGLISH), "")
     if built.exchange is not None:
         coming, going = map(" and ".join, (built.exchange.coming, built.exchange.going))
         yield from wrap(
@@ -247,7 +259,9 @@ def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried
     for question in built.questions:
         yield from wrap(question.in_language(_ENGLISH), "")
     yield from _tell_needless(built.needless, path)
-    yield from lay_out_changes(path, names if edit is not None else (), is_tried=is_tried)
+    if edit is not None and not is_tried:
+        yield from _tell_origin(edit, Path(path))
+    yield from lay_out_changes(path, () if edit is None else name_changes(built), is_tried=is_tried)
     if is_tried and edit is not None and find_stated_fault(last) is None:
         yield f"next: zlmreport model build {path}"
     else:

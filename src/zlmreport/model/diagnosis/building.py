@@ -233,3 +233,13 @@ def name_steps(steps: Sequence[ModelStep]) -> tuple[str, ...]:
         f"− {each.identifier}" if each.is_removed else f"+ {' or '.join((each.identifier, *each.equals))}"
         for each in steps
     )
+
+
+def name_changes(built: Built) -> tuple[str, ...]:
+    """Return what the model that was built has that the first had not, then what it has not any more.
+
+    What only passed through is neither; what another effect contains went out without a step of its own.
+    """
+    added = {each.identifier for each in built.added}
+    coming = {each.identifier: each for each in built.steps if each.identifier in added}
+    return (*name_steps(tuple(coming.values())), *(f"− {each}" for each in built.removed))

@@ -48,27 +48,35 @@ def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effe
         reasons = [form.untestable(design) or _say_collision(model, design, form) for form in listed]
         forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
         if listed and None not in reasons:
-            not_testable.append(NotTestable(effect.identifier, reasons[0] or _say_imitated(model, effect)))
+            not_testable.append(
+                NotTestable(effect.identifier, reasons[0] or _say_imitated(model, design, effect))
+            )
     return EffectsToTry(tuple(forms), tuple(not_testable))
 
 
 def _say_collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
     """Return that the model would not be determined with the effect in it; None if it is."""
+    return _say_imitated(model, design, effect) if _collides(model, design, effect) else None
+
+
+def _collides(model: AxisModel, design: Design, effect: Effect) -> bool:
+    """Return whether a model with an effect would not be determined."""
     extended = model.with_effect(effect)
-    columns = [term.compute_some_columns(design) for term in extended.terms]
     try:
-        refuse_collisions(extended, columns)
+        refuse_collisions(extended, [term.compute_some_columns(design) for term in extended.terms])
     except ModelError:
-        return _say_imitated(model, effect)
-    return None
+        return True
+    return False
 
 
-def _say_imitated(model: AxisModel, effect: Effect) -> Words:
+def _say_imitated(model: AxisModel, design: Design, effect: Effect) -> Words:
     """Return what imitates an effect entirely, and the measurement that would show it."""
     for term in model.terms:
         if effect.identifier in term.effect.contains:
             return _IMITATED.given(effect=term.effect.identifier)
-    alike = [each for each in effect.confusions if each.effect in model.identifiers]
-    words = _IMITATED.given(effect=alike[0].effect if alike else _THE_MODEL)
+    alone = [each.effect for each in model.terms if _collides(AxisModel((each,)), design, effect)]
+    alike = [each for each in effect.confusions if each.effect in (other.identifier for other in alone)]
+    names = [*(each.effect for each in alike), *(each.identifier for each in alone)]
+    words = _IMITATED.given(effect=names[0] if names else _THE_MODEL)
     known = (*alike, *effect.confusions)
     return _SHOWN_BY.given(imitated=words, measurement=known[0].told_apart_by) if known else words

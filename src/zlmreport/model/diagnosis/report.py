@@ -479,8 +479,12 @@ def list_further_faults(diagnosis: AxisDiagnosis) -> tuple[DataFault, ...]:
 
 def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     fault = find_leading_fault(diagnosis)
-    if fault is not None:
+    if fault is not None and (fault.comes_first or diagnosis.contradicted):
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
+    if fault is not None:  # causes were sought, and no more is missing than in the right unit
+        return _IN_DOUBT.given(
+            statement=fault.statement, remedy=fault.remedy, verdict=_say_adequate(diagnosis)
+        )
     if diagnosis.contradicted:
         statements = reduce(lambda one, other: _TWO.given(one=one, other=other), diagnosis.contradicted)
         return _GIVEN.given(statements=statements)

@@ -27,7 +27,7 @@ from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, diagnose
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, Term, choose_effect, choose_terms
-from zlmreport.model.effects.design import transform_to_position
+from zlmreport.model.effects.design import Design, transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape
 from zlmreport.model.effects.harmonic import Harmonic, find_harmonics
 from zlmreport.model.effects.model_error import ModelError
@@ -140,7 +140,9 @@ class Study:
 
     def fit_whole(self) -> Fitted:
         """Return the model fitted to the readings, those that stand off set aside."""
-        return self._fit(self.model)
+        every = thin(self.together)
+        kept = every.without(find_outliers(every.design, every.deviation).readings)
+        return self._fit(self.model, kept.design, kept.deviation, self.assumptions)
 
     def diagnose(self, effects: Sequence[Effect], told: Told = tell_nobody) -> AxisDiagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
@@ -187,6 +189,8 @@ class Study:
     def fit_history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
         """Return the fits of no effect, of the first, of the first two …, up to the whole model.
 
+        All are fits to the readings of the last: a diagnosis may have set others aside than a fit does.
+
         So a history needs no record beside the job, and says of every model what is true of it today.
 
         `whole`: The fit of the whole model, where it is there already.
@@ -195,14 +199,15 @@ class Study:
         last = whole or self.fit_whole()
         # How unequally readings scatter is seen from repeats, whatever the model.
         assumptions = replace(self.assumptions, weights=last.fit.noise.weights)
-        parts = [self._fit(AxisModel(terms[:count]), assumptions) for count in range(len(terms))]
+        models = (AxisModel(terms[:count]) for count in range(len(terms)))
+        parts = [self._fit(each, last.fit.design, last.fit.deviation, assumptions) for each in models]
         return (*parts, last)
 
-    def _fit(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
-        every = thin(self.together)
-        kept = every.without(find_outliers(every.design, every.deviation).readings)
+    def _fit(
+        self, model: AxisModel, design: Design, deviation: FloatArray, assumptions: Assumptions
+    ) -> Fitted:
         try:
-            found = fit(model, kept.design, kept.deviation, assumptions or self.assumptions)
+            found = fit(model, design, deviation, assumptions)
         except ModelError as error:
             raise InputError(self._list_problems(error)) from error
         return Fitted(found, compute_error_numbers(found))

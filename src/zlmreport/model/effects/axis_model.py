@@ -23,6 +23,8 @@ from zlmreport.model.effects.model_error import ModelError
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
 _ROUNDING = 1e-10
 _TAKES_PART = 0.05
+#: Condition of sine and cosine of a wave from which on they are one column but for rounded targets.
+_ONE_PHASE = 1e3
 #: Its square is a double.
 _LARGEST = 1e150
 
@@ -295,7 +297,11 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
         raise ModelError([f"{name} has no influence on any of these readings; remove it" for name in silent])
     _, singular, right = np.linalg.svd(together / lengths, full_matrices=len(together) < len(lengths))
     singular = np.concatenate([singular, np.zeros(len(lengths) - len(singular))])
-    sentences = []
+    sentences = [
+        f"these readings do not determine all parameters of {term.effect.identifier}; remove it"
+        for term, own in zip(model.terms, columns, strict=True)
+        if _sees_one_phase(term, own)
+    ]
     for direction in right[singular <= _ROUNDING * singular.max(initial=0.0)]:
         part = np.abs(direction) > _TAKES_PART * np.abs(direction).max()
         taking = [names[index] for index in dict.fromkeys(owner[part].tolist())]
@@ -306,6 +312,21 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
             sentences.append(f"these readings cannot tell {listed} apart; remove one of them")
     if sentences:
         raise ModelError(list(dict.fromkeys(sentences)))
+
+
+def _sees_one_phase(term: Term, columns: FloatArray) -> bool:
+    """Return whether sine and cosine of a wave go together: all targets lie at whole and half periods of one.
+
+    `columns`, (N, k): Those of the term whose coefficients are solved.
+    """
+    solved = zip(term.effect.linear, term.is_solved, strict=True)
+    places = {each.name: place for place, each in enumerate(each for each, is_free in solved if is_free)}
+    waves = [
+        columns[:, [place, places[cosine]]]
+        for name, place in places.items()
+        if name.startswith("sine") and (cosine := name.replace("sine", "cosine", 1)) in places
+    ]
+    return any(np.linalg.cond(each) > _ONE_PHASE for each in waves)
 
 
 def choose_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Effect:
