@@ -49,6 +49,24 @@ def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet
     assert "x" not in fleet.spend().what
 
 
+def test_a_job_that_was_renamed_is_told_with_its_new_name(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").rename(fleet.folder / "jobs/new.yaml")
+    expected = "jobs/x.yaml: the job is gone, and jobs/new.yaml has its number CAL-X; name the old one"
+    for _ in range(2):
+        witness = fleet.spend()
+        (problem,) = witness.of("x").problems
+        assert expected in problem.message
+    kept = next(each for each in fleet.entries() if each.state is State.VANISHED)
+    assert "jobs/new.yaml has its number" in kept.message
+
+
+def test_a_job_with_the_number_of_another_says_for_which_it_was_issued(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").rename(fleet.folder / "jobs/new.yaml")
+    fleet.readings("x", "1 2 4 -1 -2 -3")
+    draft = fleet.spend().of("new")
+    assert (draft.what, draft.why) == (What.DRAFT, "new; CAL-X was issued on 2026-11-20 for jobs/x.yaml")
+
+
 def test_a_file_where_the_folder_should_be_is_told(fleet: Fleet) -> None:
     output = fleet.folder / "certificates"
     shutil.rmtree(output)

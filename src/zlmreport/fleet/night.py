@@ -257,9 +257,9 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
         witness.watch.note_plan(planned)
-        desk = Desk(known, night)
+        desk, heirs = Desk(known, night), {each.number: each.job for each in planned if each.number}
         for happened in (
-            *map(desk.note_vanished, work.gone),
+            *(desk.note_vanished(job, heirs) for job in work.gone),
             *_find_overdue(known, night.list_subjects(NewsKind.OVERDUE), night.began),
         ):
             witness.note_happened(happened)
