@@ -146,6 +146,28 @@ def noticed(fleet: Fleet) -> list[About]:
     return [each.about for each in last.notices]
 
 
+def test_a_night_in_which_the_clock_is_set_back_took_no_negative_time(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times = iter(["2026-11-21T02:00:00+00:00"])
+    monkeypatch.setattr(night, "read_clock", lambda: next(times, "2026-11-21T01:00:00+00:00"))
+    fleet.spend()
+    with Ledger.open(str(fleet.folder / "ledger.db"), "Hall North") as ledger:
+        last = ledger.find_last_night()
+    assert last is not None
+    assert last.began.hour == 2
+    assert 0 <= (last.seconds or 0) < 3600
+
+
+@pytest.mark.parametrize(("minutes", "is_at_work"), [(-1440, False), (-1, True), (1, True), (1440, False)])
+def test_a_sign_of_life_of_another_day_is_none_whatever_way_the_clock_was_set(
+    minutes: int, *, is_at_work: bool
+) -> None:
+    beat = dt.datetime(2026, 11, 21, 2, tzinfo=dt.UTC)
+    broken = PastNight(beat, None, beat=beat)
+    assert broken.see_at(beat + dt.timedelta(minutes=minutes)).is_at_work is is_at_work
+
+
 def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet) -> None:
     for stem in "klmno":
         fleet.job(stem)
