@@ -282,6 +282,15 @@ def test_what_two_plugins_provide_is_refused_to_who_names_it() -> None:
     )
 
 
+def test_two_plugins_of_one_name_are_not_told_to_be_switched_off_by_it() -> None:
+    plugins = (Plugin("exemplary:1", f"{name}_module", name, "1") for name in ("north", "south"))
+    registry = collect((plugin, offering([ExemplaryStandard()])) for plugin in plugins)
+    assert refusal(registry.standard, "exemplary:1", Place("job.yaml", 3, 5)) == (
+        "job.yaml:3:5: two plugins provide standard 'exemplary:1': north_module and south_module; "
+        "uninstall north or south"
+    )
+
+
 def test_standard_and_source_may_share_a_name() -> None:
     class Namesake(ExemplarySource):
         identifier = "exemplary:1"
