@@ -131,10 +131,12 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
     manager.add_hookspecs(_HOOK_SPECS)
     manager.register(module, plugin.name)
     found: dict[Key, Any] = {}
+    others: list[str] = []
     for kind in (named[0],) if named else KINDS:
         for offered in _list_answers(manager, kind):
             identifier = getattr(offered, "identifier", None)
             if named and identifier != named[1]:
+                others.append(str(identifier))
                 continue
             check(kind, offered)
             if (kind.name, identifier) in found:
@@ -142,7 +144,10 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
             found[kind.name, offered.identifier] = guard(kind, offered, plugin.in_words)
     if named and not found:
         kind, identifier = named
-        raise UnfitError(f"its entry point names {kind.label} {identifier!r}, and {kind.hook} offers none")
+        nearest = f" of that name; {did_you_mean(identifier, others)}" if others else ""
+        raise UnfitError(
+            f"its entry point names {kind.label} {identifier!r}, and {kind.hook} offers none{nearest}"
+        )
     return found
 
 
