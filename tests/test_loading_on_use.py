@@ -90,9 +90,11 @@ def test_an_entry_point_that_names_what_its_module_does_not_offer_is_told(instal
     install(_EFFECT, "[zlmreport.effect]\nmy-efect = zlm_mine\n")
     registry = find_plugins({})
     registry.list_offers()
-    assert [each.reason for each in registry.failed] == [
-        "its entry point names effect 'my-efect', and zlmreport_effects offers none"
-    ]
+    (failed,) = registry.failed
+    assert failed.reason == (
+        "its entry point names effect 'my-efect', and zlmreport_effects offers none of that name; "
+        "did you mean 'my-effect'? (known: my-effect)"
+    )
 
 
 def test_a_module_without_an_entry_point_for_each_object_is_loaded_to_know_what_it_offers(

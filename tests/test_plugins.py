@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.metadata import distribution
 from pathlib import Path
 from types import SimpleNamespace
@@ -17,9 +18,11 @@ from refusals import refusal, refused
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
-from zlmreport.plugin import AccessError, InputError, Options, Place, hookimpl
-from zlmreport.plugin.kinds import EFFECT, SOURCE, STANDARD
+from zlmreport.plugin import AccessError, InputError, Options, Place, Words, hookimpl
+from zlmreport.plugin.kinds import CONTROLLER, EFFECT, SOURCE, STANDARD
 from zlmreport.plugin.registry import DISABLE, FILES, Plugin, Registry, collect, find_plugins
+from zlmreport.plugin.registry.candidate import UnfitError, check
+from zlmreport_plugins.controllers.linuxcnc import LinuxCnc
 
 SOUND_PLUGIN = (Plugin("sound", "sound_module"), offering([ExemplaryStandard()]))
 
@@ -130,11 +133,63 @@ def test_title_must_be_words_in_all_languages() -> None:
     assert _reason(offering(sources=[Odd()])) == "data source 'exemplary-text' needs a title in Words"
 
 
+@pytest.mark.parametrize(
+    ("members", "lacking"),
+    [
+        ({"designation": None}, "designation: str, not None"),
+        ({"notes": "take care"}, "notes: tuple[Words, ...], not str"),
+        ({"notes": ("take care",)}, "notes[0]: Words, not str"),
+        (
+            {"position_index": 1, "notes": None},
+            "position_index: str, not int; notes: tuple[Words, ...], not None",
+        ),
+    ],
+)
+def test_members_must_be_of_the_types_that_their_interface_declares(
+    members: dict[str, Any], lacking: str
+) -> None:
+    odd = type("Odd", (ExemplaryStandard,), members)()
+    assert _reason(offering(standards=[odd])) == f"standard 'exemplary:1' needs {lacking}"
+
+
+@pytest.mark.parametrize(
+    ("changes", "lacking"),
+    [
+        ({"name": "spread"}, "name: Words, not str"),
+        ({"group": "random"}, "group: QuantityGroup, not str"),
+        ({"meaning": Words(None)}, "meaning.en: str, not None"),  # type: ignore[arg-type]
+    ],
+)
+def test_parts_of_members_must_be_of_their_types(changes: dict[str, Any], lacking: str) -> None:
+    class Odd(ExemplaryStandard):
+        quantities = (replace(ExemplaryStandard.quantities[0], **changes),)
+
+    assert _reason(offering(standards=[Odd()])) == f"standard 'exemplary:1' needs quantities[0].{lacking}"
+
+
+def test_confidence_of_a_controller_must_be_a_known_one() -> None:
+    odd = type("Odd", (LinuxCnc,), {"confidence": "confirmed"})()
+    with pytest.raises(UnfitError, match="needs a confidence of verified, documented or unconfirmed"):
+        check(CONTROLLER, odd)
+
+
 def test_options_must_be_options() -> None:
     class Odd(ExemplarySource):
         options = dict
 
     assert "needs options that are a subclass of Options" in _reason(offering(sources=[Odd()]))
+
+
+def test_options_must_say_types_that_are_known() -> None:
+    class Unknown(Options):
+        file: Nowhere  # type: ignore[name-defined]  # noqa: F821 - that is what is told
+
+    class Odd(ExemplarySource):
+        options = Unknown
+
+    assert _reason(offering(sources=[Odd()])) == (
+        "data source 'exemplary-text' has options that cannot be used, Unknown: name 'Nowhere' is not defined"
+    )
 
 
 def test_key_of_the_job_is_no_key_of_a_plugin() -> None:
@@ -186,7 +241,8 @@ def test_hook_that_forgets_to_return_is_told() -> None:
 
 
 def test_hook_that_offers_no_list_is_told() -> None:
-    assert "'ExemplaryRenderer' object is not iterable" in _reason(offering(renderers=ExemplaryRenderer()))
+    reason = _reason(offering(renderers=ExemplaryRenderer()))
+    assert reason == "zlmreport_renderers returns an object of type ExemplaryRenderer; return a list"
 
 
 def test_hook_with_arguments_that_there_are_not_is_told() -> None:
@@ -223,6 +279,15 @@ def test_what_two_plugins_provide_is_refused_to_who_names_it() -> None:
     assert refusal(registry.standard, "exemplary:1", Place("job.yaml", 3, 5)) == (
         "job.yaml:3:5: two plugins provide standard 'exemplary:1': other_module and sound_module; "
         "switch one off: ZLMREPORT_DISABLE_PLUGINS=sound"
+    )
+
+
+def test_two_plugins_of_one_name_are_not_told_to_be_switched_off_by_it() -> None:
+    plugins = (Plugin("exemplary:1", f"{name}_module", name, "1") for name in ("north", "south"))
+    registry = collect((plugin, offering([ExemplaryStandard()])) for plugin in plugins)
+    assert refusal(registry.standard, "exemplary:1", Place("job.yaml", 3, 5)) == (
+        "job.yaml:3:5: two plugins provide standard 'exemplary:1': north_module and south_module; "
+        "uninstall north or south"
     )
 
 

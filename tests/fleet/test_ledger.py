@@ -224,6 +224,30 @@ def test_a_file_that_is_no_database_is_named(tmp_path: Path) -> None:
         Ledger.open(str(path), "north")
 
 
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("UPDATE entries SET state = 'done'", "'done' is not a valid State"),
+        ("UPDATE entries SET files = '[[1]'", "Expecting ',' delimiter"),
+        ("UPDATE entries SET files = '[[1]]'", "from_json|argument|unpack|values"),
+        ("UPDATE entries SET measured = '18.11.2026'", "Invalid isoformat string: '18.11.2026'"),
+        ("UPDATE nights SET began = 'yesterday'", "Invalid isoformat string: 'yesterday'"),
+        ('UPDATE nights SET notices = \'[["weather", "rain"]]\'', "'weather' is not a valid About"),
+    ],
+)
+def test_what_somebody_wrote_into_a_ledger_by_hand_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, change: str, said: str
+) -> None:
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "x", "y")
+    fleet.spend()
+    with create_engine(f"sqlite:///{tmp_path / 'ledger.db'}").begin() as connection:
+        connection.execute(text(change))
+    with pytest.raises(AccessError, match=f"the ledger holds what no night wrote: .*({said})") as told:
+        fleet.spend()
+    assert "make it again (zlmreport fleet rebuild)" in str(told.value)
+
+
 def test_a_database_of_another_kind_is_refused() -> None:
     with pytest.raises(InputError, match="a ledger is in SQLite or PostgreSQL, not in mysql"):
         Ledger.open("mysql://server/fleet", "north")

@@ -17,6 +17,7 @@ from zlmreport import pipeline
 from zlmreport.fleet import making, night as nights
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.making import Failed, MadeCertificate, Task
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
 from zlmreport.job import days
@@ -263,8 +264,9 @@ def test_a_plugin_that_raises_fails_its_job_alone(fleet: Fleet, monkeypatch: pyt
     assert "ZeroDivisionError" in night.of("x").problems[0].message
 
 
-def test_two_new_jobs_of_one_number_are_both_refused_with_both_places(fleet: Fleet) -> None:
-    fleet.job("y", ("CAL-Y", "CAL-X"))
+@pytest.mark.parametrize("written", ["CAL-X", "' CAL-X '"])
+def test_two_new_jobs_of_one_number_are_both_refused_with_both_places(fleet: Fleet, written: str) -> None:
+    fleet.job("y", ("CAL-Y", written))
     night = fleet.spend()
     assert night.what == {"x": What.FAILED, "y": What.FAILED}
     problem = night.of("x").problems[0]
@@ -277,6 +279,32 @@ def test_a_copied_number_is_refused_and_the_certificate_that_has_it_stays(fleet:
     fleet.spend()
     fleet.job("z", ("CAL-Z", "CAL-X"))
     assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED, "z": What.FAILED}
+
+
+@pytest.mark.parametrize("is_issued", [True, False], ids=["issued before", "of the same night"])
+def test_a_number_that_is_changed_while_the_night_works_is_given_to_nobody(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch, *, is_issued: bool
+) -> None:
+    if is_issued:
+        fleet.spend()
+    fleet.job("a")
+    make = making.make_certificate
+
+    def make_late(task: Task) -> MadeCertificate | Failed:
+        if task.job.name == "a.yaml":
+            fleet.job("a", ("CAL-A", "CAL-X"))
+        return make(task)
+
+    monkeypatch.setattr(making, "make_certificate", make_late)
+    night = fleet.spend()
+    assert night.what["a"] is What.FAILED
+    assert night.of("a").problems[0].message.startswith("its number was CAL-A when the night began")
+    with Ledger.open(str(fleet.folder / "ledger.db"), "Hall North") as ledger:
+        assert {number: issued.job for number, issued in ledger.list_certificates().items()} == {
+            "CAL-X": "jobs/x.yaml",
+            "CAL-Y": "jobs/y.yaml",
+        }
+    assert "jobs/x.yaml:3:11 too" in fleet.spend().of("a").problems[0].message
 
 
 def test_what_a_certificate_leaves_doubtful_is_in_the_ledger(fleet: Fleet) -> None:

@@ -49,6 +49,24 @@ def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet
     assert "x" not in fleet.spend().what
 
 
+def test_a_job_that_was_renamed_is_told_with_its_new_name(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").rename(fleet.folder / "jobs/new.yaml")
+    expected = "jobs/x.yaml: the job is gone, and jobs/new.yaml has its number CAL-X; name the old one"
+    for _ in range(2):
+        witness = fleet.spend()
+        (problem,) = witness.of("x").problems
+        assert expected in problem.message
+    kept = next(each for each in fleet.entries() if each.state is State.VANISHED)
+    assert "jobs/new.yaml has its number" in kept.message
+
+
+def test_a_job_with_the_number_of_another_says_for_which_it_was_issued(fleet: Fleet) -> None:
+    (fleet.folder / "jobs/x.yaml").rename(fleet.folder / "jobs/new.yaml")
+    fleet.readings("x", "1 2 4 -1 -2 -3")
+    draft = fleet.spend().of("new")
+    assert (draft.what, draft.why) == (What.DRAFT, "new; CAL-X was issued on 2026-11-20 for jobs/x.yaml")
+
+
 def test_a_file_where_the_folder_should_be_is_told(fleet: Fleet) -> None:
     output = fleet.folder / "certificates"
     shutil.rmtree(output)
@@ -126,6 +144,28 @@ def noticed(fleet: Fleet) -> list[About]:
     assert last is not None
     assert last.ended is not None
     return [each.about for each in last.notices]
+
+
+def test_a_night_in_which_the_clock_is_set_back_took_no_negative_time(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times = iter(["2026-11-21T02:00:00+00:00"])
+    monkeypatch.setattr(night, "read_clock", lambda: next(times, "2026-11-21T01:00:00+00:00"))
+    fleet.spend()
+    with Ledger.open(str(fleet.folder / "ledger.db"), "Hall North") as ledger:
+        last = ledger.find_last_night()
+    assert last is not None
+    assert last.began.hour == 2
+    assert 0 <= (last.seconds or 0) < 3600
+
+
+@pytest.mark.parametrize(("minutes", "is_at_work"), [(-1440, False), (-1, True), (1, True), (1440, False)])
+def test_a_sign_of_life_of_another_day_is_none_whatever_way_the_clock_was_set(
+    minutes: int, *, is_at_work: bool
+) -> None:
+    beat = dt.datetime(2026, 11, 21, 2, tzinfo=dt.UTC)
+    broken = PastNight(beat, None, beat=beat)
+    assert broken.see_at(beat + dt.timedelta(minutes=minutes)).is_at_work is is_at_work
 
 
 def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet) -> None:

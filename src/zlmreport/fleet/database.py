@@ -160,6 +160,20 @@ class Database:
         except SQLAlchemyError as error:
             raise _make_no_access(self.address, error) from error
 
+    @contextlib.contextmanager
+    def begin_reading(self) -> Iterator[Connection]:
+        """Yield a connection to read by; raise `AccessError`, too, for what no night wrote."""
+        with self.begin_transaction() as connection:
+            try:
+                yield connection
+            except (ValueError, TypeError, LookupError) as error:
+                what = " ".join(str(error).split())[:300]
+                raise AccessError.at(
+                    Place(_show_address(self.address)),
+                    f"the ledger holds what no night wrote: {what}; move it away, and put its backup back or "
+                    "make it again (zlmreport fleet rebuild)",
+                ) from error
+
 
 def open_database(address: str, *, create: bool) -> Database:
     """Open the database of a ledger, with its tables.

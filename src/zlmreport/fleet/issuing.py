@@ -83,6 +83,8 @@ def _list_hidden(folder: Path) -> Iterator[Path]:
 
 _ASIDE = "; it is set aside until the job, a file that it names, or a program changes"
 _GONE = "the job is gone; put it back, or name it under retired in the fleet file"
+_RENAMED = "the job is gone, and {heir} has its number {number}; name the old one under retired"
+_RENUMBERED = "its number was {before} when the night began, and was changed since; the next night makes it"
 _UNKNOWN = "a file of this number with another content is there, and the ledger does not know it"
 
 
@@ -142,6 +144,9 @@ class Desk:
         """Keep what a job came to."""
         if isinstance(result, Failed):
             return self.note_failure(planned, result)
+        if result.subject.number != planned.number:  # what was refused, or allowed, was the number before
+            problem = Problem(Place(str(planned.path)), _RENUMBERED.format(before=planned.number))
+            return self.note_failure(planned, Failed((problem,), result.subject))
         try:
             return self._keep_draft(planned, result) if result.is_draft else self._issue(planned, result)
         except NumberTakenError as error:
@@ -165,14 +170,16 @@ class Desk:
         problems = tuple(replace(each, message=each.message + hint) for each in result.problems)
         return Happened(What.FAILED, planned.job, subject.number, planned.why, problems=problems)
 
-    def note_vanished(self, job: str) -> Happened:
-        """Note that the file of a job is gone."""
+    def note_vanished(self, job: str, heirs: Mapping[str, str]) -> Happened:
+        """Note that the file of a job is gone; `heirs`: the job of tonight that has each number."""
         standing = self.known.standings[job]
+        heir = heirs.get(standing.number)
+        message = _RENAMED.format(heir=heir, number=standing.number) if heir else _GONE
         if standing.state is not State.VANISHED:
             subject = asdict(replace(standing.subject, number=standing.number))
             began, state = self.night.began, State.VANISHED
-            self.night.add(LedgerEntry(**subject, job=job, night=began, state=state, message=_GONE))
-        problem = Problem(Place(str(self.fleet.path)), f"{job}: {_GONE}")
+            self.night.add(LedgerEntry(**subject, job=job, night=began, state=state, message=message))
+        problem = Problem(Place(str(self.fleet.path)), f"{job}: {message}")
         return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
     def _keep_draft(self, planned: PlannedJob, made: MadeCertificate) -> Happened:

@@ -312,29 +312,28 @@ class Ledger(Closable):
             .where(own)
             .order_by(PARAMETERS.c.entry, PARAMETERS.c.row)
         )
-        with self._database.begin_transaction() as connection:
+        with self._database.begin_reading() as connection:
             stated = {
                 entry: tuple(map(_read_parameter, rows))
                 for entry, rows in itertools.groupby(connection.execute(parameters), lambda row: row.entry)
             }
-            rows = connection.execute(entries).all()
-        for row in rows:
-            yield _make_entry(row, stated.get(row.id, ()))
+            found = [_make_entry(row, stated.get(row.id, ())) for row in connection.execute(entries)]
+        yield from found
 
     def find_last_night(self) -> PastNight | None:
         """Return the last night of the fleet; None before the first."""
         query = select(NIGHTS).where(NIGHTS.c.fleet == self._fleet).order_by(NIGHTS.c.id.desc()).limit(1)
-        with self._database.begin_transaction() as connection:
+        with self._database.begin_reading() as connection:
             night = connection.execute(query).one_or_none()
             if night is None:
                 return None
             states = select(ENTRIES.c.state, func.count()).where(ENTRIES.c.night == night.id)
             came_to = {State(row[0]): row[1] for row in connection.execute(states.group_by(ENTRIES.c.state))}
-        notices = tuple(
-            NightNotice(About(about), _read_words(*texts)) for about, *texts in night.notices or ()
-        )
-        ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
-        began, untried = dt.datetime.fromisoformat(night.began), tuple(night.untried or ())
+            notices = tuple(
+                NightNotice(About(about), _read_words(*texts)) for about, *texts in night.notices or ()
+            )
+            ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
+            began, untried = dt.datetime.fromisoformat(night.began), tuple(night.untried or ())
         return PastNight(began, ended, notices, came_to, beat, untried=untried)
 
     def list_standings(self) -> Mapping[str, Standing]:
@@ -345,7 +344,7 @@ class Ledger(Closable):
             .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
             .where(ENTRIES.c.id.in_(latest))
         )
-        with self._database.begin_transaction() as connection:
+        with self._database.begin_reading() as connection:
             return {
                 row.job: Standing(
                     row.number,
@@ -377,7 +376,7 @@ class Ledger(Closable):
             .join(ENTRIES, CERTIFICATES.c.entry == ENTRIES.c.id)
             .join(NIGHTS, ENTRIES.c.night == NIGHTS.c.id)
         )
-        with self._database.begin_transaction() as connection:
+        with self._database.begin_reading() as connection:
             return {
                 row.number: Issued(row.fleet, row.job, row.began, _read_files(row.files))
                 for row in connection.execute(query)
@@ -488,6 +487,8 @@ def _make_entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Led
 def _read_subject(row: Row[Any]) -> dict[str, Any]:
     """Return what an entry is about; what an older program did not note is empty."""
     kept = {each.name: getattr(row, each.name) for each in fields(Subject)}
+    if kept["measured"]:
+        dt.date.fromisoformat(kept["measured"])  # raises ValueError for what no night wrote
     return {name: value if name == "interval" else value or "" for name, value in kept.items()}
 
 

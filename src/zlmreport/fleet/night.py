@@ -110,7 +110,8 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     cannot be used, or another night is at work; `MissingError` if the folder of certificates is gone, or most
     of the jobs.
     """
-    plugins, ends = order.plugins, time.monotonic() + order.seconds
+    plugins, start = order.plugins, time.monotonic()
+    ends = start + order.seconds
     jobs, unmatched = find_jobs(fleet)
     ways, language = find_ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
@@ -129,7 +130,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 _tell(fleet, night, ways, watch, last)
                 night.notice((*noticed, *ways.untold.values()))
                 if not night.was_interrupted:  # else the next night still has to tidy up
-                    night.end(read_clock())
+                    night.end(_compute_end(night.began, start))
                 raise MissingError.at(place, notice.english)
             mistakes = (NightNotice(About.JOBS, same(each.message)) for each in unmatched)
             noticed = (*list_notices(known, night, gone, last), *mistakes)
@@ -156,7 +157,13 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 night.report(tuple(find_news_of(state, language, printed)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
-            night.end(read_clock())
+            night.end(_compute_end(night.began, start))
+
+
+def _compute_end(began: str, start: float) -> str:
+    """Return when a night ends that began at `start` by the steady clock: the other may have been set."""
+    took = dt.timedelta(seconds=time.monotonic() - start)
+    return (dt.datetime.fromisoformat(began) + took).isoformat(timespec="seconds")
 
 
 def _find_names(plugins: tuple[Path, ...]) -> Names:
@@ -257,9 +264,9 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
         witness.watch.note_plan(planned)
-        desk = Desk(known, night)
+        desk, heirs = Desk(known, night), {each.number: each.job for each in planned if each.number}
         for happened in (
-            *map(desk.note_vanished, work.gone),
+            *(desk.note_vanished(job, heirs) for job in work.gone),
             *_find_overdue(known, night.list_subjects(NewsKind.OVERDUE), night.began),
         ):
             witness.note_happened(happened)

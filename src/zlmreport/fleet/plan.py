@@ -131,6 +131,8 @@ def _plan_job(path: Path, why: str, evening: Evening) -> PlannedJob:
     except ZlmreportError as error:
         return PlannedJob(path, job, Due.REFUSAL, why, problems=error.problems)
     issued = evening.certificates.get(number)
+    if issued and issued.job != job:
+        why = f"{why}; {number} was issued on {_read_day(issued.night)} for {issued.job}"
     planned = PlannedJob(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
     refusal = _say_refusal(issued, evening) if issued else _say_twin(number, evening)
     return _refuse_job(planned, Problem(place, refusal)) if refusal else planned

@@ -138,7 +138,8 @@ class PastNight:
 
     def see_at(self, now: datetime) -> Self:
         """Return the same as it is now: at work if it has not ended, and gave a sign of life lately."""
-        is_at_work = self.ended is None and self.beat is not None and now - self.beat < SILENT
+        # One that is to come is of a clock that was set back since: whoever is at work has given another.
+        is_at_work = self.ended is None and self.beat is not None and abs(now - self.beat) < SILENT
         return replace(self, is_at_work=is_at_work)
 
     @property

@@ -330,7 +330,7 @@ def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
     tree = read_composition(job, defaults=defaults).keys
     found = list(walk(tree, ("certificate", "number")))
     _, place, value = found[-1] if found else ("", tree.place, None)
-    return (value.text, place) if isinstance(value, Scalar) else ("", place)
+    return (value.text.strip(), place) if isinstance(value, Scalar) else ("", place)
 
 
 def _find_wrong_defaults(shared: Keys, extensions: Callable[[], Sequence[Extension]]) -> Iterator[Problem]:

@@ -74,6 +74,10 @@ class Kind(Generic[Offered_co]):
         return self.name
 
 
+#: How sure it is that a control reads a table as it was written.
+_CONFIDENCES = ("verified", "documented", "unconfirmed")
+
+
 def _say_meaning_two_things(effect: Any) -> str:
     """Tell of a job key of an effect that means two things, names of parameters among them."""
     from zlmreport.job.types import list_keys_in  # noqa: PLC0415 - brings pydantic
@@ -82,6 +86,14 @@ def _say_meaning_two_things(effect: Any) -> str:
     names.extend(list_keys_in(effect.options))
     twice = sorted(name for name, times in Counter(names).items() if times > 1)
     return f"has two parameters or keys called {twice[0]!r}" if twice else ""
+
+
+def _say_unknown_confidence(controller: Any) -> str:
+    """Tell of a confidence that nobody could print."""
+    if controller.confidence in _CONFIDENCES:
+        return ""
+    known = " or ".join((", ".join(_CONFIDENCES[:-1]), _CONFIDENCES[-1]))
+    return f"needs a confidence of {known}, not {controller.confidence!r}"
 
 
 STANDARD: Kind[Standard] = Kind(
@@ -141,6 +153,7 @@ CONTROLLER: Kind[Controller] = Kind(
     door="controller",
     interface="Controller",
     reserved=frozenset({"controller"}),
+    lacks=_say_unknown_confidence,
 )
 EXTENSION: Kind[Extension] = Kind(
     name="extension",

@@ -22,12 +22,21 @@ from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import What
-from zlmreport.plugin import Axis, InputError, Language, MeasurementSet, Place
+from zlmreport.plugin import Axis, Figure, InputError, Language, MeasurementSet, Place, Words
 from zlmreport.plugin.boundary import PluginError, guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import Plugin, Registry, collect
-from zlmreport.plugin.standard import Arithmetic, evaluate, position_statistics
+from zlmreport.plugin.standard import (
+    Arithmetic,
+    Bracket,
+    Curve,
+    Finding,
+    Panel,
+    Role,
+    evaluate,
+    position_statistics,
+)
 from zlmreport.testing import full_designs, sample_cross_tables, sample_motion, simulated_test
 
 OTHER = Plugin("house", "house_module", "house-plugins", "2.0")
@@ -70,6 +79,15 @@ def _exits_late(_self: Any, *_: Any) -> Iterator[Any]:
     sys.exit()
 
 
+def _curve(y: np.ndarray) -> Curve:
+    return Curve("x", Role.MEAN_POSITIVE, np.zeros(3), y)
+
+
+def _figure(**members: Any) -> Figure:
+    sound = Figure("means", *(Words("Means"),) * 4, x_unit="mm", y_unit="µm", panels=())
+    return replace(sound, **members)
+
+
 SINS: Mapping[str, tuple[Mapping[str, Any], str]] = {
     "exit": ({"arithmetic": _raising(SystemExit(0))}, "arithmetic raised SystemExit: 0 (test_boundary.py"),
     "exit of a generator": ({"requirements": _exits_late}, "requirements raised SystemExit (test_boundary"),
@@ -93,6 +111,22 @@ SINS: Mapping[str, tuple[Mapping[str, Any], str]] = {
     "finding": ({"requirements": lambda *_: ["fine"]}, "an object of type str among others; each must be F"),
     "findings": ({"requirements": lambda *_: None}, "requirements returns nothing; several Finding are"),
     "figure": ({"figures": lambda *_: "means"}, "figures returns an object of type str; several Figure"),
+    "figure without a value in one language": (
+        {"figures": lambda *_: [_figure(alternative=Words("{n} µm", de="{m} µm", values={"n": 1}))]},
+        "figures returns words that cannot be said in de, alternative of figure 'means': no value for {m}",
+    ),
+    "curve": (
+        {"figures": lambda *_: [_figure(panels=(Panel(curves=(_curve(np.zeros(2)),)),))]},
+        "figures gives y of curve 'x' of figure 'means' of the shape (2,); (3,) is expected",
+    ),
+    "bracket": (
+        {"figures": lambda *_: [_figure(panels=(Panel(brackets=(Bracket("A", 0, np.nan, 0, 0),)),))]},
+        "figures gives high of Bracket 'A' of figure 'means' that is NaN; a number is expected",
+    ),
+    "finding without a value": (
+        {"requirements": lambda *_: [Finding(Words("{n} runs"), Words("{n} runs").given(m=1), met=True)]},
+        "requirements returns words that cannot be said in en, what was found: no value for {n}",
+    ),
 }
 
 

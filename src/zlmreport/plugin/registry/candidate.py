@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 import traceback
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,6 +16,7 @@ from zlmreport.errors import Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.hooks import PROJECT
 from zlmreport.plugin.kinds import KINDS, Kind
+from zlmreport.plugin.registry.members import find_unlike
 from zlmreport.presence import PRESENCE
 
 #: Environment variable that switches plugins off.
@@ -130,10 +131,12 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
     manager.add_hookspecs(_HOOK_SPECS)
     manager.register(module, plugin.name)
     found: dict[Key, Any] = {}
+    others: list[str] = []
     for kind in (named[0],) if named else KINDS:
         for offered in _list_answers(manager, kind):
             identifier = getattr(offered, "identifier", None)
             if named and identifier != named[1]:
+                others.append(str(identifier))
                 continue
             check(kind, offered)
             if (kind.name, identifier) in found:
@@ -141,7 +144,10 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
             found[kind.name, offered.identifier] = guard(kind, offered, plugin.in_words)
     if named and not found:
         kind, identifier = named
-        raise UnfitError(f"its entry point names {kind.label} {identifier!r}, and {kind.hook} offers none")
+        nearest = f" of that name; {did_you_mean(identifier, others)}" if others else ""
+        raise UnfitError(
+            f"its entry point names {kind.label} {identifier!r}, and {kind.hook} offers none{nearest}"
+        )
     return found
 
 
@@ -152,6 +158,8 @@ def _list_answers(manager: pluggy.PluginManager, kind: Kind[Any]) -> Iterator[An
     if len(answers) < len(hook.get_hookimpls()):  # pluggy leaves out what forgets to return
         raise UnfitError(f"{kind.hook} returns nothing; return a list")
     for answer in answers:
+        if not isinstance(answer, Iterable) or isinstance(answer, str):
+            raise UnfitError(f"{kind.hook} returns an object of type {type(answer).__name__}; return a list")
         yield from answer
 
 
@@ -181,16 +189,25 @@ def check(kind: Kind[Any], offered: Any) -> None:
         raise UnfitError(f"{who} needs a suffix such as {kind.suffix!r}")
     if kind.has_keys:
         _check_keys(kind, who, offered.options)
+    if unlike := list(find_unlike(kind.protocol, offered)):
+        raise UnfitError(f"{who} needs {'; '.join(unlike)}")
     if reason := kind.lacks(offered):
         raise UnfitError(f"{who} {reason}")
 
 
 def _check_keys(kind: Kind[Any], who: str, options: object) -> None:
     """Refuse job keys that are none, or that the job has itself."""
-    from zlmreport.job.types import Options, list_keys_in  # noqa: PLC0415 - brings pydantic: a renderer has no keys
+    from pydantic import PydanticUndefinedAnnotation, PydanticUserError  # noqa: PLC0415 - a renderer has no keys
+
+    from zlmreport.job.types import Options, list_keys_in  # noqa: PLC0415 - the same
 
     if not isinstance(options, type) or not issubclass(options, Options):
         raise UnfitError(f"{who} needs options that are a subclass of Options")
+    try:
+        options.model_rebuild()
+    except (PydanticUserError, PydanticUndefinedAnnotation) as error:  # a name that nobody knows
+        reason = f"{options.__name__}: {error.message}"
+        raise UnfitError(f"{who} has options that cannot be used, {reason}") from None
     taken = sorted(kind.reserved & list_keys_in(options).keys())
     if taken:
         raise UnfitError(f"{who} cannot have the key {taken[0]!r} of its own: the job has one")

@@ -305,9 +305,12 @@ def _is_for(program: PartProgram, takes: type | None) -> bool:
 def _say_provided_twice(kind: Kind[Any], identifier: str, offering: Sequence[PluginCandidate]) -> str:
     """Return the sentence on what two plugins provide."""
     first, second = (each.plugin for each in offering[:2])
+    way_out = f"switch one off: {DISABLE}={second.name}"
+    if first.name == second.name:  # of entry points that name the same object: the name switches both off
+        way_out = f"uninstall {' or '.join(each.distribution or each.module for each in (first, second))}"
     return (
         f"two plugins provide {kind.label} {identifier!r}: {first.module or first.name} and "
-        f"{second.module or second.name}; switch one off: {DISABLE}={second.name}"
+        f"{second.module or second.name}; {way_out}"
     )
 
 

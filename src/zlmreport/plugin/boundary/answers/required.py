@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from zlmreport.language import Language, Words
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 
 if TYPE_CHECKING:
@@ -60,6 +61,19 @@ def require_kind(kind: type, answer: Any) -> Any:
     if not isinstance(answer, kind):
         raise Unacceptable(f"returns {name_answer(answer)}; {kind.__name__} is expected")
     return answer
+
+
+def require_sayable(answer: Any, what: str) -> Words:
+    """Return words that can be said in every language; refuse others, and such as lack a value."""
+    words: Words = require_kind(Words, answer)
+    for language in Language:
+        try:
+            words.in_language(language)
+        except (KeyError, IndexError, ValueError) as error:
+            wrong = f"no value for {{{error.args[0]}}}" if isinstance(error, KeyError) else str(error)
+            message = f"returns words that cannot be said in {language.value}, {what}: {wrong}"
+            raise Unacceptable(message) from None
+    return words
 
 
 def name_answer(answer: object) -> str:

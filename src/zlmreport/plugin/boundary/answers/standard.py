@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from zlmreport.document.figures.figure import Figure
+from zlmreport.document.figures.figure import Arrow, Bracket, Figure, Panel
 from zlmreport.evaluation.evaluation import Arithmetic, Finding
 from zlmreport.evaluation.uncertainty.budget import Contribution
-from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import (
-    accept_all_of,
     name_answer,
     require_all_of,
+    require_finite,
     require_kind,
+    require_numbers,
     require_real,
+    require_sayable,
 )
 
 if TYPE_CHECKING:
@@ -51,11 +53,43 @@ def requirements(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[A
     """Take every finding; refuse one that is not said in words."""
     findings = require_all_of(Finding, answer)
     for each in findings:
-        require_kind(Words, each.requirement)
-        require_kind(Words, each.found)
+        require_sayable(each.requirement, "a requirement")
+        require_sayable(each.found, "what was found")
         if each.met is not None and not isinstance(each.met, bool | np.bool_):
             raise Unacceptable(f"returns a finding whose met is {each.met!r}, not True, False or None")
     return findings
+
+
+def figures(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Figure, ...]:
+    """Take every graph; refuse one that cannot be drawn, or whose words cannot be said."""
+    found = require_all_of(Figure, answer)
+    for each in found:
+        for name in ("title", "alternative", "x_title", "y_title"):
+            require_sayable(getattr(each, name), f"{name} of figure {each.key!r}")
+        for panel in require_all_of(Panel, each.panels):
+            _require_drawable(panel, f"of figure {each.key!r}")
+    return found
+
+
+def _require_drawable(panel: Panel, of: str) -> None:
+    """Refuse lines whose places and values are not as many, and marks with an end that is no number."""
+    for curve in panel.curves:
+        _require_as_many(curve.x, {"y": curve.y}, f"curve {curve.notation!r} {of}")
+    for band in panel.bands:
+        _require_as_many(band.x, {"lower": band.lower, "upper": band.upper}, f"band {band.notation!r} {of}")
+    for readings in panel.readings:
+        _require_as_many(readings.x, {"y": readings.y}, f"readings {of}")
+    marks: tuple[Arrow | Bracket, ...] = (*panel.arrows, *panel.brackets)
+    for mark in marks:
+        for name, value in asdict(mark).items():
+            if name != "notation":
+                require_finite(value, (), f"{name} of {type(mark).__name__} {mark.notation!r} {of}")
+
+
+def _require_as_many(places: Any, values: Mapping[str, Any], of: str) -> None:
+    number = len(require_numbers(places, f"x of {of}"))
+    for name, each in values.items():
+        require_real(each, (number,), f"{name} of {of}")
 
 
 def of_error(standard: Guarded, answer: Any, *_: Any) -> Any:
@@ -79,7 +113,7 @@ def of_lines(_standard: Guarded, answer: Any, measurements: MeasurementSet, *_: 
 ACCEPTED: Mapping[str, Callable[..., Any]] = {
     "arithmetic": arithmetic,
     "requirements": requirements,
-    "figures": accept_all_of(Figure),
+    "figures": figures,
     "of_error": of_error,
     "contributions": of_lines,
 }
