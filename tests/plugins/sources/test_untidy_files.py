@@ -143,17 +143,18 @@ def test_a_misspelt_direction_is_told_at_its_place(tmp_path: Path) -> None:
 
 def test_of_a_wide_encoding_it_is_told_what_the_table_lacks(tmp_path: Path) -> None:
     path = tmp_path / "wide.txt"
-    path.write_bytes("Pos\tF1\tR1\n0\t1\t2\n".encode("utf-16"))
+    path.write_bytes("Pos\tG1\tH1\n0\t1\t2\n".encode("utf-16"))
     with pytest.raises(InputError, match="no column 'target'"):
         look_at(path, REGISTRY)
 
 
-def test_a_table_between_bars_is_no_table_of_signs(tmp_path: Path) -> None:
+def test_minus_signs_between_bars_are_directions(tmp_path: Path) -> None:
     path = tmp_path / "bars.md"
     rows_ = "".join(f"| {target} | - | 3 | {target / 100} |\n" for target in (0.0, 100.0, 200.0))
     path.write_text(f"| Target mm | Dir | Run | Error µm |\n|---|---|---|---|\n{rows_}", encoding="utf-8")
-    with pytest.raises(InputError, match="has a single column"):
-        look_at(path, REGISTRY)
+    read = look_at(path, REGISTRY).read
+    assert {*read.approach.tolist()} == {-1}
+    np.testing.assert_allclose(read.deviation, [0.0, 1e-6, 2e-6])
 
 
 #: What tables of the same readings differ in.
