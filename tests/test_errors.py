@@ -7,7 +7,7 @@ import pickle
 import pytest
 
 from zlmreport import ZlmreportError
-from zlmreport.errors import did_you_mean
+from zlmreport.errors import NOWHERE, did_you_mean
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.plugin import AccessError, InputError, Place, Problem
 
@@ -30,3 +30,15 @@ def test_what_a_model_cannot_carry_comes_out_of_another_process_as_it_went_in() 
 def test_a_standard_without_its_edition_is_answered_with_the_last_one() -> None:
     known = ["iso230-2:1997", "iso230-2:2014", "iso230-3", "nmtba"]
     assert did_you_mean("ISO230-2", known).startswith("did you mean 'iso230-2:2014'? (known: ")
+
+
+def test_what_is_known_is_listed_once() -> None:
+    known = "known: a, b"
+    said = [f"unknown key 'x'; {known}", f"unknown key 'aa'; did you mean 'a'? ({known})", "other; known: c"]
+    error = InputError(Problem(NOWHERE, each) for each in said)
+    assert str(error).splitlines() == [
+        "zlmreport: unknown key 'x'; known: a, b",
+        "zlmreport: unknown key 'aa'; did you mean 'a'?",
+        "zlmreport: other; known: c",
+    ]
+    assert [each.message for each in error.problems] == said

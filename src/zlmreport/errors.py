@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import re
 import traceback
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -68,7 +69,7 @@ class ZlmreportError(Exception):
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems: tuple[Problem, ...] = tuple(problems)
-        super().__init__("\n".join(map(str, self.problems)))
+        super().__init__("\n".join(write_lines(self.problems)))
 
     def __reduce__(self) -> tuple[type[ZlmreportError], tuple[tuple[Problem, ...]]]:
         """Let the error reach another process as it is."""
@@ -140,6 +141,25 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     editions = sorted(each for each in by_letters if each.startswith(f"{name.casefold()}:"))
     nearest = editions[-1:] or difflib.get_close_matches(name.casefold(), by_letters, n=1)
     return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
+
+
+#: The list of known names at the end of a message (`did_you_mean`).
+_KNOWN = re.compile(r" \(known: [^()]+\)$|; known: .+$")
+
+
+def write_lines(problems: Iterable[Problem]) -> Iterator[str]:
+    """Yield what the user reads of each problem; a list of known names stands in the first that has it.
+
+    >>> [*write_lines([Problem(NOWHERE, "no 'x'; known: a, b"), Problem(NOWHERE, "no 'y'; known: a, b")])]
+    ["zlmreport: no 'x'; known: a, b", "zlmreport: no 'y'"]
+    """
+    said: set[str] = set()
+    for each in problems:
+        known = _KNOWN.search(each.message)
+        names = known[0].strip(" ();").removeprefix("known: ") if known else ""
+        is_said = known is not None and names in said
+        yield f"{each.place}: {each.message[: known.start()] if known and is_said else each.message}"
+        said.add(names)
 
 
 def count_in_words(number: int, thing: str) -> str:
