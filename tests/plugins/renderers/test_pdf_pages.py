@@ -82,7 +82,7 @@ def test_a_letter_that_no_typeface_has_is_named_and_no_box_stands_for_it(weasypr
         '.notdef glyph rendered for Unicode string unsupported by fonts: "\U000f1234" (U+F1234)'
     )
 
-    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); write it otherwise"):
+    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); install a typeface"):
         read(document)
 
 
