@@ -148,6 +148,14 @@ def test_of_a_wide_encoding_it_is_told_what_the_table_lacks(tmp_path: Path) -> N
         look_at(path, REGISTRY)
 
 
+def test_means_below_a_table_are_no_rows_to_ask_about(tmp_path: Path) -> None:
+    path = tmp_path / "means.csv"
+    path.write_text("target,1+,1-\n0,1,2\n9,1,2\nMean,1,2\nStd. dev.,0.1,0.2\n", encoding="utf-8")
+    assert not [
+        question for question in look_at(path, REGISTRY).proposal.asks if "rows of numbers" in question
+    ]
+
+
 def test_minus_signs_between_bars_are_directions(tmp_path: Path) -> None:
     path = tmp_path / "bars.md"
     rows_ = "".join(f"| {target} | - | 3 | {target / 100} |\n" for target in (0.0, 100.0, 200.0))

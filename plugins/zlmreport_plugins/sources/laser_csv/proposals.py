@@ -35,7 +35,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
 )
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
 from zlmreport_plugins.sources.laser_csv.passes import draft_of_parts, tell_passes
-from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, list_texts
+from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, is_summary, list_texts
 
 #: Axes that turn, by their letters, and a whole turn of them in degrees.
 _TURNING, _WHOLE_TURN = frozenset("ABC"), 360.0
@@ -404,7 +404,7 @@ def _ask_for_rows_outside(draft: Draft) -> None:
     table = draft.table
     if "parts" in draft.keys or table.layout.is_transposed:
         return
-    below = _list_lines_of_numbers(table.below, table.notation)
+    below = _list_lines_of_numbers((row for row in table.below if not is_summary(row.cells)), table.notation)
     if len(below) > 1:
         draft.asks.append(questions.BELOW_ASKED.format(count=len(below), first=below[0]))
     above = _list_lines_of_numbers(_list_rows_above(table), table.notation)

@@ -186,7 +186,7 @@ def _holds_units(cells: Sequence[str]) -> bool:
     return holds_units(cells) and not any(len(cell) > 1 and names_direction(cell) for cell in cells)
 
 
-def _is_summary(cells: Sequence[str]) -> bool:
+def is_summary(cells: Sequence[str]) -> bool:
     """Return whether a row holds means or the like: by the word at its beginning."""
     words = re.findall(r"[^\W\d_]+", first_cell(cells).casefold())
     return bool(words) and words[0].startswith(_SUMMARIES)
@@ -347,7 +347,7 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     ends = (
         index
         for index, (row, target) in enumerate(zip(rows, columns[meanings.index("target")], strict=True))
-        if target is None or _is_summary(row.cells)
+        if target is None or is_summary(row.cells)
     )
     last = next(ends, len(rows))
     is_even = is_workbook or layout.is_transposed or len(rows[0].cells if rows else ()) >= width
