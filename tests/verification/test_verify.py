@@ -101,9 +101,12 @@ def test_letters_that_no_typeface_has_are_told_where_they_stand(printed: str, tm
     job = lay_out(tmp_path, job=f"# {lacking}\n{JOB}customer: {{name: A {lacking}}}\n")
     with pytest.raises(InputError, match=r"/job\.yaml:10:20: .*\(U\+F1234"):
         issue(job, printed)
-    job.write_text(JOB, encoding="utf-8")
-    with pytest.raises(InputError, match=rf"/{lacking}\.yaml: .*\(U\+F1234"):
-        issue(job.rename(job.parent / f"{lacking}.yaml"), printed)
+
+
+def test_a_letter_that_no_typeface_has_is_told_of_the_name_of_a_file(tmp_path: Path) -> None:
+    job = lay_out(tmp_path)
+    with pytest.raises(InputError, match=r"/作业\.yaml: the typeface .*'作' \(U\+4F5C"):
+        issue(job.rename(job.parent / "作业.yaml"), "pdf-typst")
 
 
 def test_a_day_that_has_not_come_by_the_clock_is_not_decided(
