@@ -7,7 +7,7 @@ import pickle
 import pytest
 
 from zlmreport import ZlmreportError
-from zlmreport.errors import did_you_mean
+from zlmreport.errors import NOWHERE, did_you_mean
 from zlmreport.model.effects.model_error import ModelError
 from zlmreport.plugin import AccessError, InputError, Place, Problem
 
@@ -32,16 +32,13 @@ def test_a_standard_without_its_edition_is_answered_with_the_last_one() -> None:
     assert did_you_mean("ISO230-2", known).startswith("did you mean 'iso230-2:2014'? (known: ")
 
 
-def test_names_that_are_known_are_listed_once_for_all_that_is_unknown_among_them() -> None:
-    known, others = ["axis", "kind"], ["date", "feed"]
-    unknown = [("axsi", known), ("feeed", others), ("kindd", known), ("datte", others)]
-    error = InputError(
-        Problem(Place("job.yaml", line), did_you_mean(name, among))
-        for line, (name, among) in enumerate(unknown, start=1)
-    )
-    assert [each.message for each in error.problems] == [
-        "did you mean 'axis'? (known: axis, kind)",
-        "did you mean 'feed'? (known: date, feed)",
-        "did you mean 'kind'?",
-        "did you mean 'date'?",
+def test_what_is_known_is_listed_once() -> None:
+    known = "known: a, b"
+    said = [f"unknown key 'x'; {known}", f"unknown key 'aa'; did you mean 'a'? ({known})", "other; known: c"]
+    error = InputError(Problem(NOWHERE, each) for each in said)
+    assert str(error).splitlines() == [
+        "zlmreport: unknown key 'x'; known: a, b",
+        "zlmreport: unknown key 'aa'; did you mean 'a'?",
+        "zlmreport: other; known: c",
     ]
+    assert [each.message for each in error.problems] == said

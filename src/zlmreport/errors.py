@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import re
 import traceback
 import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
@@ -16,8 +17,6 @@ UNDECIDED = 5  #: Something of a certificate could not be compared.
 
 #: Letters of a foreign text that a message shows.
 _LONGEST_QUOTE = 60
-#: What the names that are known begin with, behind the nearest of them.
-_KNOWN = " (known: "
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -69,8 +68,8 @@ class ZlmreportError(Exception):
     exit_code = 2
 
     def __init__(self, problems: Iterable[Problem]) -> None:
-        self.problems: tuple[Problem, ...] = tuple(_tell_known_once(problems))
-        super().__init__("\n".join(map(str, self.problems)))
+        self.problems: tuple[Problem, ...] = tuple(problems)
+        super().__init__("\n".join(write_lines(self.problems)))
 
     def __reduce__(self) -> tuple[type[ZlmreportError], tuple[tuple[Problem, ...]]]:
         """Let the error reach another process as it is."""
@@ -141,16 +140,26 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     by_letters = {each.casefold(): each for each in known}
     editions = sorted(each for each in by_letters if each.startswith(f"{name.casefold()}:"))
     nearest = editions[-1:] or difflib.get_close_matches(name.casefold(), by_letters, n=1)
-    return f"did you mean {by_letters[nearest[0]]!r}?{_KNOWN}{listed})" if nearest else f"known: {listed}"
+    return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
 
 
-def _tell_known_once(problems: Iterable[Problem]) -> Iterator[Problem]:
-    """Yield problems; the names that are known are left out of one where those before have told them."""
-    told: set[str] = set()
+#: The list of known names at the end of a message (`did_you_mean`).
+_KNOWN = re.compile(r" \(known: [^()]+\)$|; known: .+$")
+
+
+def write_lines(problems: Iterable[Problem]) -> Iterator[str]:
+    """Yield what the user reads of each problem; a list of known names stands in the first that has it.
+
+    >>> [*write_lines([Problem(NOWHERE, "no 'x'; known: a, b"), Problem(NOWHERE, "no 'y'; known: a, b")])]
+    ["zlmreport: no 'x'; known: a, b", "zlmreport: no 'y'"]
+    """
+    said: set[str] = set()
     for each in problems:
-        message, _, names = each.message.rpartition(_KNOWN)
-        yield Problem(each.place, message) if message and names in told else each
-        told.add(names)
+        known = _KNOWN.search(each.message)
+        names = known[0].strip(" ();").removeprefix("known: ") if known else ""
+        is_said = known is not None and names in said
+        yield f"{each.place}: {each.message[: known.start()] if known and is_said else each.message}"
+        said.add(names)
 
 
 def count_in_words(number: int, thing: str) -> str:

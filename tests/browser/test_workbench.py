@@ -12,6 +12,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import FloatRect, Page, expect
 
 from browser.pictures import picture
+from processes import ZLMREPORT, started
 
 Window = Callable[..., Page]
 pytestmark = [pytest.mark.early, pytest.mark.long]
@@ -555,3 +556,27 @@ def test_a_model_is_built_step_by_step_and_a_step_taken_back(address: str, job: 
     page.get_by_role("button", name="One step back").click()
     diagnosed(page, "missing")
     assert "    - screw-pitch\n" not in job.read_text(encoding="utf-8")
+
+
+def test_numbers_of_many_digits_are_not_cut_where_a_page_is_narrow(
+    tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch, window: Window
+) -> None:
+    """Readings in another unit than the job says have such ones, and this is seen in the graph."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
+    rows = [(t, s, r) for r in (1, 2) for s in (1, -1) for t in (0, 20000, 40000, 60000)[::s]]
+    readings = "\n".join(f"{t},{s:+d},{r},{200 * t + 10 * r - 3 * s}" for t, s, r in rows)
+    (tmp_path / "x.csv").write_text(f"target,direction,run,deviation\n{readings}\n", encoding="utf-8")
+    job = tmp_path / "long.yaml"
+    job.write_text(
+        "schema: zlmreport/job/1\ncertificate: {number: LONG-1, kind: report}\naxis: {name: X}\n"
+        "measurement: {source: {plugin: laser-csv, file: x.csv}}\nevaluate: [nmtba]\n"
+        "model: {effects: [offset]}\n",
+        encoding="utf-8",
+    )
+    with started(*ZLMREPORT, "workbench", job, "--no-browser") as workbench:
+        page = window(workbench.lines(1)[0].split()[-1], viewport={"width": 360, "height": 800})
+        marks = page.locator(".plot").first.locator(".tick[text-anchor=end]")
+        expect(marks.filter(has_text="10000000")).to_have_count(1)
+        assert min(marks.evaluate_all("all => all.map((each) => each.getBBox().x)")) >= 0
+        page.close()
+        workbench.ended()

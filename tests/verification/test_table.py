@@ -108,7 +108,10 @@ def _with_producer(whole: bytes, text: str) -> bytes:
             lambda whole: whole.replace(b"\n1 0 obj", b"\n1 1 obj", 1),
             "object 1 stands there in another generation",
         ),
-        (lambda whole: together(whole, objects(whole)[1]), "object 1 stands there twice"),
+        (
+            lambda whole: together(whole, objects(whole)[1]),
+            "object 1 (the catalog) stands there twice, and",
+        ),
         (lambda whole: _with_producer(whole, "endobj"), "endobj stands there where it marks nothing"),
         (lambda whole: _with_producer(whole, "%PDF-"), "%PDF- stands there where it marks nothing"),
         (lambda whole: _with_producer(whole, "\n9 0 obj"), "an object that is none begins at byte "),

@@ -36,6 +36,7 @@ from verification.issued import (
 )
 from zlmreport import __version__, pipeline
 from zlmreport.cli.terminal import say
+from zlmreport.errors import InputError
 from zlmreport.verification import verify
 from zlmreport.verification.findings import (
     CheckedCertificate,
@@ -81,6 +82,31 @@ def test_a_certificate_holds_as_it_was_issued(issued: bytes, verified: Verify) -
     }
     verdicts = {each.verdict for each in (*found.files, *found.values, *found.pages, *found.document)}
     assert verdicts == {VerificationVerdict.HOLDS}
+
+
+@pytest.mark.parametrize("printed", ["pdf", "pdf-typst"])
+def test_files_whose_names_have_letters_beyond_ascii_are_carried_by_one_name(
+    printed: str, verified: Verify, tmp_path: Path
+) -> None:
+    job = lay_out(tmp_path, job=JOB.replace("x-axis.csv", "Prüfmaß α.csv"))
+    (job.parent / "x-axis.csv").rename(job.parent / "Prüfmaß α.csv")
+    found = verified(issue(job.rename(job.parent / "Größe Łódź.yaml"), printed))
+    assert found.holds
+    assert {"Größe Łódź.yaml", "Prüfmaß α.csv"} <= {each.subject for each in found.files}
+
+
+@pytest.mark.parametrize("printed", ["pdf", "pdf-typst"])
+def test_letters_that_no_typeface_has_are_told_where_they_stand(printed: str, tmp_path: Path) -> None:
+    lacking = "\U000f1234"
+    job = lay_out(tmp_path, job=f"# {lacking}\n{JOB}customer: {{name: A {lacking}}}\n")
+    with pytest.raises(InputError, match=r"/job\.yaml:10:20: .*\(U\+F1234"):
+        issue(job, printed)
+
+
+def test_a_letter_that_no_typeface_has_is_told_of_the_name_of_a_file(tmp_path: Path) -> None:
+    job = lay_out(tmp_path)
+    with pytest.raises(InputError, match=r"/作业\.yaml: the typeface .*'作' \(U\+4F5C"):
+        issue(job.rename(job.parent / "作业.yaml"), "pdf-typst")
 
 
 def test_a_day_that_has_not_come_by_the_clock_is_not_decided(

@@ -10,6 +10,7 @@ const MARGIN = { left: 50, right: 14, top: 8, bottom: 34 };
 // A line of a title, and how wide a letter of it is at most on the average.
 const TITLE = 15;
 const LETTER = 6.4;
+const DIGIT = 7;
 const REACH = 26;
 const MOST_RINGS = 600;
 const WIDTH_OF_TICK = 84;
@@ -128,15 +129,19 @@ export class Plot {
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const [first, last] = data.range ?? this.whole("x");
     const [low, high] = data.span ?? extent(data.range ? this.#heights(first, last) : this.#heights(-Infinity, Infinity), 0.06);
-    this.x = scale(first, last, MARGIN.left, width - MARGIN.right);
     const below = MARGIN.bottom + (this.#titlesMeet(width) ? TITLE : 0);
     this.y = scale(low, high, height - below, MARGIN.top);
-    const inside = { x: MARGIN.left, y: MARGIN.top, width: width - MARGIN.left - MARGIN.right, height: height - MARGIN.top - below };
+    const levels = ticks(this.y.low, this.y.high, Math.max(FEWEST_TICKS, (height - MARGIN.top - below) / HEIGHT_OF_TICK))
+      .map((value) => [value, this.number(value, ALL_DIGITS)]);
+    // Numbers of many digits have the room that they need: 10⁷ µm, of a file in another unit, was cut.
+    const left = Math.max(MARGIN.left, Math.max(...levels.map(([, label]) => label.length)) * DIGIT + 8);
+    this.x = scale(first, last, left, width - MARGIN.right);
+    const inside = { x: left, y: MARGIN.top, width: width - left - MARGIN.right, height: height - MARGIN.top - below };
     this.ringed = s("g", { class: "rings" });
     this.selection = s("rect", { class: "selection", x: 0, y: 0, width: 0, height: 0 });
     fill(this.svg,
       s("clipPath", { id: this.identifier }, s("rect", inside)),
-      this.#axes(inside, height),
+      this.#axes(inside, height, levels),
       s("g", { "clip-path": `url(#${this.identifier})` }, this.#levels(inside), this.#ghost(), this.#curves(this.#curvesShown(), ""), this.#others(), this.#points(data.y, ""), this.#lines(), this.ringed, this.selection),
     );
     this.#drawRings();
@@ -147,7 +152,7 @@ export class Plot {
     return (this.data.xTitle.length + this.data.yTitle.length + 2) * LETTER > width - MARGIN.right;
   }
 
-  #axes(inside, height) {
+  #axes(inside, height, levels) {
     const { data, x, y } = this;
     const bottom = inside.y + inside.height;
     const across = data.labels
@@ -155,9 +160,9 @@ export class Plot {
       : ticks(x.low, x.high, inside.width / WIDTH_OF_TICK).map((value) => [value, this.number(value, ALL_DIGITS)]);
     return s("g", { class: "axes" },
       s("rect", { class: "frame", ...inside }),
-      ticks(y.low, y.high, Math.max(FEWEST_TICKS, inside.height / HEIGHT_OF_TICK)).map((value) => [
+      levels.map(([value, label]) => [
         s("line", { class: value === 0 ? "zero" : "grid", x1: inside.x, x2: inside.x + inside.width, y1: y(value), y2: y(value) }),
-        s("text", { class: "tick", x: inside.x - 7, y: y(value) + 4, "text-anchor": "end" }, this.number(value, ALL_DIGITS)),
+        s("text", { class: "tick", x: inside.x - 7, y: y(value) + 4, "text-anchor": "end" }, label),
       ]),
       across.map(([value, label]) => [
         s("line", { class: "grid", x1: x(value), x2: x(value), y1: inside.y, y2: bottom }),

@@ -15,7 +15,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import Problem, ZlmreportError
+from zlmreport.errors import Problem, ZlmreportError, write_lines
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import HELD
 
@@ -183,8 +183,8 @@ def print_json(value: Any) -> None:
 
 def print_problems(error: ZlmreportError) -> None:
     """Print mistakes one a line, to the standard error output."""
-    for problem in error.problems:
-        print(make_visible(str(problem)), file=sys.stderr)
+    for line in write_lines(error.problems):
+        print(make_visible(line), file=sys.stderr)
 
 
 def collect_problem(problem: Problem) -> dict[str, Any]:

@@ -11,11 +11,12 @@ from zlmreport.errors import did_you_mean
 from zlmreport.job.types import JobPath, Options, optional
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.columns import Cells, find_decimal_sign, fold, read_heading
-from zlmreport.measurement.table import BLANKS, THOUSANDS, TextTable, read_table
+from zlmreport.measurement.sentinels import find_sentinels
+from zlmreport.measurement.table import BAR, BLANKS, THOUSANDS, TextTable, read_table
 from zlmreport.measurement.text_file import read_text, require_known_encoding
 from zlmreport.measurement.units import Scale, Unit, find_unit_named
 
-_DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "blanks": BLANKS}
+_DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": BAR, "blanks": BLANKS}
 
 
 class TablePlace(Options):
@@ -75,7 +76,7 @@ class TableOptions(TablePlace):
         description="Units by column. Without it the unit behind the number, in the header's brackets or in "
         "a row below the header holds.",
     )
-    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab", "blanks"] | None = optional(
+    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab", "bar", "blanks"] | None = optional(
         "What parts the columns; told apart if not stated, but for blanks."
     )
     decimal: Literal[".", ",", "point", "comma"] | None = optional(
@@ -152,4 +153,10 @@ class TableOptions(TablePlace):
         """Return what reads the cells of a table; `numbers` are the columns whose numbers have decimals."""
         thousands = THOUSANDS[self.thousands] if self.thousands else ""
         sign = self.stated_decimal_sign or find_decimal_sign(table, numbers, thousands)
-        return Cells(table, sign, thousands, frozenset(word.casefold() for word in self.missing))
+        missing = frozenset(word.casefold() for word in self.missing)
+        sentinels = {
+            index: found
+            for index in numbers
+            if (found := find_sentinels((row.cells[index] for row in table.rows), sign))
+        }
+        return Cells(table, sign, thousands, missing, sentinels)

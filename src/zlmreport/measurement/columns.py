@@ -12,7 +12,7 @@ from typing import ClassVar, Protocol, TypeVar
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.collect import cap_problems, is_run, say_no_run
-from zlmreport.measurement.table import THOUSANDS, UNITS, TextRow, TextTable
+from zlmreport.measurement.table import AROUND_UNITS, THOUSANDS, UNITS, TextRow, TextTable
 from zlmreport.measurement.text_file import parse_number
 from zlmreport.measurement.units import DEGREE, Scale, Unit, find_unit_named
 
@@ -23,12 +23,17 @@ _GROUPS = re.compile(r"([+\-−]?[0-9]{1,3})((?:([.,'’ \u00a0\u202f])[0-9]{3})
 _SEXAGESIMAL = re.compile(r"([+\-−]?)([0-9]+)\s*°\s*([0-9]+)\s*['′’]\s*(?:([0-9.,]+)\s*(?:\"|″|''|′′|”))?")
 
 
-_BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
+#: Brackets are those of a Chinese keyboard, too.
+_BRACKETED = re.compile(r"(.*?)\s*[(\[（【]\s*([^()\[\]（）【】]+?)\s*[)\]）】]")
 #: A unit that stands behind the name in other ways: ``Soll / mm``, ``Soll in mm``, ``Soll, mm``, ``soll_mm``.
 _BEHIND = re.compile(r"(.*?\w[.]?)(?:\s*/\s*|\s+in\s+|,\s*|[\s_]+)([^\s_,/]+(?:/m)?)")
 _NUMBER = re.compile(r"[+-]?[0-9]*[.,]?[0-9]+")
 #: Columns of a file that a message lists.
 _MOST_NAMED = 20
+_NO_READING = (
+    "{shown} is far from all others of its column, and a number by which instruments say that they have no "
+    "reading; if the reading is missing, say 'missing: [\"{text}\"]' in the job"
+)
 _T = TypeVar("_T")
 
 
@@ -128,6 +133,8 @@ class Cells:
     sign: DecimalSign  #: Its decimal sign.
     thousands: str = ""  #: What parts groups of three digits.
     missing: frozenset[str] = frozenset()  #: What stands for a missing reading, in lower case.
+    #: By column: numbers that stand for no reading (`sentinels.find_sentinels`).
+    sentinels: Mapping[int, frozenset[str]] = field(default_factory=dict)
     #: What was found wrong so far. A method that returns None has noted why.
     problems: list[Problem] = field(default_factory=list)
 
@@ -139,6 +146,9 @@ class Cells:
         text = row.cells[column.index]
         if self.is_missing(text):
             return math.nan
+        if text in self.sentinels.get(column.index, ()):
+            self.note(row, column, _NO_READING.format(shown=quoted(text), text=text))
+            return None
         try:
             value = parse_number(text, self._sign_of(text))
         except ValueError as error:
@@ -271,7 +281,7 @@ def read_heading(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = 
 
 def _add_unit_below(heading: Heading, unit: str) -> Heading:
     """Return a heading with the unit that stands below it, if it has none itself."""
-    unit = unit.strip("()[] ")
+    unit = unit.strip(AROUND_UNITS)
     has_own = heading.bracket is not None and heading.bracket.casefold() in UNITS
     return heading if has_own or unit in {"", "-", "–", "—"} else replace(heading, bracket=unit)
 

@@ -15,8 +15,10 @@ from zlmreport.measurement.units import POSITION_UNITS, TIME_UNITS
 BLANKS = "blanks"
 #: What parts groups of three digits, by its name.
 THOUSANDS = {"point": ".", "comma": ",", "blank": " \u00a0\u202f", "apostrophe": "'’"}
+#: As a delimiter: columns are parted by vertical bars, as in Markdown, which may stand around a row, too.
+BAR = "|"
 #: In order of precedence: a comma may stand in a name or a number of a table that semicolons part.
-DELIMITERS = {"\t": "tab", ";": "semicolon", ",": "comma"}
+DELIMITERS = {"\t": "tab", ";": "semicolon", BAR: "bar", ",": "comma"}
 _BLANKS = " \u00a0\t"
 _QUOTE = '"'
 #: Characters of a name in a header.
@@ -35,6 +37,8 @@ _SEPARATOR = re.compile(r"sep=(.),*;*")
 #: What has digits is no unit.
 _DIGIT = re.compile(r"[0-9]")
 _LONGEST_UNIT = 12
+#: What may stand around a unit in a row of its own.
+AROUND_UNITS = "()[]（）【】 "
 #: Units that stand in a row of their own, in lower case.
 UNITS = frozenset({each.casefold() for units in (POSITION_UNITS, TIME_UNITS) for each in units}) | {
     *("°c", "c", "k", "°f", "hpa", "pa", "kpa", "mbar", "%", "% rh")
@@ -88,7 +92,7 @@ class TextRow:
         if self.lying:
             row, column = self.lying[index]
             return row.locate(min(column, len(row.cells) - 1))
-        if self.delimiter == BLANKS or _QUOTE in self.text:
+        if self.delimiter in {BLANKS, BAR} or _QUOTE in self.text:
             starts = [start for start, _ in _split_line(self.text, self.delimiter, len(self.cells))]
             return self.line, starts[index] + 1 if index < len(starts) else len(self.text) + 1
         return self.line, sum(map(len, self.text.split(self.delimiter, index)[:index])) + index + 1
@@ -245,7 +249,7 @@ def join_header(rows: Sequence[TextRow]) -> TextRow:
 
 def is_units(cells: Sequence[str]) -> bool:
     """Return whether a row below a header holds units: nothing else, and one at least that is known."""
-    filled = [cell.strip("()[] ") for cell in cells if cell]
+    filled = [cell.strip(AROUND_UNITS) for cell in cells if cell]
     are_short = all(len(cell) <= _LONGEST_UNIT and not _DIGIT.search(cell) for cell in filled)
     return are_short and any(cell.casefold() in UNITS for cell in filled)
 
@@ -404,7 +408,7 @@ def part_line(number: int, line: str, delimiter: str, width: int = 0) -> TextRow
 
     Raises `EnclosureError` if a quotation mark does not enclose its cell.
     """
-    if delimiter == BLANKS or _QUOTE in line:
+    if delimiter in {BLANKS, BAR} or _QUOTE in line:
         parts = [part for _, part in _split_line(line, delimiter, width)]
     else:
         parts = line.split(delimiter)
@@ -413,11 +417,23 @@ def part_line(number: int, line: str, delimiter: str, width: int = 0) -> TextRow
 
 def _split_line(line: str, delimiter: str, width: int) -> Iterator[tuple[int, str]]:
     """Yield the cells of a line that is not simply parted, each with the index at which it begins."""
+    if delimiter == BAR:
+        return _split_barred_line(line)
     if delimiter != BLANKS:
         return _split_quoted_line(line, delimiter)
     by_two = [(match.start(), match[0]) for match in re.finditer(r"\S+(?: \S+)*", line)]
     is_by_two = len(by_two) == width if width else len(by_two) > 1
     return iter(by_two if is_by_two else [(match.start(), match[0]) for match in re.finditer(r"\S+", line)])
+
+
+def _split_barred_line(line: str) -> Iterator[tuple[int, str]]:
+    """Yield the cells of a line that bars part; where it begins with a bar, bars stand around it."""
+    start, end = len(line) - len(line.lstrip(_BLANKS)), len(line.rstrip(_BLANKS))
+    if line.startswith(BAR, start):
+        start, end = start + 1, end - line.endswith(BAR, start + 1, end)
+    for part in line[start:end].split(BAR):
+        yield start, part
+        start += len(part) + 1
 
 
 def _split_quoted_line(line: str, delimiter: str) -> Iterator[tuple[int, str]]:

@@ -40,11 +40,15 @@ _MARKS = {
 }
 #: µm, µ in brackets and °C as DOS wrote them.
 _OF_DOS = (b"\xe6m", b"[\xe6", b"(\xe6", b"\xf8C", b"[\xf8", b"(\xf8")
+#: Two characters in GB 2312 in a row; four letters with accents are none of any word.
+_TWO_CHINESE = re.compile(rb"[\xb0-\xf7][\xa1-\xfe][\xb0-\xf7][\xa1-\xfe]")
 #: Control characters, overrides of the writing direction, and separators that split lines where an editor
 #: does not: with them a text reads otherwise than it is stored.
 _UNSEEN = re.compile(
     "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u2028\u2029\ufeff\ud800-\udfff]"
 )
+#: A line below a header or a table, as in Markdown, that has nothing but strokes.
+_RULE = re.compile(r"[\s|+:=-]*(?:---|===)[\s|+:=-]*")
 #: Closes text files of DOS.
 _END_OF_FILE = "\x1a"
 
@@ -89,9 +93,9 @@ class TextFile:
         return Place(self.name, line, column)
 
     def numbered(self, first: int = 1, last: int | None = None) -> list[tuple[int, str]]:
-        """Return lines with their numbers, from 1; without empty ones and those that begin with ``#``."""
+        """Return lines with their numbers, from 1; without empty ones, rules, and those with ``#``."""
         lines = enumerate(self.lines[first - 1 : last], first)
-        return [(number, line) for number, line in lines if line.strip() and line.lstrip()[0] != "#"]
+        return [(number, line) for number, line in lines if not _is_passed_over(line.strip())]
 
     def rows(self) -> list[list[TextCell]]:
         """Return the cells of a table, the header first: tab, semicolon or comma parts them, as in that."""
@@ -105,6 +109,10 @@ class TextFile:
             lead = len(part) - len(part.lstrip())
             yield TextCell(part.strip(), self.place(number, start + lead + 1))
             start += len(part) + 1
+
+
+def _is_passed_over(line: str) -> bool:
+    return not line or line[0] == "#" or (line[0] in "|+:-=" and _RULE.fullmatch(line) is not None)
 
 
 def read_text(
@@ -191,7 +199,17 @@ def list_likely_encodings(path: Path) -> tuple[str | None, ...]:
     if wide:
         return (wide,)
     of_dos = any(sign in content for sign in _OF_DOS)
-    return (None, *(("cp850", "cp1252") if of_dos else ("cp1252", "cp850")))
+    of_europe = ("cp850", "cp1252") if of_dos else ("cp1252", "cp850")
+    return (None, "gbk", *of_europe) if _is_perhaps_chinese(content) else (None, *of_europe)
+
+
+def _is_perhaps_chinese(content: bytes) -> bool:
+    """Return whether all that is not ASCII is of the usual Chinese characters (GB 2312), and makes words."""
+    try:
+        content.decode("gb2312")
+    except UnicodeDecodeError:
+        return False
+    return _TWO_CHINESE.search(content) is not None
 
 
 def require_known_encoding(name: str) -> str:
@@ -253,9 +271,10 @@ def _decode(content: bytes, file: Place, encoding: str | None) -> str:
             raise InputError.at(
                 place, f"{wrong}: this is no text file; export the readings as text"
             ) from error
+        likely = "gbk" if _is_perhaps_chinese(content) else "cp1252"
         raise InputError.at(
             place,
-            f"{wrong}; save the file as UTF-8, or name its encoding in the job, as in 'encoding: cp1252'",
+            f"{wrong}; save the file as UTF-8, or name its encoding in the job, as in 'encoding: {likely}'",
         ) from error
 
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeVar, overload
+from unicodedata import normalize
 
 from zlmreport.errors import did_you_mean
 from zlmreport.language import Words
@@ -163,8 +164,8 @@ def _list_spellings(units: Mapping[str, _U]) -> Mapping[str, _U]:
 LENGTH_UNITS = _list_spellings(
     {
         "m": METRE,
-        "mm": MILLIMETRE,
-        "µm um micron microns": MICROMETRE,
+        "mm 毫米": MILLIMETRE,
+        "µm um micron microns 微米": MICROMETRE,
         "nm": NANOMETRE,
         "in inch inches": INCH,
         "µin uin microinch microinches": MICROINCH,
@@ -174,10 +175,10 @@ LENGTH_UNITS = _list_spellings(
 #: Units of angles by their spellings.
 ANGLE_UNITS = _list_spellings(
     {
-        "° deg degree degrees": DEGREE,
+        "° deg degree degrees 度": DEGREE,
         "gon": GON,
         "mgon": MILLIGON,
-        "″ arcsec arcseconds": ARCSECOND,
+        "″ arcsec arcseconds 角秒": ARCSECOND,
         "mrad": MILLIRADIAN,
         "µrad urad": MICRORADIAN,
         "rad": RADIAN,
@@ -218,7 +219,8 @@ def find_unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
     >>> find_unit_named("µm", LENGTH_UNITS).ascii
     'um'
     """
-    found = units.get(spelling.strip().casefold())
+    written = spelling.strip()
+    found = units.get(written.casefold()) or units.get(normalize("NFKC", written).casefold())  # ㎛, ℃
     if found is None:
         symbols = sorted({unit.symbol for unit in units.values()})
         raise ValueError(

@@ -19,6 +19,7 @@ from zlmreport.measurement.columns import (
     report_missing_column as missing_column,
     take_thousands_off as without_thousands,
 )
+from zlmreport.measurement.sentinels import find_sentinels
 from zlmreport.measurement.table import (
     BLANKS as PARTED_BY_BLANKS,
     DELIMITERS,
@@ -60,6 +61,7 @@ __all__ = [
     "days_of_readings",
     "decimal_sign",
     "find_heading",
+    "find_sentinels",
     "first_cell",
     "folded",
     "heading_of",

@@ -211,9 +211,8 @@ def _read_carried(specification: Any, room: int, place: Place) -> Carried:
         raise InputError.at(place, f"carries a file whose name is none: {name[:60]!a}")
     embedded = specification["/EF"].get_object()
     stream = embedded["/F"].get_object()
-    if (
-        any(each.get_object() is not stream for each in embedded.values())
-        or len({str(specification[key]) for key in ("/F", "/UF") if key in specification}) > 1
+    if any(each.get_object() is not stream for each in embedded.values()) or not all(
+        _is_name(specification[key], name) for key in ("/F", "/UF") if key in specification
     ):
         raise InputError.at(
             place,
@@ -236,6 +235,12 @@ def _read_carried(specification: Any, room: int, place: Place) -> Carried:
             for key in sorted(keys.keys() - PACKING)
         ),
     )
+
+
+def _is_name(written: Any, name: str) -> bool:
+    """Whether a name is the one that is meant: as text, or as the bytes of UTF-8, as Typst has it."""
+    content = bytes(written) if isinstance(written, bytes) else getattr(written, "original_bytes", b"")
+    return str(written) == name or content == name.encode()
 
 
 def _write_hexadecimal(checksum: Any) -> str:

@@ -215,7 +215,10 @@ class _Scan:
 
         def know(number: int, value: Value, place: TableEntry) -> None:
             if number in values:
-                raise OddError(f"object {number} stands there twice")
+                raise OddError(
+                    f"object {number} ({_name_kind(value)}) stands there twice, and some viewers take the "
+                    "one, some the other; ask for the file as it was issued"
+                )
             values[number], places[number] = value, place
 
         for each in found:
@@ -293,6 +296,34 @@ class _Scan:
         for word, count in ((b"endobj", len(begins)), (b"%PDF-", 1), (b"%!PS", 0)):
             if self._content.count(word) != count:
                 raise OddError(f"{word.decode()} stands there where it marks nothing")
+
+
+#: What objects are, by their types.
+_KINDS = {
+    PdfName(b"Annot"): "an annotation",
+    PdfName(b"Catalog"): "the catalog",
+    PdfName(b"EmbeddedFile"): "an attached file",
+    PdfName(b"Filespec"): "the name of an attached file",
+    PdfName(b"Font"): "a font",
+    PdfName(b"FontDescriptor"): "a font",
+    PdfName(b"Metadata"): "the metadata",
+    PdfName(b"Page"): "a page",
+    PdfName(b"Pages"): "the list of pages",
+    PdfName(b"StructElem"): "a part of the structure",
+    PdfName(b"XObject"): "a picture",
+}
+
+
+def _name_kind(value: Value) -> str:
+    """Return what an object is, for those who do not know how a PDF is built."""
+    if not isinstance(value, dict):
+        return "a list" if isinstance(value, list) else "a value"
+    kind = value.get(b"Type")
+    if isinstance(kind, PdfName) and kind in _KINDS:
+        return _KINDS[kind]
+    if b"Producer" in value:
+        return "what the file says of its origin"
+    return "content, such as that of a page" if b"Length" in value else "a list of entries"
 
 
 def _has_type(each: Indirect, name: bytes) -> bool:

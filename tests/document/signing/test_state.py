@@ -67,6 +67,28 @@ def test_a_signature_of_which_a_byte_was_changed_is_told_so_in_few_words(signed:
     assert len(state.reason) < 150
 
 
+def test_what_no_key_signs_of_a_signature_is_as_it_is_written(signed: bytes) -> None:
+    """The version and the list of algorithms stand before what is signed; libraries read them, and go on."""
+    start = signed.rindex(b"/Contents <") + len(b"/Contents <")
+    version = signed.index(b"02010131", start)
+    content = signed.index(b"06092A864886F70D010701", start)  # id-data
+    parameters = signed.index(b"0500A0", start)  # of the signer's digest, before what is signed
+    for place in (*range(version, content), *range(parameters, parameters + 4)):
+        altered = bytearray(signed)
+        altered[place : place + 1] = b"%x" % (int(chr(altered[place]), 16) ^ 1)
+        assert read_signature_state(bytes(altered)).integrity is Integrity.ALTERED, place - start
+
+
+def test_nothing_hides_in_the_room_behind_a_signature(signed: bytes) -> None:
+    start = signed.rindex(b"/Contents <")
+    end = signed.index(b">", start)
+    for altered in (
+        signed[: end - 2] + b"01" + signed[end:],
+        signed[: end - 200] + b"ab" * 100 + signed[end:],
+    ):
+        assert read_signature_state(altered).integrity is Integrity.ALTERED
+
+
 def test_a_page_added_after_signing_is_found(signed: bytes) -> None:
     from pyhanko.pdf_utils.generic import NameObject, pdf_name
     from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter

@@ -82,7 +82,7 @@ def test_a_letter_that_no_typeface_has_is_named_and_no_box_stands_for_it(weasypr
         '.notdef glyph rendered for Unicode string unsupported by fonts: "\U000f1234" (U+F1234)'
     )
 
-    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); write it otherwise"):
+    with pytest.raises(InputError, match=r"nor one of this system has \(U\+F1234 .*\); install a typeface"):
         read(document)
 
 
@@ -146,9 +146,23 @@ def test_a_small_last_group_of_a_table_does_not_stand_alone_on_a_page(rows_of_la
     assert pages[-2] == pages[-1]
 
 
-def test_a_value_that_begins_with_hebrew_is_set_from_right_to_left_as_in_a_browser() -> None:
-    facts = Facts((("Remarks", "\u05d4\u05e2\u05e8\u05d4 xyz"),))
-    plain = with_blocks(Section("facts", "Facts", (facts,)))
+_HEBREW = "\u05d4\u05e2\u05e8\u05d4 xyz"
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        Facts((("Remarks", _HEBREW),)),
+        Table("Opinions", (Column("Opinion"), Column("Basis")), (RowGroup(((_HEBREW, "basis"),)),)),
+        Table("Opinions", (Column("Opinion"), Column("Basis")), (RowGroup((("basis", _HEBREW),)),)),
+        Notice("Remarks", (_HEBREW,), is_quoted=True),
+    ],
+    ids=["fact", "first cell", "cell", "quoted"],
+)
+def test_what_begins_with_hebrew_is_set_from_right_to_left_as_in_a_browser(
+    block: Facts | Table | Notice,
+) -> None:
+    plain = with_blocks(Section("facts", "Facts", (block,)))
     certificate = replace(plain, look=replace(plain.look, may_lack_letters=True))
     text = PdfDocument(registry().renderer("pdf").render(certificate))[0].get_textpage()
     place = text.get_text_range().index("xyz")

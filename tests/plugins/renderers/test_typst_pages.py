@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from pypdf import PdfReader
 
-from plugins.renderers.pdf_pages import read, texts, with_blocks
+from plugins.renderers.pdf_pages import page_of, read, texts, with_blocks
 from zlmreport.plugin.page import FontFace, text_advance
 from zlmreport.plugin.renderer import (
     Align,
@@ -79,3 +79,20 @@ def test_a_group_leads_to_its_section_and_names_its_page() -> None:
     (link,) = [each.get_object() for page in reader.pages for each in page.get("/Annots", [])]
     target = reader.named_destinations[link["/Dest"]]
     assert reader.get_destination_page_number(target) == 1
+
+
+@pytest.mark.parametrize("rows_before", [1, 3])
+@pytest.mark.parametrize("rows_of_last", [1, 2])
+def test_a_small_last_group_of_a_table_does_not_stand_alone_on_a_page(
+    rows_before: int, rows_of_last: int
+) -> None:
+    sizes = [*(1,) * 19, rows_before, rows_of_last]  # the last one began a page
+    groups = tuple(
+        RowGroup(tuple((f"group{place}row{number}", "1") for number in range(size)), f"group{place}:")
+        for place, size in enumerate(sizes)
+    )
+    table = Table("groups", (Column("text"), Column("n", align=Align.RIGHT)), groups)
+    reader = read(with_blocks(Section("groups", "Groups", (table,), new_page=True)), "pdf-typst")
+    together = ("group20:", "group20row0", f"group19row{rows_before - 1}")
+    assert len({page_of(reader, each) for each in together}) == 1
+    assert page_of(reader, "group0:") < page_of(reader, "group20:")

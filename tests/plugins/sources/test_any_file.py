@@ -77,7 +77,7 @@ def test_any_damage_of_a_wide_table_is_read_or_refused(folder: Path, data: st.Da
 TARGETS = st.lists(st.integers(-500, 500), min_size=2, max_size=8, unique=True).map(
     lambda steps: [f"{step * 1.0625:.4f}" for step in sorted(steps)]
 )
-NANOMETRES = st.integers(-999_999, 999_999)
+NANOMETRES = st.integers(-900_000, 900_000)
 
 
 @st.composite

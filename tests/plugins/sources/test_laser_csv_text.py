@@ -109,6 +109,43 @@ def test_what_stands_for_a_missing_reading_is_no_target_direction_or_run(
     assert file.complaint(table, missing=("---",)) == complaint
 
 
+@pytest.mark.parametrize(
+    "lost", ["9999.999", "-9999", "99999", "-999.0", "1e30", "9.91E+37", "32767", "−9999.99"]
+)
+def test_a_number_that_stands_for_no_reading_is_none(lost: str, file: File) -> None:
+    table = f"target,direction,run,deviation\n0,+,1,11.5\n10,+,1,{lost}\n20,+,1,-12\n"
+    assert file.complaint(table) == (
+        f"x.csv:3:8: '{lost}' is far from all others of its column, and a number by which instruments say "
+        f"that they have no reading; if the reading is missing, say 'missing: [\"{lost}\"]' in the job"
+    )
+    assert np.isnan(file.read(table, missing=[lost]).deviation).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("values", ["9999,8888,7777", "99.9,12,11", "999.9,450,410", "9.999,-3.4,1", "0,0,0"])
+def test_nines_that_a_quantity_has_are_readings(values: str, file: File) -> None:
+    at = dict(zip((0, 1000, 2000), values.split(","), strict=True))
+    table = "\n".join(f"{target},+,1,{value}" for target, value in at.items())
+    read = file.read(f"target,direction,run,deviation\n{table}\n")
+    np.testing.assert_allclose(read.deviation * 1e6, [float(value) for value in at.values()])
+
+
+def test_a_sensor_that_is_not_there_has_no_temperature(file: File) -> None:
+    table = "target,direction,run,deviation,air_temperature\n0,+,1,1,-9999.0\n10,+,1,2,-9999.0\n"
+    assert file.complaints(table)[0].startswith("x.csv:2:9: '-9999.0' is far from all others of its column")
+    assert "air_temperature" not in file.read(table, missing=["-9999.0"]).conditions
+
+
+def test_a_table_of_bars_has_its_places(file: File) -> None:
+    head = "| target | direction | run | deviation |\n|---:|:-:|---|---|\n"
+    table = f"{head}| 0 | + | 1 | 5 |\n| 9 | + | 1 | x |\n"
+    assert file.complaints(table)[0] == "x.csv:4:15: 'x' stands where a number belongs"
+    assert file.read(table.replace("x", "2")).deviation.tolist()[1] == 2e-6
+
+
+def test_a_file_from_a_chinese_windows_is_told_its_encoding(file: File) -> None:
+    assert file.complaint("目标位置,方向\n".encode("gbk")).endswith("as in 'encoding: gbk'")
+
+
 def test_a_time_may_be_missing_by_the_same_word(file: File) -> None:
     table = "target,direction,run,deviation,time\n0,+,1,1,---\n10,+,1,1,8:15\n20,+,1,1,8:16\n"
     time = file.read(table, missing=("---",)).time

@@ -143,17 +143,26 @@ def test_a_misspelt_direction_is_told_at_its_place(tmp_path: Path) -> None:
 
 def test_of_a_wide_encoding_it_is_told_what_the_table_lacks(tmp_path: Path) -> None:
     path = tmp_path / "wide.txt"
-    path.write_bytes("Pos\tF1\tR1\n0\t1\t2\n".encode("utf-16"))
+    path.write_bytes("Pos\tG1\tH1\n0\t1\t2\n".encode("utf-16"))
     with pytest.raises(InputError, match="no column 'target'"):
         look_at(path, REGISTRY)
 
 
-def test_a_table_between_bars_is_no_table_of_signs(tmp_path: Path) -> None:
+def test_means_below_a_table_are_no_rows_to_ask_about(tmp_path: Path) -> None:
+    path = tmp_path / "means.csv"
+    path.write_text("target,1+,1-\n0,1,2\n9,1,2\nMean,1,2\nStd. dev.,0.1,0.2\n", encoding="utf-8")
+    assert not [
+        question for question in look_at(path, REGISTRY).proposal.asks if "rows of numbers" in question
+    ]
+
+
+def test_minus_signs_between_bars_are_directions(tmp_path: Path) -> None:
     path = tmp_path / "bars.md"
     rows_ = "".join(f"| {target} | - | 3 | {target / 100} |\n" for target in (0.0, 100.0, 200.0))
     path.write_text(f"| Target mm | Dir | Run | Error µm |\n|---|---|---|---|\n{rows_}", encoding="utf-8")
-    with pytest.raises(InputError, match="has a single column"):
-        look_at(path, REGISTRY)
+    read = look_at(path, REGISTRY).read
+    assert {*read.approach.tolist()} == {-1}
+    np.testing.assert_allclose(read.deviation, [0.0, 1e-6, 2e-6])
 
 
 #: What tables of the same readings differ in.

@@ -661,6 +661,157 @@ def _gon() -> Untidy:
     )
 
 
+def _initials_and_runs() -> Untidy:
+    """A column of each run, named by the initial of its direction."""
+    return Untidy(
+        "initials.csv",
+        text(
+            "Target (mm),F1 (µm),R1 (µm),F2 (µm),R2 (µm)",
+            *(
+                f"{target},{UP[0][at]},{DOWN[0][at]},{UP[1][at]},{DOWN[1][at]}"
+                for at, target in enumerate(TARGETS)
+            ),
+        ),
+        {"layout": "wide", "columns": {"1+": "F1", "1-": "R1", "2+": "F2", "2-": "R2"}},
+    )
+
+
+_OF_CHINESE = {"target": "目标位置", "direction": "方向", "run": "次数", "deviation": "偏差"}
+
+
+def _chinese() -> Untidy:
+    """From a Chinese Windows: GBK, brackets of full width, numbered rows, means at the end."""
+    return Untidy(
+        "X轴.csv",
+        text(
+            "定位精度测量,,,,",
+            "单位：毫米,,,,",
+            "序号,目标位置（mm）,方向,次数,偏差（μm）",
+            *(
+                f"{number},{target},{'正向' if sense > 0 else '反向'},{run},{value}"
+                for number, (target, sense, run, value) in enumerate(rows(), 1)
+            ),
+            "平均值,,,,0.1",
+            encoding="gbk",
+        ),
+        {
+            "encoding": "gbk",
+            "skip_rows": 2,
+            "ends_before": "平均值",
+            "columns": _OF_CHINESE,
+            "ignore": ["序号"],
+        },
+        axis="X",
+    )
+
+
+def _chinese_columns() -> Untidy:
+    """A column of each run with Chinese names, its number in digits or in words, in a UTF-8 file."""
+    return Untidy(
+        "chinese columns.csv",
+        text(
+            "目标位置,第一次正向,第一次反向,正向第2次,反向第2次",
+            "毫米,微米,微米,微米,微米",
+            *(
+                f"{target},{UP[0][at]},{DOWN[0][at]},{UP[1][at]},{DOWN[1][at]}"
+                for at, target in enumerate(TARGETS)
+            ),
+        ),
+        {"layout": "wide", "columns": {"target": "目标位置", "1+": "第一次正向", "1-": "第一次反向"}},
+    )
+
+
+def _markdown() -> Untidy:
+    """A table as Markdown sets it, with a rule below its header."""
+    return Untidy(
+        "readings.md",
+        text(
+            "# X axis",
+            "",
+            "| target [mm] | 1+ | 1- | 2+ | 2- |",
+            "|------------:|---:|---:|:--:|----|",
+            *(
+                f"| {target} | {UP[0][at] if at != 1 else ''} | {DOWN[0][at]} | {UP[1][at]} | {DOWN[1][at]} |"
+                for at, target in enumerate(TARGETS)
+            ),
+        ),
+        {"layout": "wide"},
+        axis="X",
+        grid=np.array([np.where(np.arange(8).reshape(4, 2) == 2, np.nan, GRID[0]), GRID[1]]),
+    )
+
+
+def _boxed() -> Untidy:
+    """A table that strokes stand around, with a decimal comma."""
+    lines = [
+        f"| {german(target):>8} | {'+' if sense > 0 else '-':^9} | {run:3} | {german(value):>14} |"
+        for target, sense, run, value in rows()
+    ]
+    rule = "+----------+-----------+-----+----------------+"
+    return Untidy(
+        "boxed.txt",
+        text(rule, "| Soll     | Richtung  | Lauf| Abweichung µm  |", rule.replace("-", "="), *lines, rule),
+        {
+            "columns": {
+                "target": "Soll",
+                "direction": "Richtung",
+                "run": "Lauf",
+                "deviation": "Abweichung",
+            }
+        },
+    )
+
+
+def _targets_in_columns(*labels: str, names: Callable[[int, int], tuple[str, str]]) -> bytes:
+    return text(
+        ";".join([*labels, *(german(target) for target in TARGETS)]),
+        *(
+            ";".join([*names(run + 1, sense), *map(german, grid[run])])
+            for run in range(2)
+            for sense, grid in ((1, UP), (-1, DOWN))
+        ),
+        "Mittel;;0,1;0,1;0,1;0,1",
+    )
+
+
+def _targets_in_columns_below_two_labels() -> Untidy:
+    """A row of each run, which run and direction begin, the run in a cell that two rows share."""
+    return Untidy(
+        "lying.csv",
+        _targets_in_columns(
+            "Lauf",
+            "Richtung",
+            names=lambda run, sense: (str(run) if sense > 0 else "", "auf" if sense > 0 else "ab"),
+        ),
+        {
+            "delimiter": "semicolon",
+            "transposed": True,
+            "header_rows": 2,
+            "layout": "wide",
+            "columns": {"target": "Lauf Richtung"},
+            "ignore": ["Mittel"],
+        },
+    )
+
+
+def _targets_in_columns_below_initials() -> Untidy:
+    """The same with the direction first, by its initial."""
+    return Untidy(
+        "lying.csv",
+        _targets_in_columns(
+            "Direction", "Run", names=lambda run, sense: ("F" if sense > 0 else "R", str(run))
+        ),
+        {
+            "delimiter": "semicolon",
+            "transposed": True,
+            "header_rows": 2,
+            "layout": "wide",
+            "columns": {"target": "Direction Run", "1+": "F 1", "1-": "R 1", "2+": "F 2", "2-": "R 2"},
+            "ignore": ["Mittel"],
+        },
+    )
+
+
 FILES: tuple[Callable[[], Untidy], ...] = (
     _german_export,
     _american_export,
@@ -691,4 +842,11 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _arrows_and_statistics,
     _named_difference,
     _gon,
+    _initials_and_runs,
+    _chinese,
+    _chinese_columns,
+    _markdown,
+    _boxed,
+    _targets_in_columns_below_two_labels,
+    _targets_in_columns_below_initials,
 )

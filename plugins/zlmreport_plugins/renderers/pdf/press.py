@@ -7,6 +7,7 @@ new font configuration costs memory that WeasyPrint 70 never gives back.
 from __future__ import annotations
 
 import atexit
+import codecs
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -168,9 +169,10 @@ def _finish(certificate: Certificate, document: Any, pdf: Any) -> None:
     if not certificate.look.may_lack_letters:
         refuse_letters(
             (chr(letter) for font in document.fonts.values() for letter in font.missing),
-            certificate.number,
+            certificate,
             "neither the typeface of the format pdf nor one of this system has",
-            "write it otherwise, or state a typeface that has it: certificate.style.typeface",
+            "install a typeface that has it, state one (certificate.style.typeface), or write it otherwise, "
+            "the name of a file, too",
         )
     if "AF" in pdf.catalog:  # WeasyPrint 70 names each attachment twice among the associated files
         pdf.catalog["AF"] = pydyf.Array(dict.fromkeys(pdf.catalog["AF"]))
@@ -181,11 +183,25 @@ def _finish(certificate: Certificate, document: Any, pdf: Any) -> None:
 
 
 def _sort_files(pdf: Any) -> None:
-    """Put the attachments in the order of their names: a reader may look for one by halves."""
+    """Put the attachments in the order of their names: a reader may look for one by halves.
+
+    WeasyPrint 70 lists them by their names in UTF-8, which readers take for other letters.
+    """
     number, *_ = pdf.catalog["Names"]["EmbeddedFiles"].split()
     names = pdf.objects[int(number)]["Names"]
-    pairs = sorted(zip(names[::2], names[1::2], strict=True), key=lambda pair: pair[0].string)
+    files = [pdf.objects[int(each.split()[0])] for each in names[1::2]]
+    for each in files:
+        each["F"] = each["UF"]
+    pairs = sorted(
+        zip((each["UF"] for each in files), names[1::2], strict=True),
+        key=lambda pair: _list_bytes(pair[0].string),
+    )
     names[:] = [each for pair in pairs for each in pair]
+
+
+def _list_bytes(name: str) -> bytes:
+    """Return the bytes of a name as a PDF has it, by which names are in order."""
+    return name.encode() if name.isascii() else codecs.BOM_UTF16_BE + name.encode("utf-16-be")
 
 
 class _Document(HTML):  # type: ignore[misc]

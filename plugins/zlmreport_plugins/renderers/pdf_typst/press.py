@@ -43,7 +43,7 @@ class TypstPress:
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
         document = json.dumps(collect_contents(certificate), ensure_ascii=False)
-        demand_letters(document, certificate.number)
+        demand_letters(document, certificate)
         moment = datetime.combine(certificate.issued or _UNKNOWN, time(), UTC)
         with self._lock:
             pdf = self._compiler.compile(

@@ -22,7 +22,7 @@ from zlmreport.plugin.page import (
     mark_offset,
     text_advance,
 )
-from zlmreport.plugin.renderer import Symbol, notation_spans, with_symbols
+from zlmreport.plugin.renderer import Certificate, Symbol, notation_spans, with_symbols
 from zlmreport_plugins.letters import refuse_letters
 
 #: A text, or its stretches, each with the way in which it is set.
@@ -146,17 +146,17 @@ def _part_word(text: str, face: FontFace) -> Iterator[Stretch]:
 _ESCAPED = re.compile(r"\\(?:u(?P<code>[0-9a-f]{4})|.)")
 
 
-def demand_letters(document: str, number: str) -> None:
-    """Refuse a document, a text of JSON, that has letters without a shape in the bundled typeface.
+def demand_letters(document: str, certificate: Certificate) -> None:
+    """Refuse a certificate, as a text of JSON, that has letters without a shape in the bundled typeface.
 
-    Raises `InputError` with all such letters of the certificate of this number.
+    Raises `InputError` with such letters, each where it stands.
     """
     letters = set(document) | {
         chr(int(each["code"], 16)) for each in _ESCAPED.finditer(document) if each["code"]
     }
     refuse_letters(
         (letter for letter in letters if not has_letter(letter, FontFace.REGULAR)),
-        number,
+        certificate,
         "the typeface of the format pdf-typst has no",
         "write it otherwise, or ask for the format pdf, which takes letters from the system's typefaces",
     )

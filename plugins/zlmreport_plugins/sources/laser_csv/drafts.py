@@ -8,7 +8,14 @@ from statistics import median
 from typing import Any
 
 from zlmreport.plugin import listed
-from zlmreport.plugin.table import DELIMITERS, PARTED_BY_BLANKS, THOUSANDS_SIGNS, UNITS_IN_TABLES, first_cell
+from zlmreport.plugin.table import (
+    DELIMITERS,
+    PARTED_BY_BLANKS,
+    THOUSANDS_SIGNS,
+    UNITS_IN_TABLES,
+    find_sentinels,
+    first_cell,
+)
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import READING, find_meaning, read_number
@@ -20,6 +27,7 @@ _MISSING = frozenset(
         *("-", "--", "---", "–", "—", "?", "*", "x", "n/a", "na", "n.a.", "nan", "null", "none"),
         *("missing", "fehlt", "invalid", "ungültig", "error", "err", "(null)", "void", "lost", "no signal"),
         *("over", "overflow", "overrange", "overload", "ol"),
+        *("无", "無", "缺", "缺失", "无效", "無效"),
         *("#n/a", "#nv", "#wert!", "#value!", "#div/0!"),
     )
 )
@@ -32,8 +40,8 @@ _UNITS = {
     **dict.fromkeys(("bogensekunde", "bogensekunden", "winkelsekunden", "sek", "arc", '"', "''"), "arcsec"),
 }
 _NAMED_UNIT = re.compile(
-    r"(?:abweich|deviation|einheit|unit|error|fehler|werte|values|readings|messwert)[^;\t]*?"
-    r"[\s(\[=:;\t,](µm|μm|um|mm|nm|µin|uin|arcsec|″|µrad|urad)(?![\w/])",
+    r"(?:abweich|deviation|einheit|unit|error|fehler|werte|values|readings|messwert|单位|單位|偏差|误差)[^;\t]*?"
+    r"[\s(\[（=:：;\t,](µm|μm|um|mm|nm|µin|uin|arcsec|″|µrad|urad|微米|毫米|角秒)(?![\w/])",
     re.IGNORECASE,
 )
 _LONGEST_BEGINNING = 40
@@ -121,9 +129,15 @@ def note_notation(draft: Draft) -> None:
         for cell in table.list_cells(index)
         if cell and read_number(cell, table.notation) is None
     }
-    if words and all(word.casefold() in _MISSING for word in words):
-        draft.keys["missing"] = sorted(words)
-        draft.asks.append(questions.MISSING_ASKED.format(words=listed(map(repr, sorted(words)), "or")))
+    lost = {
+        cell
+        for index in measured
+        if table.meanings[index] != "target"
+        for cell in find_sentinels(table.list_cells(index), table.notation.decimal)
+    }
+    if (words or lost) and all(word.casefold() in _MISSING for word in words):
+        draft.keys["missing"] = sorted(words | lost)
+        draft.asks.append(questions.MISSING_ASKED.format(words=listed(map(repr, sorted(words | lost)), "or")))
 
 
 def name_unit(what: str, draft: Draft, target: int, *columns: int) -> None:
@@ -154,7 +168,7 @@ def is_unit_known(what: str, draft: Draft, index: int) -> bool:
     behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.list_cells(index) if cell), "")
     for spelling in (
         read_heading(table.header.cells[index]).bracket or "",
-        below.strip("()[] "),
+        below.strip("()[]（）【】 "),
         behind.strip(),
     ):
         if spelling.casefold() in _UNITS:

@@ -1,4 +1,4 @@
-"""Guesses what a column of an unknown table is, by its name in one of five languages and its numbers."""
+"""Guesses what a column of an unknown table is, by its name in one of six languages and its numbers."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from zlmreport.plugin.table import folded, without_thousands
 from zlmreport_plugins.logged_columns import LOGGED, list_spellings
 from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.options import (
+    CHINESE_DIRECTIONS,
     COLUMN_NAMES,
     names_direction,
     run_and_direction,
@@ -47,35 +48,51 @@ _CALLED = MappingProxyType(
             "position_de_consigne position_visée position_nominale valeur_nominale quota_nominale "
             "posizione_nominale valore_nominale nominale posizione_target posizione_obiettivo "
             "quota_teorica posizione_teorica obiettivo objetivo posición_objetivo posición_nominal "
-            "valor_nominal posición_de_consigna posición_programada cota_nominal",
+            "valor_nominal posición_de_consigna posición_programada cota_nominal "
+            "目标位置 目标 目标点 目标值 理论位置 理论值 指令位置 指令值 指令 名义位置 "
+            "名义值 标称位置 标称值 设定位置 设定值 "
+            "目標位置 目標 目標値 目標值 理論位置 指令値 設定値 設定位置 標稱位置",
             PLACE: "position pos pos. x y z a b c winkel angle weg strecke distance place location punkt "
             "axis_position achsposition position_x position_y position_z "
-            "abscisse posizione quota angolo distanza punto posición ángulo distancia cota",
+            "abscisse posizione quota angolo distanza punto posición ángulo distancia cota "
+            "位置 坐标 座標 测点 测量点 位置点 角度 距离 距離 测试位置",
             "position": "ist istposition ist_position ist_pos istwert actual actual_position actual_value "
             "measured measured_position pos_ist p_ist laser laserwert interferometer istmaß istwinkel "
             "ist_winkel x_ist y_ist z_ist measured_value position_réelle position_mesurée valeur_réelle "
             "valeur_mesurée posizione_reale posizione_effettiva posizione_misurata valore_misurato "
-            "quota_misurata quota_reale posición_real posición_medida valor_medido valor_real cota_medida",
+            "quota_misurata quota_reale posición_real posición_medida valor_medido valor_real cota_medida "
+            "实际位置 实测位置 实际值 实测值 测量位置 測量位置 實際位置 實測位置 実測位置 実測値 測定位置",
             "deviation": "abweichung abw abw. fehler error dev dev. deviations positionsabweichung "
             "messabweichung differenz difference delta residual positionierabweichung positioning_error "
             "error_value δ positional_deviation position_error abweichungen lagefehler écart écarts erreur "
             "écart_de_position erreur_de_position différence déviation scostamento scostamenti scarto "
             "errore scostamento_di_posizione errore_di_posizione differenza deviazione desviación "
-            "desviaciones desvío error_de_posición desviación_de_posición diferencia",
+            "desviaciones desvío error_de_posición desviación_de_posición diferencia "
+            "偏差 误差 偏差值 误差值 位置偏差 位置误差 定位误差 定位偏差 誤差 偏差値 位置誤差 定位誤差",
             VALUE: "wert value messwert reading anzeige display ergebnis result y_wert valeur mesure "
-            "lecture affichage valore misura lettura indicazione valor medida lectura indicación",
+            "lecture affichage valore misura lettura indicazione valor medida lectura indicación "
+            "测量值 测量结果 测值 读数 示值 数值 測量值 測定値",
             "direction": "richtung dir dir. approach anfahrrichtung verfahrrichtung sense anfahrt "
             "fahrtrichtung approach_direction sinn "
             "sens sens_d'approche sens_de_déplacement senso direzione verso senso_di_avvicinamento "
-            "direzione_di_avvicinamento sentido dirección sentido_de_aproximación sentido_de_avance",
+            "direzione_di_avvicinamento sentido dirección sentido_de_aproximación sentido_de_avance "
+            "方向 运动方向 趋近方向 测量方向 移动方向 運動方向 測定方向 移動方向",
             "run": "lauf messlauf zyklus durchlauf durchgang cycle run_number run_no run_no. repetition "
             "rep wiederholung lauf_nr lauf_nr. run_# reihe messreihe passe parcours passage série essai "
-            "répétition passata ciclo prova serie ripetizione recorrido pasada ensayo repetición",
+            "répétition passata ciclo prova serie ripetizione recorrido pasada ensayo repetición "
+            "次数 次 循环 循环次数 循环号 测量次数 测试次数 运行次数 轮次 遍数 "
+            "次數 測量次數 循環 循環次數 回数 測定回数",
             NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
-            "point n° nº numéro ligne numero riga número fila",
+            "point n° nº numéro ligne numero riga número fila "
+            "序号 编号 点号 行号 序號 編號 番号",
         }.items()
         for name in list_spellings(names)
     }
+)
+#: The same in Chinese, where no blank parts words.
+_CHINESE = (
+    *("测量", "循环", "运行", "次数", "偏差", "误差", "读数", "位置", "第", "次", "遍", "值"),
+    *("測量", "誤差"),
 )
 #: Words that stand beside run and direction in the name of a column of readings.
 _BESIDE = frozenset(
@@ -88,15 +105,27 @@ _BESIDE = frozenset(
         *list_spellings("passe parcours passage essai mesure série numéro écart valeur sens lecture"),
         *list_spellings("passata ciclo prova misura serie numero scostamento valore senso direzione lettura"),
         *list_spellings("recorrido pasada ensayo medida medición número desviación valor sentido lectura"),
+        *_CHINESE,
     )
 )
 #: Letters that say nothing more where the direction is told: ``R1 (+)``, ``j=1 ↑``.
 _BESIDE_DIRECTIONS = frozenset({"r", "j"})
 #: More digits than a number has that counts are several numbers, which no name of a column has.
-_TOKENS = re.compile(r"[^\W\d_]+|[0-9]{1,9}|[+−↑↓→←-]")
+_TOKENS = re.compile(
+    rf"{'|'.join(sorted((*_CHINESE, *CHINESE_DIRECTIONS), key=len, reverse=True))}"
+    r"|[^\W\d_]+|[0-9]{1,9}|[+−↑↓→←-]"
+)
+#: The number of a run in Chinese.
+_NUMERALS = "一二三四五六七八九十"
+_NUMERAL = re.compile(f"第([{_NUMERALS}])次")
+#: Initials of the two directions, in several languages, that stand before the number of a run or behind it.
+_PAIRS = ("fr", "fb", "vr", "hr", "ud", "ar", "pn")
+_LETTERED = re.compile(r"([a-z])[\s_.-]?([1-9][0-9]?)|([1-9][0-9]?)[\s_.-]?([a-z])")
 _MOST_RUNS = 99
+_AXES = "axis|achse|(?<![^\\W_])(?:axe|asse|eje)|轴|軸"
 _AXIS = re.compile(
-    r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
+    rf"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse|轴|軸)"
+    rf"|(?:{_AXES})[\s:：;,=_-]*([xyzabcuvw])(?![a-z])",
     re.IGNORECASE,
 )
 #: The letter of an axis before or behind a name, folded.
@@ -126,7 +155,7 @@ def find_reading_of(name: str) -> tuple[int, Approach | None] | None:
     >>> find_reading_of("2. Lauf ab"), find_reading_of("Hin"), find_reading_of("Mittelwert 1")
     ((2, <Approach.NEGATIVE: -1>), (1, <Approach.POSITIVE: 1>), None)
     """
-    called = read_heading(name).name
+    called = _NUMERAL.sub(lambda match: f"第{_NUMERALS.index(match[1]) + 1}次", read_heading(name).name)
     told = run_and_direction(called)
     if told:
         return told
@@ -144,11 +173,38 @@ def find_reading_of(name: str) -> tuple[int, Approach | None] | None:
     return (run, told[1]) if told and 1 <= run <= _MOST_RUNS else None
 
 
+def find_meanings(names: Sequence[str]) -> list[str | None]:
+    """Return what columns are by their names; an initial and a number is a reading beside its opposite."""
+    lettered = find_lettered(names)
+    return [READING if index in lettered else find_meaning(name) for index, name in enumerate(names)]
+
+
+def find_lettered(names: Sequence[str]) -> dict[int, tuple[int, Approach]]:
+    """Return run and direction of columns by their places that initials tell: each run has both.
+
+    >>> [approach.sign for _, approach in find_lettered(["Target", "F1", "R1"]).values()]
+    ['+', '-']
+    """
+    matches = [_LETTERED.fullmatch(read_heading(name).name.casefold()) for name in names]
+    told = [
+        (index, match[1] or match[4], match[2] or match[3]) for index, match in enumerate(matches) if match
+    ]
+    for pair in _PAIRS:
+        runs = [{run for _, letter, run in told if letter == each} for each in pair]
+        if runs[0] and runs[0] == runs[1]:
+            return {
+                index: (int(run), Approach(1 if letter == pair[0] else -1))
+                for index, letter, run in told
+                if letter in pair
+            }
+    return {}
+
+
 def find_axis_in(text: str) -> str:
     """Return the letter of the axis that a text names; empty if it names none.
 
-    >>> find_axis_in("Achse: y"), find_axis_in("x-axis, 2nd test"), find_axis_in("maximum")
-    ('Y', 'X', '')
+    >>> find_axis_in("Achse: y"), find_axis_in("x-axis, 2nd test"), find_axis_in("axe Z"), find_axis_in("max")
+    ('Y', 'X', 'Z', '')
     """
     match = _AXIS.search(text)
     return (match[1] or match[2]).upper() if match else ""
@@ -227,7 +283,7 @@ def resolve_meanings(names: Sequence[str], columns: Sequence[Sequence[float | No
 
     `columns`: Their numbers, by row.
     """
-    found = [find_meaning(name) for name in names]
+    found = find_meanings(names)
     readings = found.count(READING)
     _settle(found, PLACE, "target")
     if "target" not in found and readings:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Mapping
 from types import MappingProxyType
@@ -27,6 +28,15 @@ COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *
 
 _SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS_SIGN: Approach.NEGATIVE}
 _ARROWS = {**dict.fromkeys("↑→", Approach.POSITIVE), **dict.fromkeys("↓←", Approach.NEGATIVE)}
+_CHINESE = {
+    Approach.POSITIVE: ("正向", "正方向", "正程", "去程", "往程", "往路", "前进", "正", "去", "往"),
+    Approach.NEGATIVE: (
+        *("反向", "负向", "負向", "逆向", "反方向", "负方向", "反程", "回程", "返程", "复路", "復路", "后退"),
+        *("反", "负", "負", "逆", "回", "返", "复", "復"),
+    ),
+}
+#: Words for directions of a language in which no blank parts words.
+CHINESE_DIRECTIONS = tuple(itertools.chain(*_CHINESE.values()))
 _WORDS = {
     **dict.fromkeys(
         (
@@ -36,6 +46,7 @@ _WORDS = {
             *list_spellings("aller montant montée positif croissant"),
             *list_spellings("andata salita avanti positivo positiva crescente"),
             *list_spellings("ida subida adelante ascendente creciente"),
+            *_CHINESE[Approach.POSITIVE],
         ),
         Approach.POSITIVE,
     ),
@@ -48,6 +59,7 @@ _WORDS = {
             *list_spellings("retour descendant descente négatif décroissant"),
             *list_spellings("ritorno discesa indietro negativo negativa decrescente"),
             *list_spellings("vuelta bajada atrás descendente decreciente"),
+            *_CHINESE[Approach.NEGATIVE],
         ),
         Approach.NEGATIVE,
     ),
@@ -69,13 +81,14 @@ _DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_LETTE
 _IN_HEADERS = "|".join(re.escape(spelling) for spelling in sorted(_SPELLED_OUT, key=len, reverse=True))
 _RUN = (
     r"(?:(?:run|cycle|pass|test|measurement|meas\.?|lauf|messlauf|durchlauf|durchgang|zyklus|messung|messreihe"
-    r"|passe|parcours|essai|mesure|passata|ciclo|prova|misura|recorrido|pasada|ensayo|medida|medici[oó]n)"
+    r"|passe|parcours|essai|mesure|passata|ciclo|prova|misura|recorrido|pasada|ensayo|medida|medici[oó]n|第)"
     r"[\s_.]*)?"
 )
-#: ``1+``, ``1 ↓``, ``Run 1 fwd``, ``RUN 1``; ``+1``, ``fwd 1``, ``forward run 1``.
+_NUMBER = r"(?P<run>[1-9][0-9]{0,5})(?:次|回目|遍)?"
+#: ``1+``, ``1 ↓``, ``Run 1 fwd``, ``RUN 1``, ``第1次正向``; ``+1``, ``fwd 1``, ``forward run 1``, ``正向1``.
 _HEADERS = (
-    rf"{_RUN}(?P<run>[1-9][0-9]{{0,5}})[\s_.]*(?P<direction>{_IN_HEADERS})?",
-    rf"(?P<direction>{_IN_HEADERS})[\s_.]*{_RUN}(?P<run>[1-9][0-9]{{0,5}})",
+    rf"{_RUN}{_NUMBER}[\s_.]*(?P<direction>{_IN_HEADERS})?",
+    rf"(?P<direction>{_IN_HEADERS})[\s_.]*{_RUN}{_NUMBER}",
 )
 
 

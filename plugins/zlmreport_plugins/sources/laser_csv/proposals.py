@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence, Set as AbstractSet
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set as AbstractSet
 from contextlib import suppress
 from pathlib import Path
 from statistics import median
@@ -28,27 +28,29 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     Notation,
     are_positions,
     find_axis_in,
+    find_lettered,
     find_meaning,
     find_reading_of,
     read_number,
 )
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
 from zlmreport_plugins.sources.laser_csv.passes import draft_of_parts, tell_passes
-from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, list_texts
+from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, is_summary, list_texts
 
 #: Axes that turn, by their letters, and a whole turn of them in degrees.
 _TURNING, _WHOLE_TURN = frozenset("ABC"), 360.0
 #: What columns of readings are, and words by which a name says that its values are averages.
 _OF_READINGS = frozenset({"deviation", "position", READING})
 _AVERAGE = re.compile(
-    r"(?<![^\W_])(?:avg|average|mean|mittel|mittelwert|moyenne|moyen|media|promedio)(?![^\W_])", re.IGNORECASE
+    r"(?<![^\W_])(?:avg|average|mean|mittel|mittelwert|moyenne|moyen|media|promedio)(?![^\W_])|平均|均值",
+    re.IGNORECASE,
 )
 #: How many times as large as any other, and as is usual, a deviation is off that is not actual − target.
 _DISAGREES = 3.0
 #: Lines of a table without a head that may be comments above its names.
 _COMMENTS = 3
 #: How a column is called that names the axis, folded.
-_OF_AXES = frozenset({"axis", "achse", "axe", "asse", "eje"})
+_OF_AXES = frozenset({"axis", "achse", "axe", "asse", "eje", "轴", "軸"})
 
 
 def propose(file: Path) -> Iterator[SourceProposal]:
@@ -146,7 +148,12 @@ def _draft_wide(draft: Draft) -> None:
     keys["layout"] = "wide"
     target = draft.find_column("target") or 0
     readings = [index for index, each in enumerate(table.meanings) if each == READING]
-    told = [find_reading_of(draft.name_column(index)) or (1, None) for index in readings]
+    lettered = find_lettered(table.header.cells)
+    told = [
+        lettered.get(index) or find_reading_of(draft.name_column(index)) or (1, None) for index in readings
+    ]
+    if lettered:
+        draft.asks.append(_ask_for_initials(draft, lettered))
     second = _find_second_targets(draft, target)
     if second is not None and all(approach is None for _, approach in told):
         told = [
@@ -180,6 +187,14 @@ def _draft_wide(draft: Draft) -> None:
     else:
         draft.asks.append(questions.SIGN_ASKED)
         name_unit("deviation", draft, target, *readings)
+
+
+def _ask_for_initials(draft: Draft, lettered: Mapping[int, tuple[int, Approach]]) -> str:
+    """Ask whether initials are of the directions that they seem to be."""
+    names = {approach: draft.name_column(index) for index, (_, approach) in reversed([*lettered.items()])}
+    return questions.INITIALS_ASKED.format(
+        up=repr(names[Approach.POSITIVE]), down=repr(names[Approach.NEGATIVE])
+    )
 
 
 def _ask_for_other_direction(
@@ -389,7 +404,7 @@ def _ask_for_rows_outside(draft: Draft) -> None:
     table = draft.table
     if "parts" in draft.keys or table.layout.is_transposed:
         return
-    below = _list_lines_of_numbers(table.below, table.notation)
+    below = _list_lines_of_numbers((row for row in table.below if not is_summary(row.cells)), table.notation)
     if len(below) > 1:
         draft.asks.append(questions.BELOW_ASKED.format(count=len(below), first=below[0]))
     above = _list_lines_of_numbers(_list_rows_above(table), table.notation)

@@ -19,6 +19,10 @@ AVERAGES_ASKED = (
     "error model and a compensation table alone."
 )
 DIRECTION_ASKED = "Were all readings taken upwards? The table names no direction; else say direction: '-'."
+INITIALS_ASKED = (
+    "Were the readings under {up} and its like taken upwards, and those under {down} downwards? Nothing but "
+    "their initials says so."
+)
 OTHER_DIRECTION_ASKED = (
     "Are the readings of the other direction in {names}? They are not read; if they are, name them in the "
     "job, as in 'columns: {{\"1-\": {first}}}'."

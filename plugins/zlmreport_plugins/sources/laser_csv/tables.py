@@ -30,6 +30,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     VALUE,
     Notation,
     find_meaning,
+    find_meanings,
     find_reading_of,
     read_number,
     resolve_meanings,
@@ -48,6 +49,7 @@ _SUMMARIES = (
     *("mean", "average", "avg", "std", "stdev", "standard", "sigma", "range", "span", "max", "min", "median"),
     *("sum", "count", "mittel", "durchschnitt", "spannweite", "streu", "summe", "anzahl"),
     *("umkehr", "reversal", "repeat", "wiederhol"),
+    *("平均", "均值", "标准", "標準", "最大", "最小", "极差", "重复"),
 )
 _DECIMALS = re.compile(r"[.,][0-9]")
 _VALUES = frozenset({"deviation", "position", VALUE, READING, PLACE})
@@ -184,7 +186,7 @@ def _holds_units(cells: Sequence[str]) -> bool:
     return holds_units(cells) and not any(len(cell) > 1 and names_direction(cell) for cell in cells)
 
 
-def _is_summary(cells: Sequence[str]) -> bool:
+def is_summary(cells: Sequence[str]) -> bool:
     """Return whether a row holds means or the like: by the word at its beginning."""
     words = re.findall(r"[^\W\d_]+", first_cell(cells).casefold())
     return bool(words) and words[0].startswith(_SUMMARIES)
@@ -197,6 +199,8 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     rows = _list_rows(found.lines, delimiter)
     for index, row in enumerate(rows[:_DEEPEST]):
         lines = [each for each in rows[index:] if each]
+        if row is not None and _are_labelled_twice(lines):
+            yield from _find_turned(found, delimiter, index, lines, labels=2)
         if row is None or not (find_meaning(row.cells[0]) in _TARGET or _are_runs_below_targets(lines)):
             continue
         names = [each.cells[0] for each in lines if find_meaning(each.cells[0])]
@@ -204,16 +208,22 @@ def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
             continue
         if _are_counted(row.cells[1:]) and not _are_counted([each.cells[0] for each in lines[1:]]):
             continue  # the numbers of runs above their readings: it stands upright
-        width = max(len(each.cells) for each in lines)
-        turned = [
-            TextRow(1, "", "", tuple(each.cells[place] if place < len(each.cells) else "" for each in lines))
-            for place in range(width)
-        ]
-        skipped = found.lines[index][0] - 1 if index else 0
-        below = [each for each in turned[1:] if any(each.cells)]
-        yield from _find_below(
-            FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below
-        )
+        yield from _find_turned(found, delimiter, index, lines, labels=1)
+
+
+def _find_turned(
+    found: FoundText, delimiter: str, index: int, lines: Sequence[TextRow], labels: int
+) -> Iterator[FoundTable]:
+    """Yield the table whose columns are lines; so many cells at the beginning of each name it."""
+    width = max(len(each.cells) for each in lines)
+    turned = [
+        TextRow(1, "", "", tuple(each.cells[place] if place < len(each.cells) else "" for each in lines))
+        for place in range(width)
+    ]
+    skipped = found.lines[index][0] - 1 if index else 0
+    below = [each for each in turned[labels:] if any(each.cells)]
+    layout = FoundLayout(found, delimiter, labels, skipped, is_transposed=True)
+    yield from _find_below(layout, joined_header(turned[:labels]), below)
 
 
 def _are_runs_below_targets(lines: Sequence[TextRow]) -> bool:
@@ -223,6 +233,18 @@ def _are_runs_below_targets(lines: Sequence[TextRow]) -> bool:
     known = [target for target in targets if target is not None]
     rises = len(known) == len(targets) > 2 and all(low < high for low, high in itertools.pairwise(known))
     return bool(first[0]) and rises and len(others) > 1 and all(find_reading_of(each[0]) for each in others)
+
+
+def _are_labelled_twice(lines: Sequence[TextRow]) -> bool:
+    """Return whether a row of targets stands above rows that run and direction begin, each in a cell."""
+    first, *others = (each.cells for each in lines)
+    targets = [read_number(cell, Notation.of([cell])) for cell in first[2:] if cell]
+    known = [target for target in targets if target is not None]
+    rises = len(known) == len(targets) > 1 and all(low < high for low, high in itertools.pairwise(known))
+    if not rises or not any(first[:2]) or any(map(_is_number, first[:2])):
+        return False
+    names = joined_header([TextRow(1, "", "", tuple(each[at] for each in (first, *others))) for at in (0, 1)])
+    return find_meanings(names.cells[1:]).count(READING) > 1
 
 
 def _are_counted(cells: Sequence[str]) -> bool:
@@ -286,7 +308,7 @@ def _is_perhaps_header(cells: Sequence[str]) -> bool:
     """
     if _is_number(cells[0]) or any(_is_number(cell) and _DECIMALS.search(cell) for cell in cells):
         return False
-    found = [find_meaning(cell) for cell in cells]
+    found = find_meanings(cells)
     known = sum(each is not None and each != NUMBER for each in found)
     has_target = any(each in _TARGET for each in found)
     readings = found.count(READING)
@@ -325,7 +347,7 @@ def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -
     ends = (
         index
         for index, (row, target) in enumerate(zip(rows, columns[meanings.index("target")], strict=True))
-        if target is None or _is_summary(row.cells)
+        if target is None or is_summary(row.cells)
     )
     last = next(ends, len(rows))
     is_even = is_workbook or layout.is_transposed or len(rows[0].cells if rows else ()) >= width

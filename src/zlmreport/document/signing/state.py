@@ -29,6 +29,8 @@ _MOST_SIGNATURES = 20
 _MOST_TOLD = 6
 #: Of what pyHanko says of bytes that it cannot read.
 _LONGEST_DETAIL = 60
+#: How an algorithm without parameters has none, in DER.
+_NO_PARAMETERS = (b"", b"\x05\x00")
 
 
 class Integrity(Enum):
@@ -179,6 +181,7 @@ def _check_signature(embedded: Any, trust: _Trust) -> Signature:
                 stamp, message_imprint_checker(embedded.signer_info)
             )
             stamped_by, holds = _name_stamper(stamp), holds and is_intact
+    holds = holds and _is_as_written(embedded)
     distrust = "" if is_stamp else trust.say_against(certificate, time)
     return Signature(
         signer=certificate.subject.human_friendly,
@@ -192,6 +195,33 @@ def _check_signature(embedded: Any, trust: _Trust) -> Signature:
         distrust=distrust,
         is_stamp=is_stamp,
         changes=_describe_changes(embedded.reader, embedded.signed_revision),
+    )
+
+
+def _is_as_written(embedded: Any) -> bool:
+    """Whether what no key signs of a signature is as who signs writes it: no byte of it is free.
+
+    That is the version, which follows from the rest (RFC 5652, 5.1), the list of digest algorithms, among
+    which is the signer's, parameters that algorithms do not have, and the zeros behind the signature in the
+    room that was kept for it.
+    """
+    from asn1crypto.cms import ContentInfo, DigestAlgorithms  # noqa: PLC0415 (comes with pyHanko)
+
+    message = ContentInfo.load(embedded.pkcs7_content)
+    signed, signer = message["content"], embedded.signer_info
+    is_plain = (
+        signer["version"].native == "v1" and signed["encap_content_info"]["content_type"].native == "data"
+    )
+    listed, of_signer = signed["digest_algorithms"], signer["digest_algorithm"]
+    algorithms = [*listed, of_signer]
+    if signer["signature_algorithm"]["algorithm"].native != "rsassa_pss":  # whose parameters are used
+        algorithms.append(signer["signature_algorithm"])
+    return (
+        signed["version"].native == ("v1" if is_plain else "v3")
+        and of_signer["algorithm"].native in [each["algorithm"].native for each in listed]
+        and all(each["parameters"].dump() in _NO_PARAMETERS for each in algorithms)
+        and listed.dump() == DigestAlgorithms([*listed]).dump()
+        and not any(embedded.pkcs7_content[len(message.dump()) :])
     )
 
 
