@@ -69,7 +69,7 @@ class ZlmreportError(Exception):
 
     def __init__(self, problems: Iterable[Problem]) -> None:
         self.problems: tuple[Problem, ...] = tuple(problems)
-        super().__init__("\n".join(write_lines(self.problems)))
+        super().__init__("\n".join(write_problems(self.problems)))
 
     def __reduce__(self) -> tuple[type[ZlmreportError], tuple[tuple[Problem, ...]]]:
         """Let the error reach another process as it is."""
@@ -147,10 +147,10 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
 _KNOWN = re.compile(r" \(known: [^()]+\)$|; known: .+$")
 
 
-def write_lines(problems: Iterable[Problem]) -> Iterator[str]:
+def write_problems(problems: Iterable[Problem]) -> Iterator[str]:
     """Yield what the user reads of each problem; a list of known names stands in the first that has it.
 
-    >>> [*write_lines([Problem(NOWHERE, "no 'x'; known: a, b"), Problem(NOWHERE, "no 'y'; known: a, b")])]
+    >>> [*write_problems([Problem(NOWHERE, "no 'x'; known: a, b"), Problem(NOWHERE, "no 'y'; known: a, b")])]
     ["zlmreport: no 'x'; known: a, b", "zlmreport: no 'y'"]
     """
     said: set[str] = set()

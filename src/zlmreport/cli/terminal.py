@@ -15,7 +15,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import Problem, ZlmreportError, write_lines
+from zlmreport.errors import Problem, ZlmreportError, write_problems
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import HELD
 
@@ -183,7 +183,7 @@ def print_json(value: Any) -> None:
 
 def print_problems(error: ZlmreportError) -> None:
     """Print mistakes one a line, to the standard error output."""
-    for line in write_lines(error.problems):
+    for line in write_problems(error.problems):
         print(make_visible(line), file=sys.stderr)
 
 

@@ -14,7 +14,7 @@ from starlette.routing import Route
 
 from zlmreport.document.typesetting.resources import find_page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
-from zlmreport.errors import ZlmreportError, write_lines
+from zlmreport.errors import ZlmreportError, write_problems
 from zlmreport.language import Language, find_accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
 from zlmreport.web.commands import FileCommands, Wanted
@@ -217,7 +217,7 @@ class PageAnswers:
             language = await run_in_threadpool(self.choose_language, request)
             return JSONResponse({"problems": [error.words.in_language(language)]}, 409)
         except ZlmreportError as error:
-            problems = [*write_lines(error.problems)]
+            problems = [*write_problems(error.problems)]
             return JSONResponse({"problems": problems, "stamp": self.bench.make_stamp()}, 422)
 
     def choose_language(self, request: HttpRequest) -> Language:
