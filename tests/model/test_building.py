@@ -4,10 +4,20 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from itertools import chain, repeat
 
 import numpy as np
 
-from model.axis_tests import EFFECTS, INSTALLED, hidden, model_of, noise, observations, pendulum_test
+from model.axis_tests import (
+    EFFECTS,
+    INSTALLED,
+    hidden,
+    linear_test,
+    model_of,
+    noise,
+    observations,
+    pendulum_test,
+)
 from model.hidden_effect import example as study_of_example, example_diagnosis
 from zlmreport.cli.model_lines import tell_build
 from zlmreport.measurement.arrays import read_only_integers
@@ -32,12 +42,12 @@ from zlmreport.model.fitting.sessions import add_zeros
 def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
     example = example_diagnosis()
     first = replace(example.candidates[0], effect=EFFECTS["scale-kink"], equals=("first-run", "backlash"))
-    said = iter(
+    said = chain(
         [
             replace(example, together=(EFFECTS["scale-kink"],), candidates=(first,)),
             replace(example, together=(EFFECTS["first-run"],), candidates=()),
-            replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE),
-        ]
+        ],
+        repeat(replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE)),
     )
 
     def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
@@ -50,12 +60,12 @@ def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
 
 def test_what_another_effect_contains_is_told_to_have_gone_and_what_only_passed_is_not() -> None:
     example = example_diagnosis()
-    said = iter(
+    said = chain(
         [
             replace(example, together=(EFFECTS["first-run"], EFFECTS["backlash"]), candidates=()),
             replace(example, together=(EFFECTS["polynomial"],), makeshift=("first-run",), candidates=()),
-            replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE),
-        ]
+        ],
+        repeat(replace(example, together=(), verdict=DiagnosisVerdict.ADEQUATE)),
     )
 
     def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
@@ -180,7 +190,7 @@ def test_what_goes_out_for_what_comes_in_is_one_stair_with_it() -> None:
 def test_what_stands_in_a_model_does_not_give_way_to_what_is_no_better() -> None:
     # A slope is a cosine error and a wrong scale alike: which was named first is no matter, once it is there.
     design, model = pendulum_test(15, 4), model_of("offset", "cosine-error")
-    slope = hidden(design, "cosine-error", size=4, model=model_of("offset"))
+    slope = hidden(design, "cosine-error", size=0.7, model=model_of("offset"))
     readings = observations(design, slope + noise(design, 3))
     fitted = fit(model, readings.design, readings.deviation)
     found = find(fitted, INSTALLED, may_go=frozenset({"cosine-error"}), is_left=True)
@@ -204,18 +214,16 @@ def test_what_is_much_like_a_makeshift_comes_in_once_that_is_out() -> None:
         )
 
     found = build(model_of("offset", "cosine-error"), diagnosing)
-    assert asked == [("offset", "cosine-error"), ("offset", "scale-error")]
+    assert asked == [("offset", "cosine-error"), *2 * [("offset", "scale-error")]]
     assert name_steps(found.steps) == ("− cosine-error", "+ scale-error")
 
 
 def test_what_is_far_from_usual_is_asked_once_it_was_added() -> None:
     found = example_diagnosis()
     design = found.fit.design
-    said = iter(
-        [
-            replace(found, together=(EFFECTS["backlash"],)),
-            replace(found, together=(), verdict=DiagnosisVerdict.ADEQUATE),
-        ]
+    said = chain(
+        [replace(found, together=(EFFECTS["backlash"],))],
+        repeat(replace(found, together=(), verdict=DiagnosisVerdict.ADEQUATE)),
     )
 
     def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
@@ -226,6 +234,22 @@ def test_what_is_far_from_usual_is_asked_once_it_was_added() -> None:
     assert question.startswith("800 µm: 20 times what is usual for a screw;")
     lines = tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True)
     assert question in " ".join(" ".join(lines).split())
+
+
+def test_a_build_ends_where_nothing_is_missing_of_the_job_as_it_is_written() -> None:
+    example = example_diagnosis()
+
+    def diagnosing(model: AxisModel, may_go: frozenset[str], _told: Told) -> AxisDiagnosis:
+        missing = [each for each in ("first-run", "backlash") if each not in model.identifiers]
+        # As long as the first may go, a shape without a name is told in the place of the second.
+        named = () if may_go or not missing else (EFFECTS[missing[0]],)
+        verdict = DiagnosisVerdict.MISSING if named else DiagnosisVerdict.UNEXPLAINED
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        return replace(example, fit=fitted, together=named, makeshift=(), verdict=verdict)
+
+    built = build(model_of("offset"), diagnosing)
+    assert built.model.identifiers == ("offset", "first-run", "backlash")
+    assert build(built.model, diagnosing).steps == ()
 
 
 def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None:
@@ -242,6 +266,15 @@ def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None
     assert build_values(built)["needless"] == ["first-run"]
     lines = " ".join(tell_build(built, study_of_example().job, "job.yaml", None, is_tried=True))
     assert "zlmreport model remove job.yaml first-run" in " ".join(lines.split())
+
+
+def test_effect_whose_numbers_go_together_is_there_where_the_fit_is_worse_without_it() -> None:
+    design = linear_test()
+    slow = 6e-6 * (1.0 - np.exp(-design.time / (8.0 * design.duration))) * 8.0  # nearly a line in time
+    fitted = fit(model_of("offset", "thermal-drift"), design, slow + noise(design))
+    size = next(each for each in fitted.estimates if each.effect == "thermal-drift")
+    assert abs(size.value) < size.expanded_uncertainty
+    assert is_outstanding("thermal-drift", fitted)
 
 
 def test_zero_of_a_session_is_no_effect_that_could_be_taken_out() -> None:

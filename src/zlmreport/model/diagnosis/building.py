@@ -16,7 +16,11 @@ from zlmreport.language import Words
 from zlmreport.model.diagnosis.candidate import Doubt, find_doubts, list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.diagnosis.error_numbers import ErrorNumbers, compute_error_numbers
+from zlmreport.model.diagnosis.error_numbers import (
+    ErrorNumbers,
+    compute_error_numbers,
+    compute_schwarz_criterion,
+)
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.model_error import ModelError
@@ -109,12 +113,19 @@ def list_needless(diagnosis: AxisDiagnosis) -> tuple[str, ...]:
 
 
 def is_outstanding(identifier: str, fitted: Fit) -> bool:
-    """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
+    """Return whether an effect is seen: a size of it exceeds its uncertainty, or the fit without it is worse.
+
+    Where size and time constant go together, neither is known, and yet something is there. Its place or
+    period says nothing of that.
+    """
     (effect,) = (term.effect for term in fitted.model.terms if term.effect.identifier == identifier)
     sizes = [
         each for each in fitted.estimates if each.effect == identifier and each.parameter in effect.linear
     ]
-    return any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes)
+    if any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes):
+        return True
+    without = fit(fitted.model.without(identifier), fitted.design, fitted.deviation, fitted.assumptions)
+    return compute_schwarz_criterion(without) > compute_schwarz_criterion(fitted)
 
 
 def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) -> Built:

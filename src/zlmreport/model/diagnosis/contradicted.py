@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
 from zlmreport.language import Words
 from zlmreport.model.diagnosis.candidate import say_other_value
+from zlmreport.model.diagnosis.error_numbers import compute_schwarz_criterion
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.model_error import ModelError
@@ -32,41 +31,31 @@ def list_contradicted(complete: Fit, together: Sequence[Effect]) -> tuple[Words,
     """
     if not any(_list_given(term) for term in complete.model.terms):
         return ()
-    freed = _free_without(complete, complete.model, together) if together else _fit_freed(complete)
+    freed = _free_without(complete, together) if together else _fit_freed(complete, complete.model)
     return () if freed is None else tuple(_find_contradictions(complete, freed))
 
 
-def _free_without(complete: Fit, model: AxisModel, together: Sequence[Effect]) -> Fit | None:
+def _free_without(complete: Fit, together: Sequence[Effect]) -> Fit | None:
     """Return the best fit with free values and fewer named effects; None where these explain more."""
-    best, least = None, _compute_criterion(complete)
+    best, least, model = None, compute_schwarz_criterion(complete), complete.model
     for _ in together:
         left = [each.identifier for each in together if each.identifier in model.identifiers]
         tried = (_fit_freed(complete, model.without(each)) for each in left)
-        smaller = min((each for each in tried if each), key=_compute_criterion, default=None)
+        smaller = min((each for each in tried if each), key=compute_schwarz_criterion, default=None)
         if smaller is None:
             break
         model = smaller.model
-        if _compute_criterion(smaller) <= least:
-            best, least = smaller, _compute_criterion(smaller)
+        if compute_schwarz_criterion(smaller) <= least:
+            best, least = smaller, compute_schwarz_criterion(smaller)
     return best
 
 
-def _compute_criterion(fitted: Fit) -> float:
-    """Return Schwarz's criterion, by which models with more and with fewer parameters are compared.
-
-    G. Schwarz, Annals of Statistics 6 (1978) 461.
-    """
-    readings = len(fitted.deviation)
-    squares = fitted.rms**2 * fitted.degrees
-    return float(readings * np.log(squares / readings) + (readings - fitted.degrees) * np.log(readings))
-
-
-def _fit_freed(fitted: Fit, model: AxisModel | None = None) -> Fit | None:
-    """Return the fit of a model, or of that which was fitted, without given values.
+def _fit_freed(fitted: Fit, model: AxisModel) -> Fit | None:
+    """Return the fit of a model without given values, to the readings of another one.
 
     None where the readings do not determine it: a value may be given for that.
     """
-    terms = tuple(_free(term) for term in (model or fitted.model).terms)
+    terms = tuple(_free(term) for term in model.terms)
     try:
         return fit(AxisModel(terms), fitted.design, fitted.deviation, fitted.assumptions)
     except ModelError:

@@ -12,6 +12,8 @@ from zlmreport.model.fitting.repeats import estimate_noise_floor
 
 #: Largest ratio of two variances that are alike.
 LARGEST_RATIO = 1.4
+#: Sum of squares of a residual that is no residual at all.
+_NOTHING = 1e-60
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,3 +64,12 @@ def choose_scattering(fitted: Fit) -> FloatArray:
     left = estimate_noise_floor(fitted.design, fitted.residual)
     is_explained = as_measured is not None and left is not None and as_measured**2 > LARGEST_RATIO * left**2
     return fitted.residual if is_explained else fitted.deviation
+
+
+def compute_schwarz_criterion(fitted: Fit) -> float:
+    """Return by what models with more and with fewer parameters are compared: the less, the better.
+
+    G. Schwarz, Annals of Statistics 6 (1978) 461.
+    """
+    readings, squares = len(fitted.deviation), max(fitted.rms**2 * fitted.degrees, _NOTHING)
+    return float(readings * np.log(squares / readings) + (readings - fitted.degrees) * np.log(readings))
