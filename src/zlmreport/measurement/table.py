@@ -432,7 +432,7 @@ def _split_barred_line(line: str) -> Iterator[tuple[int, str]]:
     if line.startswith(BAR, start):
         start, end = start + 1, end - line.endswith(BAR, start + 1, end)
     for part in line[start:end].split(BAR):
-        yield start, part
+        yield start + len(part) - len(part.lstrip(_BLANKS)), part
         start += len(part) + 1
 
 

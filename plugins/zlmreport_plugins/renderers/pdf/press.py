@@ -188,20 +188,23 @@ def _sort_files(pdf: Any) -> None:
     WeasyPrint 70 lists them by their names in UTF-8, which readers take for other letters.
     """
     number, *_ = pdf.catalog["Names"]["EmbeddedFiles"].split()
-    names = pdf.objects[int(number)]["Names"]
-    files = [pdf.objects[int(each.split()[0])] for each in names[1::2]]
+    listed = pdf.objects[int(number)]["Names"]
+    files = [pdf.objects[int(each.split()[0])] for each in listed[1::2]]
     for each in files:
         each["F"] = each["UF"]
-    pairs = sorted(
-        zip((each["UF"] for each in files), names[1::2], strict=True),
-        key=lambda pair: _list_bytes(pair[0].string),
-    )
-    names[:] = [each for pair in pairs for each in pair]
+    names = [each["UF"].string for each in files]
+    write = _write_in_utf_16 if not all(map(str.isascii, names)) else pydyf.String
+    listed[:] = [
+        each for name, file in sorted(zip(names, listed[1::2], strict=True)) for each in (write(name), file)
+    ]
 
 
-def _list_bytes(name: str) -> bytes:
-    """Return the bytes of a name as a PDF has it, by which names are in order."""
-    return name.encode() if name.isascii() else codecs.BOM_UTF16_BE + name.encode("utf-16-be")
+def _write_in_utf_16(name: str) -> bytes:
+    """Return a name as a PDF writes letters beyond ASCII: names that all stand so have one order.
+
+    Of some others readers compare the bytes, and some the letters.
+    """
+    return b"<%s>" % (codecs.BOM_UTF16_BE + name.encode("utf-16-be")).hex().encode()
 
 
 class _Document(HTML):  # type: ignore[misc]
