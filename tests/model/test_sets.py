@@ -9,7 +9,6 @@ from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, mod
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
-    SetMember,
     count_nameless,
     has_nameless,
     make_member,
@@ -18,7 +17,7 @@ from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.refining import jump_along_grids
-from zlmreport.model.diagnosis.set_costs import UNUSUAL, SetCosts, weigh_size
+from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
 from zlmreport.model.diagnosis.set_members import make_members_of, renumber
 from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
@@ -27,8 +26,6 @@ from zlmreport.plugin.effect import Design, Effect
 
 DESIGN = linear_test()
 EMPTY = model_of("offset")
-#: Variances of an effect before any reading, in that of one reading, and their weights (error-model.md).
-_WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
 
 
 def _contest(
@@ -277,36 +274,6 @@ def test_a_value_beyond_what_is_usual_costs_evidence_and_is_found_all_the_same()
     assert _names(found) == {"backlash"}
     usual = _found(huge / 10)
     assert found.score > usual.score
-
-
-@pytest.mark.parametrize("is_near", [True, False], ids=["much alike", "hardly alike"])
-def test_an_effect_may_be_ten_times_what_it_adds_to_others_and_a_larger_one_costs_its_size(
-    is_near: bool,
-) -> None:
-    def list_late(contest: Contest) -> list[SetMember]:
-        late = next(each for each in contest.families if each.identifier == "late-lever")
-        return [make_member(late, number, 0.0) for number in range(len(late.thetas))]
-
-    quiet = _contest(noise(DESIGN))
-    columns = quiet.columns.select_columns(np.concatenate([each.columns for each in list_late(quiet)]))
-    alike = np.abs(columns[:, 0] @ columns)
-    other = 1 + int(np.argmax(alike[1:]) if is_near else np.argmin(alike[1:]))
-    left = 1 - float(alike[other]) ** 2  # of the length of one beside the other, squared
-    assert (left < 0.01) is is_near
-    deviation = noise(DESIGN) + columns[:, [0, other]] @ [3e3, -3e3] * SIGMA
-    contest = _contest(deviation)
-    late, observed = list_late(contest), contest.space.of(deviation)
-    sizes, (rest,), *_ = np.linalg.lstsq(columns[:, [0, other]], observed, rcond=None)
-    degrees = len(observed) - 1
-    expected = 0.0
-    for size, each in zip(sizes, (late[0], late[other]), strict=True):
-        adds = float(size) ** 2 * left / (rest / degrees)
-        prior = degrees * np.array([worth for worth, _ in _WORTHS])
-        odds = np.array([share for _, share in _WORTHS]) / np.sqrt(1 + prior)
-        likelihood = odds @ np.exp(-0.5 * adds / (1 + prior * min(100 * left, 1.0)))
-        expected += each.family.price - 2 * np.log(likelihood)
-    found = SetCosts(contest).compute([late[0], late[other]], contest.quiet)
-    assert found == pytest.approx(expected, rel=1e-6)
 
 
 def test_of_the_forms_of_an_effect_one_is_chosen() -> None:

@@ -41,9 +41,6 @@ from zlmreport.model.fitting.priors import PriorExpectation
 #: Variances of an effect before any reading, in units of what one reading is worth, and their weights; the
 #: first is what earlier tests say, where they do.
 _WORTHS = ((1.0, 0.9), (1e2, 0.05), (1e4, 0.03), (1e6, 0.02))
-#: Times by which the square of an effect may exceed what it adds to others, as those of a slope and a step
-#: that cancel in part. Beyond, it costs what its size alone would.
-_CANCELLED = 100.0
 #: Is told the share of some work that is done, 0 to 1.
 Told: TypeAlias = Callable[[float], object]
 
@@ -240,17 +237,10 @@ class Contest(Likelihood):
         gained = self.compute_logarithm(left) - self.compute_logarithm(squares)
         return average_likelihoods(gained + ranks * np.log1p(priors) + costs, 0)
 
-    def weigh_block(self, explained: FloatArray, shares: FloatArray, square: float) -> float:
-        """Return what a block costs, its coefficients averaged over.
-
-        `explained`, (k,): Square of each coefficient, beside the others of a set, in the variance
-            that it has there.
-        `shares`, (k,): Share of the information on each that these leave.
-        """
+    def weigh_block(self, explained: float, rank: int, square: float) -> float:
+        """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
         priors, costs = self._list_priors(square)
-        left = np.minimum(_CANCELLED * shares, 1.0)
-        sizes = (explained / (1.0 + np.outer(priors, left))).sum(axis=1)
-        return float(average_likelihoods(sizes + len(explained) * np.log1p(priors) + costs, 0))
+        return float(average_likelihoods(explained / (1.0 + priors) + rank * np.log1p(priors) + costs, 0))
 
     def _list_priors(self, square: FloatArray | float) -> tuple[FloatArray, FloatArray]:
         """Return variances of effects before any reading, over σ², along a first axis, and what each costs.

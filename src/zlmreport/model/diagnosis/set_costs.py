@@ -46,7 +46,6 @@ class SetCosts:
         variance = reduced.squares / contest.space.degrees
         solved = reduced.set_root.T @ reduced.taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
-        alone = np.linalg.pinv(inverse, rcond=_DEPENDENT, hermitian=True)
         cost, first = 0.0, 0
         for each in members:
             own = slice(first, first + len(each.columns))
@@ -54,38 +53,33 @@ class SetCosts:
             square = contest.expected.find_square(each.identifier)
             cost += each.family.price + each.spread
             root = _find_root_of_inverse(variance * inverse[own, own])
-            left = (
-                variance * root @ np.linalg.pinv(alone[own, own], rcond=_DEPENDENT, hermitian=True) @ root.T
-            )
-            for explained, shares in self._by_size(each, solved[own], root, left):
-                cost += contest.weigh_block(explained, shares, square)
+            for explained, rank in self._by_size(each, solved[own], root):
+                cost += contest.weigh_block(explained, rank, square)
             if each.family.is_named:
                 cost += self._weigh_unusual(each, solved[own], variance * inverse[own, own])
         return cost
 
     def _by_size(
-        self, member: SetMember, solved: FloatArray, root: FloatArray, left: FloatArray
-    ) -> Iterator[tuple[FloatArray, FloatArray]]:
-        """Yield what a member explains beside the others of a set, in σ², and what they leave of its columns.
+        self, member: SetMember, solved: FloatArray, root: FloatArray
+    ) -> Iterator[tuple[float, int]]:
+        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
 
         All its coefficients are of one size, but for an effect that contains others: a polynomial is a
         constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
         those before it leave.
 
         `root`: R, RᵀR the information on its coefficients.
-        `left`: What of the information that there would be without the others is left, in R's coordinates.
         """
         values = root @ solved
         if not member.effect.contains:
-            shares, axes = np.linalg.eigh(left)
-            yield (axes.T @ values) ** 2, shares
+            yield float(values @ values), member.rank
             return
         contrasts = self._contest.space.of(member.effect.columns(self._contest.design, member.theta))
         powers = root @ (self._contest.columns.select_columns(member.columns).T @ contrasts)
         lengths = np.linalg.norm(powers, axis=0)
-        axes = np.linalg.qr(powers[:, lengths > _SEEN * lengths.max(initial=0.0)])[0][:, : member.rank]
-        for axis in axes.T:
-            yield np.array([(axis @ values) ** 2]), np.array([axis @ left @ axis])
+        powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
+        parts = np.linalg.qr(powers)[0].T @ values
+        yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
     def _weigh_unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
