@@ -268,7 +268,7 @@ def test_what_stood_in_a_model_and_may_not_be_there_is_told_in_the_end() -> None
     assert "zlmreport model remove job.yaml first-run" in " ".join(lines.split())
 
 
-def test_effect_whose_numbers_go_together_is_there_where_the_fit_is_worse_without_it() -> None:
+def test_effect_whose_numbers_go_together_is_there_where_far_more_is_left_without_it() -> None:
     design = linear_test()
     slow = 6e-6 * (1.0 - np.exp(-design.time / (8.0 * design.duration))) * 8.0  # nearly a line in time
     fitted = fit(model_of("offset", "thermal-drift"), design, slow + noise(design))

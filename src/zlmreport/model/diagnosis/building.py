@@ -16,11 +16,7 @@ from zlmreport.language import Words
 from zlmreport.model.diagnosis.candidate import Doubt, find_doubts, list_questions
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
-from zlmreport.model.diagnosis.error_numbers import (
-    ErrorNumbers,
-    compute_error_numbers,
-    compute_schwarz_criterion,
-)
+from zlmreport.model.diagnosis.error_numbers import LARGEST_RATIO, ErrorNumbers, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.model_error import ModelError
@@ -113,7 +109,7 @@ def list_needless(diagnosis: AxisDiagnosis) -> tuple[str, ...]:
 
 
 def is_outstanding(identifier: str, fitted: Fit) -> bool:
-    """Return whether an effect is seen: a size of it exceeds its uncertainty, or the fit without it is worse.
+    """Return whether an effect is seen: a size of it exceeds its uncertainty, or far more is left without it.
 
     Where size and time constant go together, neither is known, and yet something is there. Its place or
     period says nothing of that.
@@ -125,7 +121,7 @@ def is_outstanding(identifier: str, fitted: Fit) -> bool:
     if any(each.is_given or abs(each.value) > each.expanded_uncertainty for each in sizes):
         return True
     without = fit(fitted.model.without(identifier), fitted.design, fitted.deviation, fitted.assumptions)
-    return compute_schwarz_criterion(without) > compute_schwarz_criterion(fitted)
+    return without.rms**2 > LARGEST_RATIO * fitted.rms**2
 
 
 def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) -> Built:
