@@ -7,11 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations
+from model.axis_tests import (
+    EFFECTS,
+    INSTALLED,
+    SIGMA,
+    linear_test,
+    model_of,
+    noise,
+    observations,
+)
+from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict, diagnose
+from zlmreport.model.diagnosis.effect_set import make_member
+from zlmreport.model.diagnosis.fixed_numbers import FixedNumbers
 from zlmreport.model.diagnosis.random_curves import Course
 from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.report import write_verdict_statement
+from zlmreport.model.diagnosis.set_costs import FORBIDDEN, SetCosts
 from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import Axis, AxisKind, FloatArray
 from zlmreport.plugin.effect import Design
 
@@ -94,3 +108,42 @@ def test_what_would_not_lower_the_error_beside_a_large_remainder_is_not_named(se
     # It is there, and told as what may be.
     assert found.candidates[0].identifier == "time-periodic"
     assert found.candidates[0].error.rms >= found.error.rms
+
+
+@pytest.mark.parametrize(("targets", "is_refused"), [(6, True), (7, False)])
+def test_a_set_with_as_many_numbers_as_there_are_targets_is_refused(targets: int, is_refused: bool) -> None:
+    # Offset and slope are two, first and second harmonic of a known pitch four.
+    design = linear_test(targets, 5)
+    base = fit(_MODEL, design, noise(design, seed=3)).compute_base()
+    pitch = EFFECTS["screw-pitch"]
+    contest = Contest.of(design, base, [pitch.with_settings(pitch.options(harmonics=[1, 2]))])
+    costs = SetCosts(contest).compute([make_member(contest.families[0], 0, 0.0)], contest.quiet)
+    assert (costs >= FORBIDDEN) is is_refused
+
+
+def test_of_a_model_that_describes_any_readings_it_is_said_so() -> None:
+    design = linear_test(6, 5, seed=2)
+    deviation = _draw_geometry(design, 2, 10 * SIGMA) + noise(design, seed=52)
+    polynomial = EFFECTS["polynomial"]
+    model = model_of("backlash", polynomial.with_settings(polynomial.options(order=4)), "scale-kink")
+    said = write_verdict_statement(_diagnose(design, deviation, model)).en
+    assert "it describes any readings" in said
+
+
+@pytest.mark.parametrize(
+    ("names", "targets", "is_too_rich"),
+    [
+        (("offset",), 2, False),
+        (("offset", "scale-error"), 2, True),
+        (("offset", "scale-error"), 3, False),
+        (("offset", "scale-error", "thermal-drift"), 3, False),
+        (("offset", "backlash", "backlash-gradient"), 2, True),
+        (("offset", "backlash", "backlash-gradient"), 3, False),
+    ],
+)
+def test_numbers_count_in_the_mean_of_both_directions_and_in_their_difference(
+    names: tuple[str, ...], targets: int, is_too_rich: bool
+) -> None:
+    design = linear_test(targets, 5)
+    fitted = fit(model_of(*names), design, noise(design, seed=3))
+    assert FixedNumbers(design, fitted.compute_base()).is_model_too_rich() is is_too_rich

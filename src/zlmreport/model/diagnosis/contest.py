@@ -77,6 +77,7 @@ class Contest(Likelihood):
     """Everything about a contest that does not depend on what was measured, and the readings themselves."""
 
     design: Design
+    base: FloatArray  #: (N, q): Columns of the job's model, tangents of its searched parameters included.
     families: tuple[Family, ...]
     invisible: tuple[Effect, ...]  #: Effects of which the plan sees nothing beside the model.
     deviation: FloatArray  #: (N,): x, m or rad; zeros where only simulated readings are asked about.
@@ -139,6 +140,7 @@ class Contest(Likelihood):
             squares=squares,
             known=space.degrees * known**2,
             design=design,
+            base=base,
             families=(*named, *unnamed),
             invisible=invisible,
             deviation=deviation,

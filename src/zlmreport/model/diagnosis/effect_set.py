@@ -11,7 +11,7 @@ from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.likelihood import DIGITS_OF_SCORE, Amplitudes, Likelihood
 from zlmreport.model.diagnosis.random_curves import Along
-from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.effect import Effect, is_against
 
 #: By what members of a contest are told apart: family, columns, what the search cost, tangents.
 MemberKey: TypeAlias = tuple[int, bytes, float, bytes]
@@ -144,10 +144,15 @@ def compute_fit(likelihood: Likelihood, found: EffectSet) -> float:
 
 
 def list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
-    """Return the members that can stand beside an effect: none that it contains or takes the place of."""
+    """Return the members that can stand beside an effect.
+
+    None that it contains or takes the place of, and none that takes what the job states where it denies that.
+    """
     replaced = {effect.identifier, *effect.contains}
     return tuple(
         each
         for each in members
-        if each.identifier not in replaced and effect.identifier not in each.effect.contains
+        if each.identifier not in replaced
+        and effect.identifier not in each.effect.contains
+        and not is_against(effect, each.effect)
     )

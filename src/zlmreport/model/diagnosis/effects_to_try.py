@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from zlmreport.language import Words
 from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.effect import Effect, is_against
 from zlmreport.model.effects.model_error import ModelError
 
 _IMITATED = Words("at these targets {effect} imitates it entirely")
 _THE_MODEL = Words("the model")
+_DENIED = Words("{effect} has another value than the job states under axis.{key}")
 _SHOWN_BY = Words("{imitated}; what would show it: {measurement}")
 
 
@@ -38,20 +39,33 @@ def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effe
     An effect that is in the model already enters only with forms that have more parameters: a polynomial
     of higher order.
     """
-    present = {term.effect.identifier: len(term.effect.linear) for term in model.terms}
+    present = {term.effect.identifier: term.effect for term in model.terms}
     forms: list[Effect] = []
     not_testable = []
     for effect in map(model.take_next_of, effects):
-        least = present.get(effect.identifier, 0)
-        further = effect.further_forms() if least else ()
+        plainer = present.get(effect.identifier)
+        least, further = (len(plainer.linear), plainer.further_forms()) if plainer else (0, ())
         listed = [form for form in (*effect.forms(), *further) if len(form.linear) > least]
-        reasons = [form.untestable(design) or _say_collision(model, design, form) for form in listed]
+        reasons = [
+            form.untestable(design) or _say_denied(model, form) or _say_collision(model, design, form)
+            for form in listed
+        ]
         forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
         if listed and None not in reasons:
             not_testable.append(
                 NotTestable(effect.identifier, reasons[0] or _say_imitated(model, design, effect))
             )
     return EffectsToTry(tuple(forms), tuple(not_testable))
+
+
+def _say_denied(model: AxisModel, effect: Effect) -> Words | None:
+    """Return that an effect takes what the job states where one of the model denies it, or the reverse."""
+    for each in (term.effect for term in model.terms):
+        if each.identifier != effect.identifier and is_against(each, effect):
+            denying, taking = (each, effect) if each.denies & effect.takes else (effect, each)
+            key = min(denying.denies & taking.takes)
+            return _DENIED.given(effect=denying.identifier, key=key)
+    return None
 
 
 def _say_collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:

@@ -155,9 +155,9 @@ def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[
     """
     thetas = form.grid(design)
     blocks, _, seen = make_orthonormal(columns.space, design, form, thetas, _LEAST_SEEN)
-    searched, imitated = _count_searched(thetas), np.zeros(len(seen))
+    searched, imitated = count_searched(thetas), np.zeros(len(seen))
     for each in families if len(seen) else ():
-        if _count_searched(each.thetas) >= searched:
+        if count_searched(each.thetas) >= searched:
             products = columns.select_columns(each.blocks.ravel()).T @ blocks.reshape(len(blocks), -1)
             squares = (products**2).reshape(*each.blocks.shape, len(seen), -1).sum(axis=(1, 3))
             imitated = np.maximum(imitated, squares.max(axis=0) / blocks.shape[2])
@@ -165,7 +165,7 @@ def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[
     return bool(wholly > _MOST * len(seen) and nearly >= _ALL * len(seen)) or not len(seen)
 
 
-def _count_searched(thetas: FloatArray) -> int:
+def count_searched(thetas: FloatArray) -> int:
     """Return how many parameters differ between the values of a grid."""
     return int(np.count_nonzero(np.ptp(thetas, axis=0) > 0))
 

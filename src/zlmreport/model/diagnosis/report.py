@@ -19,6 +19,7 @@ from zlmreport.model.diagnosis.candidate import Doubt, EffectCandidate, ask_abou
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis, DiagnosisVerdict
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
+from zlmreport.model.diagnosis.fixed_numbers import FixedNumbers
 from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import NamesInstead, Remainder, RemainderPart
 from zlmreport.model.diagnosis.residuals import ResidualTest
@@ -59,6 +60,10 @@ _GIVEN = Words(
 _ADEQUATE_SO_FAR = Words(
     "The model describes the readings as far as their scatter lets it be seen: the error is {error}, over a "
     "noise of {noise}."
+)
+_TOO_RICH = Words(
+    "The model has as many numbers that are fixed to position as there are targets, or more: it describes "
+    "any readings, and that it describes these says nothing of the axis."
 )
 _YET = Words("{statement} Yet {failure}.")
 _UNEXPLAINED = Words("Something is left that no installed effect explains.")
@@ -408,8 +413,11 @@ def write_statement_after_build(last: AxisDiagnosis, *, has_steps: bool) -> Word
 def _say_adequate(diagnosis: AxisDiagnosis) -> Words:
     """Return that nothing is missing; where that is open, with the error beside noise.
 
-    It is open where readings are few, and where the residuals have an order that is too small for a cause.
+    It is open where readings are few, and where the residuals have an order that is too small for a cause;
+    what describes any readings proves nothing.
     """
+    if FixedNumbers(diagnosis.fit.design, diagnosis.fit.compute_base()).is_model_too_rich():
+        return _TOO_RICH
     floor, axis = diagnosis.error.noise_rms, diagnosis.fit.design.axis
     order = next((each for each in diagnosis.failures if each.test not in _OF_SCATTER), None)
     if floor is None or (diagnosis.leaves_noise and order is None):

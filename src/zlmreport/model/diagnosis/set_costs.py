@@ -13,6 +13,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import SetMember
+from zlmreport.model.diagnosis.fixed_numbers import FixedNumbers
 from zlmreport.model.diagnosis.likelihood import Amplitudes
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter
@@ -35,12 +36,15 @@ class SetCosts:
 
     def __init__(self, contest: Contest) -> None:
         self._contest = contest
+        self._numbers = FixedNumbers(contest.design, contest.base)
         self._turns: dict[int, FloatArray] = {}  # of members, by the place of their first column
 
     def compute(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> float:
         """Return what the members cost: prior odds, coefficients, searched parameters, unusual values."""
         if not members:
             return 0.0
+        if self._numbers.are_too_many(members):
+            return FORBIDDEN
         contest = self._contest
         reduced = contest.reduce_set(amplitudes, [each.columns for each in members])
         variance = reduced.squares / contest.space.degrees

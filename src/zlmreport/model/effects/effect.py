@@ -207,6 +207,9 @@ class Effect(Protocol):
         The values of these keys in this form of the effect.
     several
         Whether it may stand in a model more than once (`repeated`).
+    takes, denies
+        Keys of the axis (``screw_pitch``) whose stated values this form takes, and those in the place of
+        which it has others: no effect that takes a key stands beside one that denies it.
     source
         How its form is known: a publication, what it is derived from, or experience. None where nothing says
         it.
@@ -227,6 +230,8 @@ class Effect(Protocol):
     options: type[Options] = Options
     settings: Options = Options()
     several: bool = False
+    takes: frozenset[str] = frozenset()
+    denies: frozenset[str] = frozenset()
     source: Words | None = None
 
     def with_settings(self, settings: Any) -> Effect:  # noqa: ARG002 - this one has no keys
@@ -270,6 +275,11 @@ class Effect(Protocol):
     def expected(self, axis: Axis) -> dict[str, float]:  # noqa: ARG002 - of this one nothing is known
         """Return values of parameters that follow from the job (a stated Abbe offset), SI; mostly empty."""
         return {}
+
+
+def is_against(effect: Effect, other: Effect) -> bool:
+    """Return whether one of two effects takes a value that the job states, and the other denies it."""
+    return bool(effect.takes & other.denies or effect.denies & other.takes)
 
 
 def needs_logged(design: Design, *columns: str) -> Words | None:

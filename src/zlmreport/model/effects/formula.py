@@ -112,6 +112,7 @@ class FormulaEffect(Effect):
         self.linear = tuple(parameters[name] for name in self.formula.linear)
         self.searched = tuple(parameters[name] for name in self.formula.searched)
         self.shape = self._find_shape()
+        self.takes, self.denies = self._list_keys_of_axis()
 
     def _describe_form(self) -> tuple[tuple[int, ...] | None, Mapping[str, str]]:
         """Return the harmonics of this form, and the values of the keys that choose it."""
@@ -184,6 +185,18 @@ class FormulaEffect(Effect):
             return Shape.RUN
         return Shape.DIRECTION if "D" in names else Shape.POSITION
 
+    def _list_keys_of_axis(self) -> tuple[frozenset[str], frozenset[str]]:
+        """Return the keys of the axis whose values it takes, and those in whose place it has others."""
+        taken, denied = {*self.formula.names} - self.keys.parameters.keys(), set[str]()
+        for name, each in self.keys.parameters.items():
+            if each.stated:
+                names = find_names_in(parse_formula(each.stated))
+                if self._is_other(each):
+                    denied.update(names)
+                elif name not in self._ways:
+                    taken.update(names)
+        return frozenset(taken.intersection(AXIS_KEYS)), frozenset(denied.intersection(AXIS_KEYS))
+
     def with_settings(self, settings: Any) -> Effect:
         """Return the form of the effect that its job keys ask for."""
         if settings == self.settings:
@@ -201,9 +214,14 @@ class FormulaEffect(Effect):
         return tuple(map(self.with_settings, list_tried_settings(self.keys, self.options)))
 
     def further_forms(self) -> tuple[Effect, ...]:
-        """Return the forms with more harmonics."""
-        further = self.keys.harmonics.further if self.keys.harmonics else ()
-        return tuple(self.with_settings(self.options.model_validate({"harmonics": each})) for each in further)
+        """Return the forms with more harmonics; of another period than the usual one too, it staying so."""
+        harmonics = self.keys.harmonics
+        if harmonics is None:
+            return ()
+        others = self.settings.model_dump(exclude={"harmonics"}, exclude_defaults=True)
+        tried = (*harmonics.tried, *harmonics.further) if others else harmonics.further
+        settings = ({**others, "harmonics": each} for each in tried)
+        return tuple(self.with_settings(self.options.model_validate(each)) for each in settings)
 
     def untestable(self, design: Design) -> Words | None:
         """Demand what stands in the formula, and what the file says that it needs beside."""
@@ -425,8 +443,10 @@ def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[O
             yield options.model_validate({key.name: _read_value(choice)})
     for each in keys.parameters.values():
         if each.instead:
-            plainest = {"harmonics": (1,)} if keys.harmonics else {}
-            yield options.model_validate({**plainest, each.instead.key: OTHER})
+            # What is not round in a screw of another pitch has harmonics as well.
+            for orders in ((1,), keys.harmonics.usual) if keys.harmonics else (None,):
+                own = {} if orders is None else {"harmonics": orders}
+                yield options.model_validate({**own, each.instead.key: OTHER})
 
 
 def _read_value(text: str) -> str | int:
