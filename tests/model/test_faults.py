@@ -7,7 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import INSTALLED, formula, hidden, linear_test, model_of, noise, observations
+from model.axis_tests import (
+    INSTALLED,
+    formula,
+    hidden,
+    linear_test,
+    model_of,
+    noise,
+    observations,
+    pendulum_test,
+)
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
@@ -54,6 +63,14 @@ def test_run_whose_directions_were_swapped_is_told_by_the_other_runs() -> None:
 
 def test_order_of_the_rows_shows_swapped_directions() -> None:
     assert _kinds(_swapped(), _TRUE) == [(FaultKind.SWAPPED_DIRECTION, 3)]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_readings_that_are_missing_turn_no_run_where_the_axis_turns_at_each_target(seed: int) -> None:
+    # Beside a gap two rows of one direction stand side by side, and what that says is chance.
+    design = pendulum_test(11, 5)
+    kept = np.sort(np.random.default_rng(seed).permutation(len(design.position))[8:])
+    assert _kinds(select_readings(design, kept), noise(design)[kept]) == []
 
 
 def test_swapped_directions_are_a_fault_and_no_cause() -> None:

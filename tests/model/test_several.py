@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 import zlmreport as z
-from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
+from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, observations
 from zlmreport.cli import main
+from zlmreport.language import Language
+from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import InputError
@@ -149,6 +151,39 @@ def test_period_that_the_data_contradict_is_tried_as_another_form_of_the_screw()
     period = next(each for each in found.estimates if each.parameter.name == "period")
     assert period.value == pytest.approx(0.012, rel=1e-3)
     assert effect.expected(_DESIGN.axis) == {"period": 0.01}
+
+
+def test_another_pitch_has_harmonics_and_they_are_tried_where_it_stands_in_the_model() -> None:
+    effect = EFFECTS["screw-pitch"]
+    other = effect.with_settings(effect.options(harmonics=(1,), pitch="other"))
+    assert effect.options(harmonics=(1, 2), pitch="other") in [form.settings for form in effect.forms()]
+    assert effect.options(harmonics=(1, 2, 3, 4), pitch="other") in [
+        form.settings for form in other.further_forms()
+    ]
+
+
+def test_nothing_that_counts_from_the_stated_pitch_stands_beside_another() -> None:
+    # A wave of 6 mm is 1.67 waves in a turn of a screw of 10 mm, and the second harmonic of one of 12 mm.
+    effect = EFFECTS["screw-pitch"]
+    other = effect.with_settings(effect.options(harmonics=(1,), pitch="other"))
+    tried = list_effects_to_try(model_of("offset", other), _DESIGN, INSTALLED)
+    assert "drive-period" not in {each.identifier for each in tried.forms}
+    (reason,) = (each.reason for each in tried.not_testable if each.effect == "drive-period")
+    assert (
+        reason.in_language(Language.ENGLISH)
+        == "screw-pitch has another value than the job states under axis.screw_pitch"
+    )
+
+
+@pytest.mark.parametrize(("waves", "harmonics"), [((0.012, 0.006), (1, 2)), ((0.01, 0.01 / 3), (1, 3))])
+def test_a_wave_and_its_harmonic_are_one_screw(
+    waves: tuple[float, float], harmonics: tuple[int, ...]
+) -> None:
+    large, small = (np.sin(2 * np.pi * _DESIGN.position / each + 1) for each in waves)
+    deviation = 3e-6 * large + 1e-6 * small + noise(_DESIGN, sigma=4e-7)
+    found = diagnose(model_of("offset"), observations(_DESIGN, deviation), INSTALLED)
+    assert [each.identifier for each in found.together] == ["screw-pitch"]
+    assert found.together[0].settings.model_dump()["harmonics"] == harmonics
 
 
 def test_other_pitches_are_none_that_the_stated_one_has_as_a_harmonic() -> None:

@@ -308,14 +308,19 @@ def _list_followers(effects: Iterable[Effect], design: Design, log: str) -> Iter
 
 
 def _find_against_the_order(design: Design) -> Iterator[DataFault]:
-    """Yield runs whose rows lead the other way than their directions say, where others do not."""
+    """Yield runs whose rows lead the other way than their directions say, where others do not.
+
+    Where the axis turns at each target, its way says nothing of the direction: two rows of one direction are
+    then neighbours because one between them is missing.
+    """
     agrees = {}
     for run in np.unique(design.cycle).tolist():
         own = design.cycle == run
         steps = np.diff(design.position[own])
         same_way = np.diff(design.direction[own]) == 0
         along = np.sign(steps[same_way]) * design.direction[own][1:][same_way]
-        agrees[run] = float(np.mean(along)) if along.size else 0.0
+        leads = along.size > _CLEAR * len(steps)
+        agrees[run] = float(np.mean(along)) if leads else 0.0
     rightly = sum(each > _CLEAR for each in agrees.values())
     for run, each in agrees.items():
         if each < -_CLEAR and rightly >= 1 and rightly >= len(agrees) / 2:
