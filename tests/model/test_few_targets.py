@@ -26,7 +26,7 @@ from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.set_costs import FORBIDDEN, SetCosts
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
-from zlmreport.plugin import Axis, AxisKind, FloatArray
+from zlmreport.plugin import Axis, AxisKind, FloatArray, Language
 from zlmreport.plugin.effect import Design
 
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -108,6 +108,9 @@ def test_what_would_not_lower_the_error_beside_a_large_remainder_is_not_named(se
     # It is there, and told as what may be.
     assert found.candidates[0].identifier == "time-periodic"
     assert found.candidates[0].error.rms >= found.error.rms
+    said = write_verdict_statement(found).in_language(Language.ENGLISH)
+    is_told = "Likely beside it, but not to be fitted without it: time-periodic" in said
+    assert is_told is (found.candidates[0].probability >= 0.8)
 
 
 @pytest.mark.parametrize(("targets", "is_refused"), [(6, True), (7, False)])

@@ -38,6 +38,16 @@ def test_two_joints_are_found_side_by_side() -> None:
     assert [step for _, step in joints] == pytest.approx([4e-6, -6e-6], abs=4e-7)
 
 
+def test_what_stands_beside_both_joints_is_no_equal_of_the_second() -> None:
+    design = linear_test(41, 3)
+    joints = 12e-6 * (design.position > 0.35) - 9e-6 * (design.position > 0.7)
+    straight = -25e-6 * design.position + 15e-6 * design.direction
+    observed = observations(design, straight + joints + noise(design, sigma=2e-6))
+    names = ("scale-error", "backlash", "scale-joint")
+    found = diagnose(model_of("offset", *names), observed, INSTALLED, may_go=frozenset(names))
+    assert [(each.identifier, each.equals) for each in found.candidates] == [("scale-joint-2", ())]
+
+
 def test_the_next_joint_is_tried_beside_the_first() -> None:
     forms = list_effects_to_try(model_of("offset", "scale-joint"), _DESIGN, INSTALLED).forms
     tried = {form.identifier for form in forms}

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.model.diagnosis.effect_set import SetMember
 from zlmreport.model.diagnosis.families import Family, count_searched
 from zlmreport.model.effects.design import Design
@@ -35,7 +35,7 @@ class FixedNumbers:
         _, target = np.unique(place, return_inverse=True)
         self._cell = 2 * target + (design.direction > 0)
         self._readings = np.bincount(self._cell, minlength=2 * (int(target.max()) + 1)).reshape(-1, 2)
-        self._both = self._readings.all(axis=1)
+        self._both: BoolArray = np.min(self._readings, axis=1) > 0
         self._targets: Counted = len(self._both), int(self._both.sum())
         self._base = self._count_ranks(base)
         self._known: dict[int, Counted] = {}  # of families

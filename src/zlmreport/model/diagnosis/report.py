@@ -33,8 +33,8 @@ from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.profile import find_intervals
 
 SCHEMA, BUILD_SCHEMA = "zlmreport/diagnosis/1", "zlmreport/build/1"
-#: Probability from which on a candidate is worth a word.
-_SERIOUS = 0.01
+#: Probability from which on a candidate is worth a word, and a sentence beside what has no name.
+_SERIOUS, _LIKELY = 0.01, 0.8
 
 _ADEQUATE = Words("The model describes the readings: nothing is left that their scatter does not explain.")
 _MISSING = Words("Missing effect: {effects}")
@@ -73,6 +73,7 @@ _SHAPE = Words(
 _UNSURE = Words(
     "Something is left that no installed effect explains for sure: {shape}, {where}; root mean square {size}."
 )
+_LIKELY_BESIDE = Words("{statement} Likely beside it, but not to be fitted without it: {chances}.")
 _AND = Words("{shape}, {where}, and {further}")
 _SAME_PLACE = Words("{shape}, and {further}")
 _AS_LIKELY = Words("{statement} As likely it is {effects} instead.")
@@ -499,7 +500,13 @@ def _say_unexplained(diagnosis: AxisDiagnosis) -> Words:
     if diagnosis.remainder is None:
         return _UNEXPLAINED
     words = _SHAPE if diagnosis.remainder.instead is None else _UNSURE
-    return _describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
+    statement = _describe_remainder(words, diagnosis.remainder, diagnosis.fit.design.axis)
+    likely = [
+        Doubt((each.identifier,), each.probability, is_named=False)
+        for each in diagnosis.candidates
+        if each.probability >= _LIKELY
+    ]
+    return _LIKELY_BESIDE.given(statement=statement, chances=list_chances(likely)) if likely else statement
 
 
 def _describe_remainder(words: Words, remainder: Remainder, axis: Axis) -> Words:

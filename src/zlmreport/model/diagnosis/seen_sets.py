@@ -5,6 +5,7 @@ Nothing is searched here, and no set is scored: what nobody looked at takes the 
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence, Set as AbstractSet
 from dataclasses import replace
 
@@ -172,13 +173,14 @@ class SeenSets:
     def list_with_one_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
         """Yield the sets that have one new effect, as their last, and not what `rest` is without.
 
-        It may make others of the set needless, too.
+        It may make others of the set needless, too. A set with both joints is none without the second.
         """
-        own, forms = list_names(found.named), list_unnamed(found)
-        gone = own - list_names(rest.named)
-        for (names, unnamed), each in self._best.items():
+        own, forms, left = list_names(found.named), list_unnamed(found), _count_by_name(rest)
+        gone = _count_by_name(found) - left
+        for (_, unnamed), each in self._best.items():
             others = [member for member in each.named if find_installed_name(member.effect) not in own]
-            if len(others) == 1 and not names & gone and unnamed <= forms:
+            has_gone = any(count > left[name] for name, count in _count_by_name(each).items() if name in gone)
+            if len(others) == 1 and not has_gone and unnamed <= forms:
                 beside = (member for member in each.members if member is not others[0])
                 yield replace(each, members=(*beside, others[0]))
 
@@ -188,3 +190,8 @@ class SeenSets:
         for (_, unnamed), each in self._best.items():
             if unnamed <= forms and loud.issuperset(list_loud(self._contest, each)):
                 yield each
+
+
+def _count_by_name(found: EffectSet) -> Counter[str]:
+    """Return how many effects of each installed name are in a set."""
+    return Counter(find_installed_name(each.effect) for each in found.named)

@@ -444,9 +444,8 @@ def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[O
     for each in keys.parameters.values():
         if each.instead:
             # What is not round in a screw of another pitch has harmonics as well.
-            for orders in ((1,), keys.harmonics.usual) if keys.harmonics else (None,):
-                own = {} if orders is None else {"harmonics": orders}
-                yield options.model_validate({**own, each.instead.key: OTHER})
+            own = [{"harmonics": (1,)}, {"harmonics": keys.harmonics.usual}] if keys.harmonics else [{}]
+            yield from (options.model_validate({**beside, each.instead.key: OTHER}) for beside in own)
 
 
 def _read_value(text: str) -> str | int:
