@@ -444,8 +444,12 @@ def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[O
     for each in keys.parameters.values():
         if each.instead:
             # What is not round in a screw of another pitch has harmonics as well.
-            own = [{"harmonics": (1,)}, {"harmonics": keys.harmonics.usual}] if keys.harmonics else [{}]
-            yield from (options.model_validate({**beside, each.instead.key: OTHER}) for beside in own)
+            other = {each.instead.key: OTHER}
+            if keys.harmonics is None:
+                yield options.model_validate(other)
+            else:
+                for orders in ((1,), keys.harmonics.usual):
+                    yield options.model_validate({"harmonics": orders, **other})
 
 
 def _read_value(text: str) -> str | int:
