@@ -88,6 +88,15 @@ def test_a_jump_of_the_zero_in_the_last_block_of_a_pendulum_test_is_no_noisy_end
 
 
 @pytest.mark.long
+def test_a_name_that_is_as_likely_as_a_form_goes_before_it() -> None:
+    drawn = drawn_axis(
+        47008, with_stranger=True
+    )  # a bow of the reversal, or one upwards only beside saw teeth
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert "backlash-bow" in {each.identifier for each in found.together}
+
+
+@pytest.mark.long
 def test_a_displaced_stretch_among_many_targets_is_no_joint_and_another_back() -> None:
     drawn = drawn_axis(33010, with_stranger=True, targets=101)
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)

@@ -54,7 +54,7 @@ def believe_set(search: SetSearch, found: EffectSet, standing: frozenset[str]) -
 def _believe_own_evidence(search: SetSearch, found: EffectSet) -> EffectSet:
     kept = _drop_needless(search, found)
     # What is unusual, or took long to be found, costs evidence, but makes the same shape no other thing.
-    while (alike := search.seen.find_named_alike(kept, BEHIND, MENTION)) is not None:
+    while (alike := search.seen.find_named_alike(kept, BEHIND, MENTION, _TOSS_UP)) is not None:
         kept = _drop_needless(search, alike)
     irregular = search.seen.find_irregular_instead(kept, _IRREGULAR)
     if irregular is not None:

@@ -147,13 +147,16 @@ class SeenSets:
         ]
         return min(instead, key=find_score, default=None)
 
-    def find_named_alike(self, found: EffectSet, within: float, fit_within: float) -> EffectSet | None:
-        """Return the best set in which one name has the place and the shape of one form.
+    def find_named_alike(
+        self, found: EffectSet, within: float, fit_within: float, toss_up: float
+    ) -> EffectSet | None:
+        """Return the best set in which one name has the place and the shape of one form, or is as likely.
 
         It has no more columns than the form: a polynomial does what many a form does.
 
         `within`: What evidence it may lack; None where all lack more.
         `fit_within`: The same of the fit alone, whatever the name costs.
+        `toss_up`: Evidence that decides nothing: a name that lacks no more needs no better fit.
         """
         names, forms = list_names(found.named), list_unnamed(found)
         fit, columns = compute_fit(self._contest, found), sum(member.rank for member in found.members)
@@ -166,7 +169,7 @@ class SeenSets:
             and len(each.named) == len(found.named) + 1
             and sum(member.rank for member in each.members) <= columns
             and each.score < found.score + within
-            and compute_fit(self._contest, each) < fit + fit_within
+            and (compute_fit(self._contest, each) < fit + fit_within or each.score < found.score + toss_up)
         ]
         return min(alike, key=find_score, default=None)
 
