@@ -13,8 +13,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from zlmreport.document.certificate.attachments import (
     Attachment,
     arrange_attachments,
@@ -76,7 +74,6 @@ RESULTS = "json"
 #: Files that can be signed.
 PDF = ".pdf"
 _SIGNATURE = Words("Electronic signature")
-_OF_A_RUN = Words("{statement}; {remedy}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,7 +187,6 @@ def compose(  # noqa: PLR0913 - what a document is made of
                 name,
                 (
                     *find_doubts(line, of_line, [each.evaluation for each in by]),
-                    *_find_doubts_of_runs(of_line),
                     *(
                         words
                         for each in line.extensions
@@ -292,19 +288,6 @@ def _evaluate_tests(
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
     return GENERATOR, registry.list_versions(job)
-
-
-def _find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
-    """Yield a sentence for each run that seems to be in another unit than the others."""
-    if not np.isfinite(measurements.deviation).any():
-        return
-    from zlmreport.model.diagnosis.faults import find_faults_of_units  # noqa: PLC0415 - brings the error model
-    from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - likewise
-
-    observed = make_observations_of(measurements)
-    for each in find_faults_of_units(observed.design, observed.deviation):
-        if each.run is not None:
-            yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 
 def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
