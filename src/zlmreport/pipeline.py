@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
@@ -19,9 +19,10 @@ from zlmreport.document.certificate.attachments import (
     attach_sources,
     find_media_type,
 )
-from zlmreport.document.certificate.build import GENERATOR, build
+from zlmreport.document.certificate.build import GENERATOR, Programs, build, lay_out, make_writer
 from zlmreport.document.certificate.clauses import find_missing_items
 from zlmreport.document.certificate.information import check_information
+from zlmreport.document.certificate.material import Material
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
 from zlmreport.errors import AccessError, InputError, Problem
@@ -55,17 +56,13 @@ from zlmreport.plugin.protocols import (
 )
 
 if TYPE_CHECKING:
-    from zlmreport.document.certificate.conditions import Described
     from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.signing.signer import Signer
     from zlmreport.document.subjects.annex import Modelled
-    from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.plugin.registry import Registry
 
-#: This program, and each plugin by its identifier, with their releases.
-Programs: TypeAlias = tuple[str, Mapping[str, str]]
 #: Shows some work by its name, while it is told the share that is done.
 Showing: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], object]]]
 #: The format that every document with attachments carries.
@@ -163,15 +160,6 @@ def compose(  # noqa: PLR0913 - what a document is made of
     measurements = measured[0][1]
     evaluations, as_found = evaluated[0], evaluated[1] if found else ()
     studied = fit_model(job, measurements, registry, showing) if job.effects else None
-
-    def describe(writer: Writer) -> list[Described]:
-        said = [
-            registry.extension(each.identifier).described(job, each.options, writer)
-            for each in job.extensions
-        ]
-        return [each for each in said if each]
-
-    generator, plugins = made_by or find_programs(job, registry)
     tests = _evaluate_tests(job, measurements, evaluations[0].budget, registry, trials) if job.tests else ()
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
@@ -199,18 +187,27 @@ def compose(  # noqa: PLR0913 - what a document is made of
     )
     joint = (words for each in evaluations for words in find_unlikely_limits(each.evaluation))
     doubtful = (*of_lines, *(joint if tests else ()))
-    return build(
-        job,
-        evaluations,
-        plugins,
-        doubtful,
-        studied,
-        as_found,
-        describe,
-        generator,
-        tests,
-        is_part=is_part,
-        is_laid_out=is_laid_out,
+    document = build(
+        job, evaluations, made_by or find_programs(job, registry), doubtful, studied, as_found, tests
+    )
+    if not is_laid_out:
+        return document
+    writer = make_writer(job, measurements)
+    described = [
+        registry.extension(each.identifier).described(job, each.options, writer) for each in job.extensions
+    ]
+    return lay_out(
+        Material(
+            document,
+            job,
+            evaluations,
+            as_found,
+            studied,
+            [each for each in described if each],
+            writer,
+            tests,
+            is_part,
+        )
     )
 
 
@@ -237,8 +234,8 @@ def _compose_parts(  # noqa: PLR0913 - what documents are made of
             problems.extend(error.problems)
     if problems:
         raise InputError(dict.fromkeys(problems))
-    generator, plugins = made_by or find_programs(job, registry)
-    return collect_certificates(job, parts, plugins, generator, is_laid_out=is_laid_out)
+    made_by = made_by or find_programs(job, registry)
+    return collect_certificates(job, parts, made_by, is_laid_out=is_laid_out)
 
 
 def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
