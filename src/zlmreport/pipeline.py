@@ -169,21 +169,9 @@ def compose(  # noqa: PLR0913 - what a document is made of
         tests = tuple(
             replace(each, evaluated=draw_graphs(each.job, each.evaluated, registry)) for each in tests
         )
-    of_lines = tuple(
-        say_of_each(
-            (
-                name,
-                (
-                    *find_doubts(line, of_line, [each.evaluation for each in by]),
-                    *(
-                        words
-                        for each in line.extensions
-                        for words in registry.extension(each.identifier).doubts(line, each.options, of_line)
-                    ),
-                ),
-            )
-            for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
-        )
+    of_lines = say_of_each(
+        (name, _find_doubts_of(line, of_line, by, registry))
+        for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
     )
     joint = (words for each in evaluations for words in find_unlikely_limits(each.evaluation))
     doubtful = (*of_lines, *(joint if tests else ()))
@@ -253,6 +241,15 @@ def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
         f"a calibration certificate states results, and these readings give none ({why}); measure what is "
         "missing, or write a report: certificate.kind: report",
     )
+
+
+def _find_doubts_of(
+    job: Job, measurements: MeasurementSet, evaluated: Sequence[Evaluated], registry: Registry
+) -> Iterator[Words]:
+    """Yield what of a job and its readings seems to be in another unit, and what its extensions doubt."""
+    yield from find_doubts(job, measurements, [each.evaluation for each in evaluated])
+    for each in job.extensions:
+        yield from registry.extension(each.identifier).doubts(job, each.options, measurements)
 
 
 def _find_refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
