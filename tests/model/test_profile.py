@@ -65,10 +65,10 @@ def test_interval_of_a_fading_is_that_of_a_grid_of_sums_of_squares(parameter: st
     assert not 0.95 < sides < 1.05
 
 
-def test_interval_ends_with_the_search_where_the_readings_exclude_nothing_up_to_there() -> None:
+def test_interval_is_open_where_the_search_ends_before_the_readings_exclude_anything() -> None:
     deviation = 4e-6 * np.exp(-_DESIGN.position / 0.15) + noise(_DESIGN, sigma=1.5e-6)
     _, length = find_intervals(_fitted(model_of(_fading(200)), deviation))
-    assert length.high == pytest.approx(0.2)
+    assert (length.low_is_open, length.high_is_open, length.high) == (False, True, pytest.approx(0.2))
 
 
 def test_interval_of_a_parameter_held_at_its_bound_begins_there() -> None:
@@ -81,7 +81,7 @@ def test_interval_of_a_parameter_held_at_its_bound_begins_there() -> None:
     best, squares = free.estimates[0].value, float(np.sum(_DESIGN.position**2))
     rise = 4.0 * held.noise.sigma**2 / squares
     expected = best - np.sqrt((best - 3e-6) ** 2 + rise)
-    assert found.high == 3e-6
+    assert (found.high, found.high_is_open) == (3e-6, True)
     assert found.low == pytest.approx(expected, rel=1e-4)
 
 

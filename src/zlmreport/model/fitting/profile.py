@@ -37,10 +37,13 @@ class Interval:
     #: effect and parameter: Of what: the identifier of the effect.
     effect: str
     parameter: Parameter
-    #: low and high: Ends, SI: bounds of what is searched or allowed where the readings exclude nothing up to
-    #: them; infinite where there is no bound.
+    #: low and high: Ends, SI; infinite where the readings exclude nothing and there is no bound.
     low: float
     high: float
+    #: low_is_open and high_is_open: Whether the end is the bound of what is searched or allowed, and the
+    #: readings do not exclude it.
+    low_is_open: bool = False
+    high_is_open: bool = False
 
 
 def find_intervals(fitted: Fit) -> tuple[Interval, ...]:
@@ -71,14 +74,15 @@ def _list_intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
         if each.parameter in term.effect.searched:
             bounds = at_places[index, term.effect.searched.index(each.parameter)]
         usual, widening = _find_usual_reach(fitted, problem, index, each)
-        ends = []
+        ends, are_open = [], []
         for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
             most = abs(bound - each.value)
             rise = _make_rise(fitted, problem, index, each, sign)
             # Readings that scatter by nothing leave one value.
             reach = _find_reach(rise, usual, most, each.coverage_factor) if usual else 0.0
+            are_open.append(reach is None)
             ends.append(bound if reach is None else each.value + sign * min(hypot(reach, widening), most))
-        yield Interval(each.effect, each.parameter, ends[0], ends[1])
+        yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
 
 
 def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: ParameterEstimate) -> Interval:
@@ -86,7 +90,8 @@ def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Param
     term = fitted.model.terms[index]
     column = term.effect.searched.index(estimate.parameter)
     low, high = find_scanned_ends(problem, fitted.solution, index, column, fitted.uncertainties.sigma)
-    return Interval(estimate.effect, estimate.parameter, low, high)
+    values = term.make_grid(fitted.design)[:, column]
+    return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 
 def _find_usual_reach(
