@@ -7,13 +7,11 @@ from __future__ import annotations
 
 import contextlib
 import gc
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
-
-import numpy as np
 
 from zlmreport.document.certificate.attachments import (
     Attachment,
@@ -21,9 +19,10 @@ from zlmreport.document.certificate.attachments import (
     attach_sources,
     find_media_type,
 )
-from zlmreport.document.certificate.build import GENERATOR, build
+from zlmreport.document.certificate.build import GENERATOR, Programs, build, lay_out, make_writer
 from zlmreport.document.certificate.clauses import find_missing_items
 from zlmreport.document.certificate.information import check_information
+from zlmreport.document.certificate.material import Material
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
 from zlmreport.errors import AccessError, InputError, Problem
@@ -57,17 +56,13 @@ from zlmreport.plugin.protocols import (
 )
 
 if TYPE_CHECKING:
-    from zlmreport.document.certificate.conditions import Described
     from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.signing.signer import Signer
     from zlmreport.document.subjects.annex import Modelled
-    from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.plugin.registry import Registry
 
-#: This program, and each plugin by its identifier, with their releases.
-Programs: TypeAlias = tuple[str, Mapping[str, str]]
 #: Shows some work by its name, while it is told the share that is done.
 Showing: TypeAlias = Callable[[str], AbstractContextManager[Callable[[float], object]]]
 #: The format that every document with attachments carries.
@@ -76,7 +71,6 @@ RESULTS = "json"
 #: Files that can be signed.
 PDF = ".pdf"
 _SIGNATURE = Words("Electronic signature")
-_OF_A_RUN = Words("{statement}; {remedy}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,15 +160,6 @@ def compose(  # noqa: PLR0913 - what a document is made of
     measurements = measured[0][1]
     evaluations, as_found = evaluated[0], evaluated[1] if found else ()
     studied = fit_model(job, measurements, registry, showing) if job.effects else None
-
-    def describe(writer: Writer) -> list[Described]:
-        said = [
-            registry.extension(each.identifier).described(job, each.options, writer)
-            for each in job.extensions
-        ]
-        return [each for each in said if each]
-
-    generator, plugins = made_by or find_programs(job, registry)
     tests = _evaluate_tests(job, measurements, evaluations[0].budget, registry, trials) if job.tests else ()
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
@@ -184,37 +169,33 @@ def compose(  # noqa: PLR0913 - what a document is made of
         tests = tuple(
             replace(each, evaluated=draw_graphs(each.job, each.evaluated, registry)) for each in tests
         )
-    of_lines = tuple(
-        say_of_each(
-            (
-                name,
-                (
-                    *find_doubts(line, of_line, [each.evaluation for each in by]),
-                    *_find_doubts_of_runs(of_line),
-                    *(
-                        words
-                        for each in line.extensions
-                        for words in registry.extension(each.identifier).doubts(line, each.options, of_line)
-                    ),
-                ),
-            )
-            for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
-        )
+    of_lines = say_of_each(
+        (name, _find_doubts_of(line, of_line, by, registry))
+        for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
     )
     joint = (words for each in evaluations for words in find_unlikely_limits(each.evaluation))
     doubtful = (*of_lines, *(joint if tests else ()))
-    return build(
-        job,
-        evaluations,
-        plugins,
-        doubtful,
-        studied,
-        as_found,
-        describe,
-        generator,
-        tests,
-        is_part=is_part,
-        is_laid_out=is_laid_out,
+    document = build(
+        job, evaluations, made_by or find_programs(job, registry), doubtful, studied, as_found, tests
+    )
+    if not is_laid_out:
+        return document
+    writer = make_writer(job, measurements)
+    described = [
+        registry.extension(each.identifier).described(job, each.options, writer) for each in job.extensions
+    ]
+    return lay_out(
+        Material(
+            document,
+            job,
+            evaluations,
+            as_found,
+            studied,
+            [each for each in described if each],
+            writer,
+            tests,
+            is_part,
+        )
     )
 
 
@@ -241,8 +222,8 @@ def _compose_parts(  # noqa: PLR0913 - what documents are made of
             problems.extend(error.problems)
     if problems:
         raise InputError(dict.fromkeys(problems))
-    generator, plugins = made_by or find_programs(job, registry)
-    return collect_certificates(job, parts, plugins, generator, is_laid_out=is_laid_out)
+    made_by = made_by or find_programs(job, registry)
+    return collect_certificates(job, parts, made_by, is_laid_out=is_laid_out)
 
 
 def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
@@ -260,6 +241,15 @@ def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
         f"a calibration certificate states results, and these readings give none ({why}); measure what is "
         "missing, or write a report: certificate.kind: report",
     )
+
+
+def _find_doubts_of(
+    job: Job, measurements: MeasurementSet, evaluated: Sequence[Evaluated], registry: Registry
+) -> Iterator[Words]:
+    """Yield what of a job and its readings seems to be in another unit, and what its extensions doubt."""
+    yield from find_doubts(job, measurements, [each.evaluation for each in evaluated])
+    for each in job.extensions:
+        yield from registry.extension(each.identifier).doubts(job, each.options, measurements)
 
 
 def _find_refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
@@ -292,19 +282,6 @@ def _evaluate_tests(
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
     return GENERATOR, registry.list_versions(job)
-
-
-def _find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
-    """Yield a sentence for each run that seems to be in another unit than the others."""
-    if not np.isfinite(measurements.deviation).any():
-        return
-    from zlmreport.model.diagnosis.faults import find_faults_of_units  # noqa: PLC0415 - brings the error model
-    from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - likewise
-
-    observed = make_observations_of(measurements)
-    for each in find_faults_of_units(observed.design, observed.deviation):
-        if each.run is not None:
-            yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)
 
 
 def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:

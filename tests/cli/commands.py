@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from job.jobs import SOUND
+from replacing import replaced
 from zlmreport.cli import main
 from zlmreport.plugin.registry import Registry
 
@@ -47,12 +48,8 @@ class Shop:
 
     def job(self, *changes: tuple[str, str], name: str = "job.yaml", number: str = "CAL-1") -> Path:
         """Write a sound job with its readings; `changes` replace parts of its text."""
-        text = SOUND.replace("CAL-1", number)
-        for old, new in changes:
-            assert old in text
-            text = text.replace(old, new)
         self.write("six.txt", READINGS)
-        return self.write(name, text)
+        return self.write(name, replaced(SOUND, ("CAL-1", number), *changes))
 
     def run(self, *arguments: str) -> Run:
         self.capture.readouterr()

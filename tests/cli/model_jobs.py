@@ -8,6 +8,7 @@ import pytest
 
 from cli.commands import Shop
 from model.hidden_effect import written
+from replacing import replace_in
 
 
 def opened(folder: Path, monkeypatch: pytest.MonkeyPatch, capture: pytest.CaptureFixture[str]) -> Shop:
@@ -20,12 +21,7 @@ def opened(folder: Path, monkeypatch: pytest.MonkeyPatch, capture: pytest.Captur
 
 def change(shop: Shop, *changes: tuple[str, str]) -> None:
     """Change the job's text."""
-    path = shop.folder / "job.yaml"
-    text = path.read_text(encoding="utf-8")
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    path.write_text(text, encoding="utf-8")
+    replace_in(shop.folder / "job.yaml", *changes)
 
 
 def keep(shop: Shop, readings: int) -> None:

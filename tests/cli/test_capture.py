@@ -19,6 +19,7 @@ from cli.commands import Run
 from environments import ROOT
 from live.capture.virtual import InStep
 from processes import PATIENCE, ZLMREPORT, group
+from replacing import replaced
 from zlmreport.cli import main
 from zlmreport.plugin.instrument import JournalHistory, ReadingRecorded, read_journal
 
@@ -49,11 +50,7 @@ class Bench:
         self.journal = Path("x.journal")
 
     def job(self, moves: str, *changes: tuple[str, str]) -> None:
-        text = JOB.replace("MOVES", moves)
-        for old, new in changes:
-            assert old in text
-            text = text.replace(old, new)
-        Path("job.yaml").write_text(text, encoding="utf-8")
+        Path("job.yaml").write_text(replaced(JOB, ("MOVES", moves), *changes), encoding="utf-8")
 
     def run(self, *arguments: str) -> Run:
         self._capture.readouterr()

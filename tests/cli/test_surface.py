@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from replacing import replaced
 from zlmreport.cli import main
 
 TARGETS = tuple(range(0, 501, 50))
@@ -53,10 +54,7 @@ class Bench:
 
     def line(self, at: int, *changes: tuple[str, str], signs: str = "+-", sigma: float = 0.3) -> None:
         """Write the job and the readings of a line; `changes` replace parts of the job."""
-        job = _LINE.replace("NUMBER", str(at))
-        for old, new in changes:
-            assert old in job
-            job = job.replace(old, new)
+        job = replaced(_LINE, ("NUMBER", str(at)), *changes)
         (self.folder / f"{at}.yaml").write_text(job, encoding="utf-8")
         random = np.random.default_rng(at)
         rows = [

@@ -20,7 +20,7 @@ from environments import ROOT
 from installed import registry
 from zlmreport import pipeline
 from zlmreport.cli import main
-from zlmreport.document.certificate.build import build
+from zlmreport.document.certificate.build import lay_out
 from zlmreport.files import write
 from zlmreport.job.loading import load
 from zlmreport.plugin import InputError, Language
@@ -72,19 +72,19 @@ def made(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactor
     job = load(request.param, registry())
     job = replace(job, directory=tmp_path_factory.mktemp("made"), formats=(*job.formats, "dcc"))
     with pytest.MonkeyPatch.context() as patch:
-        whole = Mock(wraps=build)
-        patch.setattr(pipeline, "build", whole)
+        paged = Mock(wraps=lay_out)
+        patch.setattr(pipeline, "lay_out", paged)
         outcome = pipeline.run(job, registry())
         written = write(outcome.documents)
     if job.measurements:  # each of which has its own example, in each layout
         return Made(job, tuple(written), {job.keys.certificate.layout: outcome.certificate})
-    (_, *others), _ = whole.call_args
+    (material,), _ = paged.call_args
     laid_out = {}
     for layout in ("sheet", "standard", "full"):
         keys = job.keys.certificate.model_copy(update={"layout": layout})
         with contextlib.suppress(InputError):  # a certificate that a sheet does not hold
             certificate = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
-            laid_out[layout] = build(certificate, *others)
+            laid_out[layout] = lay_out(replace(material, job=certificate))
     return Made(job, tuple(written), laid_out)
 
 
@@ -121,16 +121,11 @@ def test_no_page_of_any_layout_embarrasses(made: Made) -> None:
         ("step-gauge/job", "full"),
     ],
 )
-def test_no_page_with_long_german_names_embarrasses(
-    example: str, layout: str, press: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_no_page_with_long_german_names_embarrasses(example: str, layout: str, press: str) -> None:
     job = load(CONFIGS / f"{example}.yaml", registry())
     keys = job.keys.certificate.model_copy(update={"language": Language.GERMAN, "layout": layout})
     job = replace(job, keys=job.keys.model_copy(update={"certificate": keys}))
-    whole = Mock(wraps=build)
-    monkeypatch.setattr(pipeline, "build", whole)
-    pipeline.run(replace(job, formats=("json",)), registry())
-    certificate = build(*whole.call_args.args)
+    certificate = pipeline.compose(job, registry())
     assert not embarrassments(certificate, registry().renderer(press).render(certificate))
 
 

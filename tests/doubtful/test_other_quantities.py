@@ -16,6 +16,7 @@ from document.certificate.documents import text_of
 from doubtful.doubtful_jobs import cover
 from environments import ROOT
 from installed import load_job, registry
+from replacing import replace_in
 from zlmreport import pipeline
 from zlmreport.evaluation import likely_units, traceability
 from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
@@ -105,11 +106,7 @@ def spoilt(folder: Path, example: str, **texts: str) -> Job:
     """Return a job of the examples in which some texts of its file are others."""
     shutil.copytree(ROOT / "configs", folder / "configs")
     path = folder / "configs" / example
-    text = path.read_text(encoding="utf-8")
-    for old, new in texts.values():
-        assert old in text
-        text = text.replace(old, new)
-    path.write_text(text, encoding="utf-8")
+    replace_in(path, *texts.values())
     return load_job(path)
 
 

@@ -11,6 +11,7 @@ import pytest
 
 from job.jobs import SOUND
 from offers import offering
+from replacing import replaced
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import Happened, What
@@ -135,12 +136,9 @@ class Fleet:
 
     def job(self, stem: str, *changes: tuple[str, str], readings: str = READINGS) -> Path:
         """Write a job with its readings; `changes` replace parts of its text."""
-        text = SOUND.replace("CAL-1", f"CAL-{stem.upper()}").replace("six.txt", f"{stem}.txt")
-        for old, new in changes:
-            assert old in text
-            text = text.replace(old, new)
+        own = (("CAL-1", f"CAL-{stem.upper()}"), ("six.txt", f"{stem}.txt"))
         self.write(f"jobs/{stem}.txt", readings)
-        return self.write(f"jobs/{stem}.yaml", text)
+        return self.write(f"jobs/{stem}.yaml", replaced(SOUND, *own, *changes))
 
     def readings(self, stem: str, text: str) -> None:
         """Write other readings."""

@@ -9,6 +9,7 @@ import pytest
 
 from environments import ROOT
 from fleet.fleets import Fleet, Here
+from replacing import replaced
 from zlmreport.cli import main
 from zlmreport.fleet import night
 from zlmreport.fleet.exports import make_priors
@@ -37,10 +38,8 @@ _FIRST = "Example-Machine-Works-Example-axis.linear.2026-11-17.yaml"
 def _job(fleet: Fleet, name: str, number: int, *changes: tuple[str, str]) -> None:
     text = (_CONFIG / "cool.yaml").read_text(encoding="utf-8")
     model = ("    - backlash\n", "    - backlash\n    - scale-expansion\n")
-    for old, new in (model, ("file: cool", f"file: ../{name}"), ("0016", f"{number:04}"), *changes):
-        assert old in text
-        text = text.replace(old, new)
-    fleet.write(f"jobs/{number}.yaml", text)
+    own = (model, ("file: cool", f"file: ../{name}"), ("0016", f"{number:04}"))
+    fleet.write(f"jobs/{number}.yaml", replaced(text, *own, *changes))
 
 
 @pytest.fixture

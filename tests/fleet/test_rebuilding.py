@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from replacing import replace_in
 from zlmreport.cli import main
 from zlmreport.fleet.ledger import Ledger
 
@@ -47,7 +48,7 @@ def test_certificates_whose_number_no_job_has_are_named(
     for file in fleet.parent.glob("hall.db*"):
         file.unlink()
     job = fleet.parent / "x.yaml"
-    job.write_text(job.read_text(encoding="utf-8").replace("R-1", "R-2"), encoding="utf-8")
+    replace_in(job, ("R-1", "R-2"))
     (fleet.parent / "certificates/note.json").write_text("{}", encoding="utf-8")
     (fleet.parent / "certificates/list.json").write_text("[]", encoding="utf-8")
     assert main(["fleet", "rebuild", str(fleet)]) == 4

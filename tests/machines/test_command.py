@@ -5,6 +5,7 @@ import json
 import pytest
 
 import zlmreport as z
+from replacing import replace_in
 from zlmreport.cli import main
 
 
@@ -86,7 +87,7 @@ def test_predict_states_bands_bounds_and_what_lies_outside(folder, capsys):
 
 def test_what_lies_beyond_the_measured_range_is_marked(folder, capsys):
     path = folder / "circle-xy.yaml"
-    path.write_text(path.read_text(encoding="utf-8").replace("[250, 200", "[400, 200"), encoding="utf-8")
+    replace_in(path, ("[250, 200", "[400, 200"))
     (test,) = values(capsys, "machine", "predict", folder / "machine.yaml")["tests"]
     beyond = [at for at, outside in zip(test["at"], test["outside_measured_range"], strict=True) if outside]
     assert beyond
@@ -113,9 +114,7 @@ def test_what_lies_beyond_the_measured_range_is_marked(folder, capsys):
 )
 def test_a_mistake_is_told_with_its_place(folder, capsys, old, new, said):
     path = folder / "machine.yaml"
-    text = path.read_text(encoding="utf-8")
-    assert old in text
-    path.write_text(text.replace(old, new), encoding="utf-8")
+    replace_in(path, (old, new))
     assert main(["machine", "check", str(path)]) in {2, 3}
     assert said in capsys.readouterr().err
 
@@ -168,7 +167,7 @@ def test_the_notebook_says_the_same(folder):
 
 def test_in_a_notebook_axes_alone_predict_the_work_space(folder):
     path = folder / "machine.yaml"
-    path.write_text(path.read_text("utf-8").replace("tests: [circle-xy.yaml]", ""), "utf-8")
+    replace_in(path, ("tests: [circle-xy.yaml]", ""))
     machine = z.machine(path)
     assert repr(machine) == "<Machine XYFZ: 6 of 21 errors known, tests: 0>"
     assert machine.predict()["volume"]["largest"] == pytest.approx(5.07, abs=0.01)

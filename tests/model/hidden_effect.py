@@ -8,6 +8,7 @@ from pathlib import Path
 
 from environments import ROOT
 from installed import registry
+from replacing import replace_in
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.model.diagnosis.diagnosis import AxisDiagnosis
@@ -24,11 +25,7 @@ def written(folder: Path, *changes: tuple[str, str]) -> Path:
     for file in CONFIG.iterdir():
         shutil.copy(file, folder)
     path = folder / "job.yaml"
-    text = path.read_text(encoding="utf-8")
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    path.write_text(text, encoding="utf-8")
+    replace_in(path, *changes)
     return path
 
 

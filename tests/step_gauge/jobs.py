@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from replacing import replaced
 from step_gauge.paths import ORIENTATIONS
 
 _RADIUS = 2.0
@@ -26,11 +27,7 @@ step_gauge:
 
 def job_text(*changes: tuple[str, str]) -> str:
     """Return the text of the job with some of it replaced."""
-    text = _JOB
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    return text
+    return replaced(_JOB, *changes)
 
 
 def write_job(folder: Path, *changes: tuple[str, str], blocks: int = 3, orientation: str = "y") -> Path:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from environments import ROOT
+from replacing import replace_in
 from zlmreport.cli import main
 
 EXAMPLE = ROOT / "configs" / "step-gauge"
@@ -24,12 +25,6 @@ def folder(tmp_path: Path) -> Path:
 def refused(folder: Path, capsys: pytest.CaptureFixture[str]) -> str:
     assert main(["check", str(folder / "job.yaml")]) == 2
     return capsys.readouterr().err
-
-
-def changed(path: Path, old: str, new: str) -> None:
-    text = path.read_text(encoding="utf-8")
-    assert old in text
-    path.write_text(text.replace(old, new), encoding="utf-8")
 
 
 def test_the_example_is_sound(folder: Path) -> None:
@@ -69,14 +64,14 @@ def test_a_missing_initial_point(folder: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_a_section_of_too_few_blocks(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    changed(folder / "job.yaml", "last_block: 13", "last_block: 12")
+    replace_in(folder / "job.yaml", ("last_block: 13", "last_block: 12"))
     message = refused(folder, capsys)
     assert "the blocks 2 and 12 of the section 200.000 mm" in message
     assert "step_gauge.first_block, last_block" in message
 
 
 def test_a_section_beyond_the_gauge(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    changed(folder / "job.yaml", "last_block: 13", "last_block: 31")
+    replace_in(folder / "job.yaml", ("last_block: 13", "last_block: 31"))
     message = refused(folder, capsys)
     assert "job.yaml:" in message
     assert "block 31, and" in message
@@ -84,7 +79,7 @@ def test_a_section_beyond_the_gauge(folder: Path, capsys: pytest.CaptureFixture[
 
 
 def test_a_section_that_ends_before_it_begins(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    changed(folder / "job.yaml", "last_block: 13", "last_block: 1")
+    replace_in(folder / "job.yaml", ("last_block: 13", "last_block: 1"))
     assert "the section ends with block 1 and begins with block 2" in refused(folder, capsys)
 
 
@@ -92,7 +87,7 @@ def test_a_section_that_ends_before_it_begins(folder: Path, capsys: pytest.Captu
 def test_a_section_of_which_the_end_of_the_gauge_leaves_one_block(
     stated: str, block: int, folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    changed(folder / "job.yaml", "first_block: 2\n  last_block: 13", stated)
+    replace_in(folder / "job.yaml", ("first_block: 2\n  last_block: 13", stated))
     assert f"from block {block} to block {block} has no two blocks" in refused(folder, capsys)
 
 
@@ -122,23 +117,23 @@ def test_a_source_without_its_gauge(folder: Path, capsys: pytest.CaptureFixture[
 
 def test_a_gauge_hotter_than_anything(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its expansion is a number whose square is none, and a library would say so."""
-    changed(folder / "job.yaml", "gauge_temperature: 20.4", "gauge_temperature: 1e308")
+    replace_in(folder / "job.yaml", ("gauge_temperature: 20.4", "gauge_temperature: 1e308"))
     assert "step_gauge.gauge_temperature: '1e308' is not a number of at most 150" in refused(folder, capsys)
 
 
 def test_a_gauge_colder_than_nothing_can_be(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    changed(folder / "job.yaml", "gauge_temperature: 20.4", "gauge_temperature: -300")
+    replace_in(folder / "job.yaml", ("gauge_temperature: 20.4", "gauge_temperature: -300"))
     assert "step_gauge.gauge_temperature: '-300' is not a number of at least -50" in refused(folder, capsys)
 
 
 def test_a_reference_temperature_in_kelvin(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    changed(folder / "gauge.yaml", "reference_temperature: 20", "reference_temperature: 293.15")
+    replace_in(folder / "gauge.yaml", ("reference_temperature: 20", "reference_temperature: 293.15"))
     assert "reference_temperature: '293.15' is not a number of at most 150" in refused(folder, capsys)
 
 
 def test_a_point_beyond_all_machines(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Its square is no number, and a library would say so."""
-    changed(folder / "probed.csv", "319.6028,202.4096,209.0917", "319.6028,202.4096,1e308")
+    replace_in(folder / "probed.csv", ("319.6028,202.4096,209.0917", "319.6028,202.4096,1e308"))
     assert "column z: '1e308' is too large for any machine" in refused(folder, capsys)
 
 

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from typing import Any
 
-from pydantic import Field
-
 from refusals import failed_checks
 from step_gauge.exemplary_program import ExemplaryProbing, read_words
-from testing.sinning import make_sinner, make_tests
-from zlmreport.plugin import InputError, Options, Place, Words
+from testing.sinning import list_sins_of_programs, make_sinner, make_tests
+from zlmreport.plugin import InputError, Place
 from zlmreport_step_gauge import testing as probing_programs
 from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS, check_probing_program
-
-COUNTER = itertools.count()
 
 
 def on_paper(change: Callable[[str], str]) -> Callable[..., str]:
@@ -44,25 +39,8 @@ def elsewhere(_self: object, path: ProbingPath, options: Any) -> str:
     return ExemplaryProbing().write(path, options)
 
 
-class Undescribed(Options):
-    speed: float = 1.0
-
-
-class Greedy(Options):
-    program: str = Field("", description="Taken.")
-
-
-class Demanding(Options):
-    speed: float = Field(description="Without a default.")
-
-
 SINS = [
-    (probing_programs.is_named, {"identifier": "Words!"}, "lower-case ASCII"),
-    (probing_programs.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
-    (probing_programs.is_named, {"suffix": "words"}, "must be like '.ngc'"),
-    (probing_programs.options_are_described, {"options": Undescribed}, "job key 'speed' needs a description"),
-    (probing_programs.options_are_described, {"options": Greedy}, "job keys program belong to the core"),
-    (probing_programs.options_are_described, {"options": Demanding}, "job keys speed need a default"),
+    *list_sins_of_programs(probing_programs, on_paper),
     (
         probing_programs.leads_along_the_path,
         {"write": on_paper(lambda text: text.replace("GO 0.0000 0.0000 400.0000\n", "", 1))},
@@ -74,24 +52,6 @@ SINS = [
         "move 1 is going to (0.0000, 0.0000, 399.0000); expected going to (0.0000, 0.0000, 400.0000)",
     ),
     (probing_programs.leads_along_the_path, {"write": on_paper(inwards)}, "has the normal"),
-    (probing_programs.is_plain_text, {"write": lambda *_: b"GO\n"}, "must return the text of a program"),
-    (probing_programs.is_plain_text, {"write": on_paper(lambda text: f"SAY ä\n{text}")}, "beyond ASCII"),
-    (
-        probing_programs.is_plain_text,
-        {"write": on_paper(lambda text: f"SAY \x07\n{text}")},
-        "control characters",
-    ),
-    (probing_programs.is_plain_text, {"write": on_paper(str.rstrip)}, "the last line has no end"),
-    (
-        probing_programs.is_plain_text,
-        {"write": on_paper(lambda text: f"SAY {'a' * 300}\n{text}")},
-        "304 characters",
-    ),
-    (
-        probing_programs.writes_the_same_again,
-        {"write": on_paper(lambda text: f"SAY {next(COUNTER)}\n{text}")},
-        "again gives another program",
-    ),
     (probing_programs.takes_no_name_for_a_statement, {"write": named}, "the program cannot be read"),
     (probing_programs.minds_the_radius, {"write": elsewhere}, "elsewhere than at path.place"),
 ]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from installed import registry
+from replacing import replace_in
 from zlmreport.cli import main
 from zlmreport.looking import look_at
 from zlmreport.plugin import InputError
@@ -53,7 +54,7 @@ def test_the_job_that_is_written_asks_for_the_gauge_alone(
         encoding="utf-8",
     )
     job = Path("job.yaml")
-    job.write_text(job.read_text("utf-8").replace("gauge.yaml", "gauge.csv"), encoding="utf-8")
+    replace_in(job, ("gauge.yaml", "gauge.csv"))
     assert main(["check", "job.yaml"]) == 0, capsys.readouterr().err
 
 

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import pytest
-from pydantic import Field
 
 from refusals import failed_checks
 from testing.exemplary_program import ExemplaryProgram, run_steps
-from testing.sinning import make_sinner, make_tests
-from zlmreport.plugin import AxisKind, Options, Words
-from zlmreport.plugin.program import Motion, ProgramOptions
+from testing.sinning import list_sins_of_programs, make_sinner, make_tests
+from zlmreport.plugin import AxisKind
+from zlmreport.plugin.program import Motion
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
-
-COUNTER = itertools.count()
 
 
 def on_paper(change: Callable[[str], str]) -> Callable[..., str]:
@@ -45,25 +41,8 @@ def in_millimetres(self: ExemplaryProgram, motion: Motion, options: Any) -> str:
     return ExemplaryProgram.write(self, replace(motion, stops=stops), options)
 
 
-class Undescribed(ProgramOptions):
-    speed: float = 1.0
-
-
-class Greedy(Options):
-    program: str = Field("", description="Taken.")
-
-
-class Demanding(ProgramOptions):
-    speed: float = Field(description="Without a default.")
-
-
 SINS = [
-    (part_programs.is_named, {"identifier": "Steps!"}, "lower-case ASCII"),
-    (part_programs.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
-    (part_programs.is_named, {"suffix": "steps"}, "must be like '.ngc'"),
-    (part_programs.options_are_described, {"options": Undescribed}, "job key 'speed' needs a description"),
-    (part_programs.options_are_described, {"options": Greedy}, "job keys program belong to the core"),
-    (part_programs.options_are_described, {"options": Demanding}, "job keys speed need a default"),
+    *list_sins_of_programs(part_programs, on_paper),
     (
         part_programs.leads_to_every_reading_from_its_side,
         {"write": on_paper(without_turning_points)},
@@ -89,25 +68,7 @@ SINS = [
         {"write": on_paper(lambda text: text.replace("FEED 1500", "FEED 25"))},
         "the motion to stop 1 has the feed 25; expected 1500 mm/min",
     ),
-    (part_programs.is_plain_text, {"write": lambda *_: b"GO 1\n"}, "must return the text of a program"),
-    (part_programs.is_plain_text, {"write": on_paper(lambda text: f"SAY ä\n{text}")}, "beyond ASCII"),
-    (
-        part_programs.is_plain_text,
-        {"write": on_paper(lambda text: f"SAY \x07\n{text}")},
-        "control characters",
-    ),
-    (part_programs.is_plain_text, {"write": on_paper(str.rstrip)}, "the last line has no end"),
-    (
-        part_programs.is_plain_text,
-        {"write": on_paper(lambda text: f"SAY {'a' * 300}\n{text}")},
-        "304 characters",
-    ),
     (part_programs.names_the_job, {"write": on_paper(lambda text: text.replace("KIT-7", ""))}, "KIT-7"),
-    (
-        part_programs.writes_the_same_again,
-        {"write": on_paper(lambda text: f"SAY {next(COUNTER)}\n{text}")},
-        "again gives another program",
-    ),
     (part_programs.takes_no_name_for_a_command, {"write": named}, "the program cannot be run"),
     (part_programs.refuses_what_it_cannot_program, {"write": as_it_comes}, "eleven digits is not refused"),
     (

@@ -16,6 +16,7 @@ import pytest
 
 from environments import imported_from
 from refusals import failure
+from replacing import replaced
 from zlmreport.cli.new import make_skeleton_of
 from zlmreport.testing import instruments
 
@@ -103,10 +104,7 @@ def test_a_planted_mistake_is_named_by_the_test_of_the_skeleton(
     kind: str, ending: str, changes: Changes, sentence: str, folder: Path
 ) -> None:
     for path, content in make_skeleton_of(kind, "my-plugin").items():
-        text = content.decode()
-        for old, new in changes if path == f"my_plugin{ending}" else ():
-            assert old in text, f"the skeleton has no {old!r}"
-            text = text.replace(old, new)
+        text = replaced(content.decode(), *(changes if path == f"my_plugin{ending}" else ()))
         if path in {"my_plugin.py", "my_plugin.yaml", "test_my_plugin.py"}:
             (folder / path).write_text(text, encoding="utf-8")
     imported_from("my_plugin", folder)

@@ -14,6 +14,7 @@ from starlette.testclient import TestClient
 from environments import ROOT
 from installed import registry
 from processes import awaited
+from replacing import replace_in
 from web.browsers import enter, pass_by
 from zlmreport.plugin import InputError
 from zlmreport.web.folder import FolderWorkbench, JobFolder
@@ -86,7 +87,7 @@ def test_what_fails_stands_first_with_its_place_and_is_fine_once_it_is_mended(
 
 
 def test_a_job_that_fails_opens_and_says_what_is_wrong(job: Path, listing: TestClient) -> None:
-    job.write_text(job.read_text("utf-8").replace("- offset", "- ofset"), "utf-8")
+    replace_in(job, ("- offset", "- ofset"))
     (row,) = rows(listing)
     assert listing.get(f"/jobs/{row['key']}/").status_code == 200
     assert "did you mean 'offset'?" in listing.get(f"/jobs/{row['key']}/api/job").json()["problems"][0]

@@ -13,6 +13,7 @@ from starlette.testclient import TestClient
 from environments import ROOT
 from installed import registry
 from processes import awaited
+from replacing import replace_in
 from web.browsers import enter, pass_by
 from zlmreport.plugin import InputError, Language
 from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
@@ -188,14 +189,14 @@ def test_a_folder_lists_a_machine_and_says_what_is_wrong_with_one(machine: Path)
         "",
     )
     assert machine.with_name("circle-xy.csv") in files
-    machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
+    replace_in(machine, ("XYFZ ", "XYZ "))
     row, _ = look_at(row, machine, registry())
     assert row.state is JobState.FAILS
     assert "'XYZ' is no chain" in row.problems[0]
 
 
 def test_a_machine_that_cannot_be_read_is_refused_before_its_page_opens(machine: Path) -> None:
-    machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
+    replace_in(machine, ("XYFZ ", "XYZ "))
     with pytest.raises(InputError, match="is no chain"):
         MachineWorkbench.of(machine, registry())
 

@@ -18,6 +18,7 @@ from starlette.testclient import TestClient
 from installed import registry
 from model.hidden_effect import example, example_diagnosis
 from processes import PATIENCE, awaited
+from replacing import replace_in
 from testing.exemplary import ExemplaryStandard
 from web.browsers import enter
 from web.jobs import EXAMPLE
@@ -276,7 +277,7 @@ def test_the_page_goes_on_when_a_file_that_vanished_is_back(
 
 
 def test_the_page_goes_on_when_a_file_that_the_job_names_anew_appears(job: Path, browser: TestClient) -> None:
-    job.write_text(job.read_text("utf-8").replace("x-axis.csv", "later.csv"), "utf-8")
+    replace_in(job, ("x-axis.csv", "later.csv"))
     broken = browser.get("/api/job").json()
     assert "later.csv" in broken["problems"][0]
     shutil.copy(job.with_name("x-axis.csv"), job.with_name("later.csv"))
@@ -285,7 +286,7 @@ def test_the_page_goes_on_when_a_file_that_the_job_names_anew_appears(job: Path,
 
 
 def test_a_job_that_has_become_wrong_is_said_with_its_place(job: Path, browser: TestClient) -> None:
-    job.write_text(job.read_text(encoding="utf-8").replace("backlash", "backlsh"), encoding="utf-8")
+    replace_in(job, ("backlash", "backlsh"))
     answer = browser.get("/api/job")
     assert answer.status_code == 422
     assert "did you mean 'backlash'?" in answer.json()["problems"][0]

@@ -16,6 +16,7 @@ from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet, find_step
+from zlmreport.measurement.other_unit import CORRECT_RUN, IN_ANOTHER_UNIT, find_run_in_another_unit
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
@@ -44,6 +45,7 @@ _LARGE_ANGLES = Words(
     "Angles that span {span}{unit} are unusual; if the file has another unit, such as {meant}, state it "
     "under measurement.source.units"
 )
+_OF_A_RUN = Words("{statement}; {remedy}")
 _FAR_BELOW_STEP = Words(
     "Expanded uncertainty of the instrument: {value} {unit}, and its readings were given in steps of {step} "
     "{unit}: it is stated in {unit}"
@@ -94,6 +96,7 @@ def find_doubts(
         *(sentence for each in evaluations for sentence in find_unlikely_limits(each)),
         *_find_other_kind_of_axis(measurements),
         *_find_unlikely_angles(measurements),
+        *_find_run_in_another_unit(measurements),
     )
 
 
@@ -234,3 +237,9 @@ def _find_other_kind_of_axis(measurements: MeasurementSet) -> Iterator[Words]:
         yield _TURNS.given(name=name, range=float(f"{extent:.4g}"))
     if axis.kind is AxisKind.ROTARY and letter in _STRAIGHT:
         yield _MOVES_STRAIGHT.given(name=name, range=float(f"{extent:.4g}"))
+
+
+def _find_run_in_another_unit(measurements: MeasurementSet) -> Iterator[Words]:
+    run = find_run_in_another_unit(measurements.run, measurements.deviation)
+    if run is not None:
+        yield _OF_A_RUN.given(statement=IN_ANOTHER_UNIT.given(run=run), remedy=CORRECT_RUN)

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.document.certificate.build import GENERATOR
+from zlmreport.document.certificate.build import GENERATOR, Programs
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.results_file import MACHINE_RESULTS
 from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
@@ -89,7 +89,7 @@ class _Again:
     `future_dates` what it says of days that have not come; `digest` is that of its readings and results.
     """
 
-    programs: pipeline.Programs
+    programs: Programs
     prints: pages.Prints
     results: bytes
     is_by_its_own_renderer: bool
@@ -275,7 +275,7 @@ def _replace_look(job: Job) -> tuple[Job, bool]:
     return replace(job, keys=job.keys.model_copy(update={"certificate": certificate})), usual != style
 
 
-def _are_releases_of(stated: pipeline.Programs, here: pipeline.Programs) -> bool:
+def _are_releases_of(stated: Programs, here: Programs) -> bool:
     """Whether programs are the same but for their releases; whatever else stood there would be printed."""
     (generator, plugins), (generator_here, plugins_here) = stated, here
     return plugins.keys() == plugins_here.keys() and all(

@@ -9,6 +9,7 @@ import pytest
 
 from installed import registry
 from refusals import refused
+from replacing import replaced
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.job.schema import make_job_schema
@@ -42,12 +43,8 @@ evaluate: [iso230-2:2014]
 
 
 def loaded(folder: Path, *changes: tuple[str, str]) -> Job:
-    text = JOB
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
     path = folder / "job.yaml"
-    path.write_text(text)
+    path.write_text(replaced(JOB, *changes))
     return load(path, REGISTRY)
 
 

@@ -12,6 +12,7 @@ import pytest
 from pypdf import PdfReader
 
 from environments import ROOT
+from replacing import replace_in
 from zlmreport.cli import main
 
 DATA = ROOT / "tests" / "data" / "linuxcnc"
@@ -176,7 +177,7 @@ def test_both_tests_make_one_certificate(folder: Path, capsys: Capture) -> None:
     more = "environment: {air_temperature: 21.5}\ncompensation: {controller: linuxcnc}"
     before = job(folder, "before.yaml", "without", more=more)
     after = job(folder, "after.yaml", "type0", more="output: {formats: [json]}")
-    Path("before.yaml").write_text(Path("before.yaml").read_text().replace(str(DATA), "readings"))
+    replace_in(Path("before.yaml"), (str(DATA), "readings"))
     (folder / "readings").symlink_to(DATA)
     assert main(["compensate", "--confirm", before, after, "-o", "both"]) == 0
     assert capsys.readouterr().out.endswith("as found and as left:\n  zlmreport both/LOOP-1-as-left.yaml\n")

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from installed import registry
+from replacing import replaced
 from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
@@ -32,11 +33,7 @@ REGISTRY = registry()
 
 def job_text(*changes: tuple[str, str]) -> str:
     """Return the job with parts of its text replaced."""
-    text = JOB
-    for old, new in changes:
-        assert old in text
-        text = text.replace(old, new)
-    return text
+    return replaced(JOB, *changes)
 
 
 def planned_job(*changes: tuple[str, str]) -> Job:

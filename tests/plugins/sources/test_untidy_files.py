@@ -12,6 +12,7 @@ from hypothesis import given, settings, strategies as st
 from installed import registry
 from plugins.sources import untidy_files
 from plugins.sources.untidy_files import FILES, Untidy, german, rows, text
+from replacing import replace_in
 from zlmreport.cli import main
 from zlmreport.looking import look_at
 from zlmreport.plugin import InputError
@@ -84,7 +85,7 @@ def test_readings_back_under_a_name_of_their_own_are_asked_for(tmp_path: Path) -
     path.write_text("Soll;hin (µm);gegen (µm);T (°C)\n0;1,2;0,3;20,1\n9;1,8;1,1;20,2\n", encoding="utf-8")
     (asked,) = (each for each in look_at(path, REGISTRY).proposal.asks if "other direction" in each)
     assert "'gegen (µm)'" in asked
-    path.write_text(path.read_text(encoding="utf-8").replace("gegen", "her"), encoding="utf-8")
+    replace_in(path, ("gegen", "her"))
     looked = look_at(path, REGISTRY)
     assert looked.proposal.keys["columns"]["1-"] == "her"
     assert not [each for each in looked.proposal.asks if "other direction" in each]

@@ -1,13 +1,12 @@
-"""Builds the document of a job: its layout, its sections in order, title, letterhead, who made it."""
+"""Builds the document of a job (title, letterhead, what is doubtful), and lays out its pages."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from zlmreport.document.certificate.attachments import list_sources
-from zlmreport.document.certificate.conditions import Described
 from zlmreport.document.certificate.cover import split_address
 from zlmreport.document.certificate.digest import digest_of
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords, Party
@@ -37,6 +36,8 @@ if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 GENERATOR = f"zlmreport {__version__}"
+#: This program, and each plugin by its identifier, with their releases.
+Programs: TypeAlias = tuple[str, Mapping[str, str]]
 
 _DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 
@@ -44,46 +45,33 @@ _DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     job: Job,
     evaluated: tuple[Evaluated, ...],
-    plugins: Mapping[str, str],
+    made_by: Programs,
     doubtful: tuple[Words, ...] = (),
     interpretation: Modelled | None = None,
     as_found: tuple[Evaluated, ...] = (),
-    describe: Callable[[Writer], Sequence[Described]] = lambda _: (),
-    generator: str = GENERATOR,
     tests: tuple[Tested, ...] = (),
-    *,
-    is_part: bool = False,
-    is_laid_out: bool = True,
 ) -> Certificate:
-    """Build the document.
+    """Build the document without its pages.
 
     `evaluated`: At least one evaluation; all are of the same measurements.
     `doubtful`: Sentences on values that seem to be in another unit.
     `interpretation`: By an error model; None where the job names none.
     `as_found`: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     `tests`: Of several measured lines that are evaluated together, each by itself; empty of most documents.
-    `is_part`: Whether it is one of several that make one document: what all share stands there.
-    `is_laid_out`: Whether it has pages; its data alone otherwise, which need no figures of the evaluations.
     """
-    certificate = job.keys.certificate
+    certificate, laboratory = job.keys.certificate, job.keys.laboratory
+    generator, plugins = made_by
     measurements = evaluated[0].evaluation.measurements
-    writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
+    writer = make_writer(job, measurements)
     designations = tuple(each.evaluation.designation for each in evaluated)
-    laboratory = job.keys.laboratory
-    logo, style = None, certificate.style
-    look = Look(style.accent, style.logo)
+    logo = None
     if laboratory and laboratory.logo:
         from zlmreport.document.certificate.own_look import read_logo  # noqa: PLC0415 - brings the typeface
 
         logo = read_logo(laboratory.logo, job.place_of("laboratory.logo"))
-    if style.typeface or style.templates:
-        from zlmreport.document.certificate.own_look import read_own_look  # noqa: PLC0415 - likewise
-
-        look = read_own_look(look, job)
     sessions = interpretation.sessions if interpretation else ()
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
     files = [file for each in read for file in each.provenance.files]
-    made_from = list_sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
     of_lines = [(name, _collect_shown(line, of_line)) for name, line, of_line in lines]
     said = tuple(say_of_each(of_lines))
@@ -96,77 +84,89 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     if as_found:
         of_all = [one for _, of_line in of_lines for one in of_line]
         shown += tuple(_collect_shown_as_found(job, measurements, as_found, of_all))
-    letterhead, title = (
-        make_letterhead(laboratory, logo),
-        writer.say(write_document_title(certificate)),
-    )
     results = tuple(each.evaluation for each in evaluated)
     results_as_found = tuple(each.evaluation for each in as_found)
-    digest = digest_of(certificate.number, (*results, *results_as_found))
-    laid_out, linked = LaidOut((), ()), None
-    if is_laid_out:
-        material = Material(
-            job,
-            evaluated,
-            as_found,
-            doubtful,
-            shown,
-            interpretation,
-            describe(writer),
-            made_from,
-            generator,
-            plugins,
-            letterhead,
-            title,
-            digest,
-            writer,
-            tests,
-            is_part,
-        )
-        laid_out = _lay_out(material if certificate.readings_on_graphs else _drop_readings(material))
-        linked = _link_readings(job, interpretation, writer) if interpretation else None
-    sections = laid_out.sections
-    if certificate.sections is not None:
-        sections = arrange_sections(sections, certificate.sections, job)
+    subject = writer.say(name_subject_of(job))
     return Certificate(
         number=certificate.number,
-        title=title,
-        subtitle=writer.say(name_subject_of(job)),
+        title=writer.say(write_document_title(certificate)),
+        subtitle=subject,
         language=certificate.language,
         issued=certificate.issued,
         paper=certificate.paper,
-        letterhead=letterhead,
-        cover=laid_out.cover,
-        sections=sections,
-        page_words=PageWords.in_language(
-            certificate.language,
-            writer.say(write_running_title(certificate)),
-            head=fill_in(style.header, job, "certificate.style.header") if style.header else "",
-            foot=fill_in(style.footer, job, "certificate.style.footer") if style.footer else "",
-        ),
-        description=writer.say(
-            _DESCRIPTION.given(subject=name_subject_of(job), standards=", ".join(designations))
-        ),
+        letterhead=make_letterhead(laboratory, logo),
+        cover=(),
+        sections=(),
+        page_words=write_page_words(job, writer),
+        description=describe_document(subject, designations, writer),
         measurements=measurements,
         evaluations=results,
         evaluations_as_found=results_as_found,
-        digest=digest,
+        digest=digest_of(certificate.number, (*results, *results_as_found)),
         budget_as_found=as_found[0].budget if as_found else None,
         generator=generator,
         keywords=designations,
         plugins=plugins,
         diagnosis=interpretation.diagnosis if interpretation else None,
-        linked=linked if linked and linked.section in {each.key for each in sections} else None,
         budget=evaluated[0].budget,
         job=job,
-        sources=made_from,
-        is_compact=laid_out.is_compact,
-        head=laid_out.head,
-        look=look,
+        sources=list_sources(job, files, logo.file if logo else None),
+        look=find_look(job),
         doubts=doubtful,
         evidence=shown,
         tests=tests,
     )
+
+
+def lay_out(material: Material) -> Certificate:
+    """Return a document with its pages, in the layout and with the sections that its job asks for."""
+    job, certificate = material.job, material.job.keys.certificate
+    laid_out = _lay_out(material if certificate.readings_on_graphs else _drop_readings(material))
+    sections = laid_out.sections
+    if certificate.sections is not None:
+        sections = arrange_sections(sections, certificate.sections, job)
+    linked = _link_readings(material)
+    return replace(
+        material.document,
+        cover=laid_out.cover,
+        sections=sections,
+        linked=linked if linked and linked.section in {each.key for each in sections} else None,
+        is_compact=laid_out.is_compact,
+        head=laid_out.head,
+    )
+
+
+def make_writer(job: Job, measurements: MeasurementSet) -> Writer:
+    """Return the writer of a job's document on these readings."""
+    return Writer.of(measurements, job.keys.certificate.language, Marks.of(job.keys))
+
+
+def write_page_words(job: Job, writer: Writer) -> PageWords:
+    """Return the words of the margins of a job's document."""
+    certificate = job.keys.certificate
+    head, foot = certificate.style.header, certificate.style.footer
+    return PageWords.in_language(
+        certificate.language,
+        writer.say(write_running_title(certificate)),
+        head=fill_in(head, job, "certificate.style.header") if head else "",
+        foot=fill_in(foot, job, "certificate.style.footer") if foot else "",
+    )
+
+
+def describe_document(subject: str, designations: Iterable[str], writer: Writer) -> str:
+    """Return what the metadata of a document say of it."""
+    return writer.say(_DESCRIPTION.given(subject=subject, standards=", ".join(designations)))
+
+
+def find_look(job: Job) -> Look:
+    """Return the look that a job asks for."""
+    style = job.keys.certificate.style
+    look = Look(style.accent, style.logo)
+    if not (style.typeface or style.templates):
+        return look
+    from zlmreport.document.certificate.own_look import read_own_look  # noqa: PLC0415 - brings the typeface
+
+    return read_own_look(look, job)
 
 
 def _collect_shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
@@ -213,13 +213,13 @@ def _lay_out(material: Material) -> LaidOut:
     return lay_out(material)
 
 
-def _link_readings(job: Job, interpretation: Modelled, writer: Writer) -> Linked | None:
+def _link_readings(of: Material) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
-    keys = job.keys
+    keys = of.job.keys
     is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
-    if keys.agreement.simplified or not is_shown:
+    if of.interpretation is None or keys.agreement.simplified or not is_shown:
         return None
-    return interpretation.list_linked(writer)
+    return of.interpretation.list_linked(of.writer)
 
 
 def _drop_readings(material: Material) -> Material:

@@ -9,29 +9,33 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
 from zlmreport.document.certificate.attachments import SourceRole, list_sources
+from zlmreport.document.certificate.build import (
+    describe_document,
+    find_look,
+    make_writer,
+    write_page_words,
+)
 from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_period
 from zlmreport.document.certificate.digest import DIGEST, digest_of
-from zlmreport.document.certificate.document import Certificate, Look
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import say_of_each
-from zlmreport.document.certificate.own_look import read_own_look
-from zlmreport.document.certificate.own_words import arrange_sections, fill_in
+from zlmreport.document.certificate.own_words import arrange_sections
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.standard_layout import fit_on_a_page
-from zlmreport.document.certificate.statements import write_document_title, write_running_title
+from zlmreport.document.certificate.statements import write_document_title
 from zlmreport.document.certificate.values import Values
-from zlmreport.document.writer import Marks, Writer
+from zlmreport.document.writer import Writer
 from zlmreport.evaluation.evidence import find_lines_read_twice
 from zlmreport.evaluation.uncertainty.budget import join_budgets
 from zlmreport.language import Words, named
 
 if TYPE_CHECKING:
+    from zlmreport.document.certificate.build import Programs
     from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
-    from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
 
 _SUBJECT = Words("{count} measurements of {machine}")
 _SUBJECT_OF_ONE = Words("One measurement of {machine}")
-_DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 _SUMMARY = Words(
     "Summary: what has a limit, or else the first parameter of each measurement by each standard"
 )
@@ -39,72 +43,44 @@ _GROUP = Words("{subject}, {designation}")
 
 
 def collect_certificates(
-    job: Job,
-    parts: Mapping[str, Certificate],
-    plugins: Mapping[str, str],
-    generator: str,
-    *,
-    is_laid_out: bool,
+    job: Job, parts: Mapping[str, Certificate], made_by: Programs, *, is_laid_out: bool
 ) -> Certificate:
     """Return one document of the certificates of several measurements, by what they are called.
 
     `is_laid_out`: Whether it and its parts have pages; their data alone otherwise.
     """
-    keys, certificate = job.keys, job.keys.certificate
+    certificate = job.keys.certificate
+    generator, plugins = made_by
     first = next(iter(parts.values()))
-    writer = Writer.of(first.measurements, certificate.language, Marks.of(keys))
+    writer = make_writer(job, first.measurements)
     evaluations = tuple(each for part in parts.values() for each in part.evaluations)
     as_found = tuple(each for part in parts.values() for each in part.evaluations_as_found)
-    digest = digest_of(certificate.number, (*evaluations, *as_found))
     files = [each for part in parts.values() for each in part.sources]
     logo = next((each.file for each in files if each.role is SourceRole.LOGO), None)
-    made_from = list_sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo)
-    budget = join_budgets({name: part.budget for name, part in parts.items() if part.budget})
-    machine = keys.machine.type or writer.say(Words("a machine"))
+    machine = job.keys.machine.type or writer.say(Words("a machine"))
     subject = writer.say(
         (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
     )
-    cover_blocks: tuple[Block, ...] = ()
-    sections: list[Section] = []
-    if is_laid_out:
-        cover_blocks = tuple(_cover(job, parts, budget, digest, writer))
-        sections += (each for name, part in parts.items() for each in _lay_out_sections(name, part, writer))
-        if certificate.layout != "sheet":  # no sheet has it
-            sections.append(origin.lay_out_origin_of_several(made_from, parts, generator, plugins, writer))
-        if keys.opinions:
-            sections.append(statements.lay_out_opinions(keys, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
-    style = certificate.style
-    look = Look(style.accent, style.logo)
-    return replace(
+    document = replace(
         first,
         title=writer.say(write_document_title(certificate)),
         subtitle=subject,
-        cover=cover_blocks,
-        sections=(
-            tuple(sections)
-            if certificate.sections is None
-            else arrange_sections(sections, certificate.sections, job)
-        ),
-        page_words=replace(
-            first.page_words,
-            number=writer.say(write_running_title(certificate)),
-            head=fill_in(style.header, job, "certificate.style.header") if style.header else "",
-            foot=fill_in(style.footer, job, "certificate.style.footer") if style.footer else "",
-        ),
-        description=writer.say(_DESCRIPTION.given(subject=subject, standards=", ".join(designations))),
+        page_words=write_page_words(job, writer),
+        description=describe_document(subject, designations, writer),
         evaluations=evaluations,
         evaluations_as_found=as_found,
-        digest=digest,
-        budget=budget,
+        digest=digest_of(certificate.number, (*evaluations, *as_found)),
+        budget=join_budgets({name: part.budget for name, part in parts.items() if part.budget}),
         budget_as_found=None,
         keywords=designations,
+        generator=generator,
         plugins=plugins,
         diagnosis=None,
         linked=None,
         job=job,
-        sources=made_from,
-        look=read_own_look(look, job) if style.typeface or style.templates else look,
+        sources=list_sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo),
+        look=find_look(job),
         doubts=tuple(say_of_each((name, part.doubts) for name, part in parts.items())),
         evidence=(
             *_find_read_twice(parts),
@@ -113,6 +89,20 @@ def collect_certificates(
         tests=(),
         parts=dict(parts),
     )
+    return _lay_out(document, job, writer) if is_laid_out else document
+
+
+def _lay_out(document: Certificate, job: Job, writer: Writer) -> Certificate:
+    """Return a document with its pages: those of its parts behind a first one of its own."""
+    keys, certificate, parts = job.keys, job.keys.certificate, document.parts
+    sections = [each for name, part in parts.items() for each in _lay_out_sections(name, part, writer)]
+    if certificate.layout != "sheet":  # no sheet has it
+        sections.append(origin.lay_out_origin_of_several(document, writer))
+    if keys.opinions:
+        sections.append(statements.lay_out_opinions(keys, writer))
+    if certificate.sections is not None:
+        sections = [*arrange_sections(sections, certificate.sections, job)]
+    return replace(document, cover=tuple(_cover(document, job, writer)), sections=tuple(sections))
 
 
 def _find_read_twice(parts: Mapping[str, Certificate]) -> Iterator[Words]:
@@ -122,21 +112,14 @@ def _find_read_twice(parts: Mapping[str, Certificate]) -> Iterator[Words]:
     yield from find_lines_read_twice({name: readings[name] for name in last.values()})
 
 
-def _cover(
-    job: Job,
-    parts: Mapping[str, Certificate],
-    budget: Budget | NoBudget,
-    digest: str,
-    writer: Writer,
-) -> Iterator[Block]:
+def _cover(document: Certificate, job: Job, writer: Writer) -> Iterator[Block]:
     """Yield the first page: who, what, when, and each measurement in a line."""
-    keys = job.keys
-    evaluations = [each for part in parts.values() for each in part.evaluations]
+    keys, parts, evaluations, budget = job.keys, document.parts, document.evaluations, document.budget
     yield from statements.make_amendment_notice(keys.certificate, writer)
-    facts = select_stated_facts(_list_identity(job, evaluations, digest, writer), writer)
+    facts = select_stated_facts(_list_identity(job, evaluations, document.digest, writer), writer)
     yield Facts(facts, writer.say(statements.WORK[keys.certificate.kind]))
     yield _lay_out_summary(parts, writer)
-    if budget.is_complete:
+    if budget and budget.is_complete:
         yield from uncertainty.say_uncertainty(budget, (), writer)  # the summary has no interval of the axis
     yield from conformity.say_rule(keys.decision_rule, evaluations, writer)
     read_twice = tuple(map(writer.say, _find_read_twice(parts)))

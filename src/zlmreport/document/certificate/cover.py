@@ -83,7 +83,7 @@ def lay_out_cover(
         *(each for each in of_uncertainty if isinstance(each, Notice) or not behind.explains_uncertainty),
         *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
         *_say_elsewhere(of, behind),
-        *list_unlikely(of, writer, evaluations),
+        *list_unlikely(of.document, writer, evaluations),
         *list_missing_readings(measurements, writer),
         *measured_lines.list_notices(of.tests, writer),
         *_list_shortfalls(evaluations, writer, in_a_line=pages is not None),
@@ -119,7 +119,7 @@ def _lay_out_part(of: Material) -> Iterator[Block]:
         if key != "machine":
             yield group
     yield from uncertainty.say_uncertainty(of.evaluated[0].budget, evaluations, writer)
-    yield from list_unlikely(of, writer, evaluations)
+    yield from list_unlikely(of.document, writer, evaluations)
     yield from list_missing_readings(measurements, writer)
     yield from measured_lines.list_notices(of.tests, writer)
     yield from _say_as_found(job, writer)
@@ -131,7 +131,7 @@ EVIDENCE = Words("What readings, dates and calibrations show")
 
 
 def list_unlikely(
-    of: Material | Certificate, writer: Writer, evaluations: Sequence[Evaluation] = ()
+    of: Certificate, writer: Writer, evaluations: Sequence[Evaluation] = ()
 ) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
     for heading, sentences in ((_UNUSUAL, of.doubts), (EVIDENCE, of.evidence)):
@@ -241,7 +241,7 @@ def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[F
     )
     yield from list_facts_of_issue(keys, writer)
     if not of.is_part:
-        yield Fact(DIGEST, of.digest)
+        yield Fact(DIGEST, of.document.digest)
 
 
 def list_facts_of_item(job: Job, writer: Writer) -> Iterator[Fact]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -20,40 +20,27 @@ from zlmreport.document.certificate.statements import lay_out_opinions
 
 if TYPE_CHECKING:
     from zlmreport.document.blocks import Block, Section
-    from zlmreport.document.certificate.attachments import Source
     from zlmreport.document.certificate.conditions import Described
-    from zlmreport.document.certificate.document import Letterhead
+    from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.certificate.results import Evaluated, Tested
     from zlmreport.document.subjects.annex import Modelled
     from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
-    from zlmreport.language import Words
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 
 @dataclass(frozen=True, slots=True)
 class Material:
-    """What a document is made of."""
+    """What the pages of a document are made of."""
 
+    document: Certificate  #: Without its pages.
     job: Job  #: The checked job.
     evaluated: tuple[Evaluated, ...]  #: At least one evaluation; all are of the same measurements.
     #: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     as_found: tuple[Evaluated, ...]
-    doubts: tuple[Words, ...]  #: Sentences on values that seem to be in another unit.
-    #: Sentences on what readings show that the job does not say, and on calibrations that do not hold.
-    evidence: tuple[Words, ...]
     #: What the laboratory thinks that the deviations come from; None where the job names no error model.
     interpretation: Modelled | None
     described: Sequence[Described]  #: What extensions say of their groups of job keys.
-    sources: tuple[Source, ...]  #: The files that it is made from.
-    #: generator and plugins: Name and version of this program; identifier and version of every plugin that
-    #: took part.
-    generator: str
-    plugins: Mapping[str, str]
-    #: letterhead and title: What stands above everything.
-    letterhead: Letterhead | None
-    title: str
-    digest: str  #: Of readings and results.
     writer: Writer  #: Of the document.
     #: Of several measured lines that are evaluated together, each by itself; empty of most documents.
     tests: tuple[Tested, ...] = ()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Block, Column, Facts, Paragraph, RowGroup, Section, Table
@@ -34,8 +34,8 @@ def lay_out_origin(of: Material) -> Section:
     ]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer), signs)),
-        _lay_out_files(of.sources, named, writer),
-        _list_programs(of.generator, of.plugins, writer),
+        _lay_out_files(of.document.sources, named, writer),
+        _list_programs(of.document, writer),
     ]
     remarks = tuple(
         say_of_each(
@@ -49,24 +49,18 @@ def lay_out_origin(of: Material) -> Section:
     return Section("origin", writer.say(_TITLE), tuple(blocks))
 
 
-def lay_out_origin_of_several(
-    sources: Sequence[Source],
-    parts: Mapping[str, Certificate],
-    generator: str,
-    plugins: Mapping[str, str],
-    writer: Writer,
-) -> Section:
+def lay_out_origin_of_several(document: Certificate, writer: Writer) -> Section:
     """Return the section of a document of several measurements, by what they are called."""
     found = [
         (f"{name} {line}".strip(), readings)
-        for name, part in parts.items()
+        for name, part in document.parts.items()
         for line, readings in (part.measurements.tests or {"": part.measurements}).items()
     ]
     named = [(name, _OF_LINE, each) for name, each in found]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer))),
-        _lay_out_files(sources, named, writer),
-        _list_programs(generator, plugins, writer),
+        _lay_out_files(document.sources, named, writer),
+        _list_programs(document, writer),
     ]
     if remarks := tuple(say_of_each((name, each.provenance.remarks) for name, each in found)):
         blocks.append(_lay_out_remarks(remarks, writer))
@@ -106,13 +100,13 @@ def _lay_out_remarks(remarks: Iterable[Words], writer: Writer) -> Table:
     return Table(writer.say(Words("Remarks")), (Column(heading),), (RowGroup(rows),))
 
 
-def _list_programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Facts:
+def _list_programs(document: Certificate, writer: Writer) -> Facts:
     return Facts(
         (
-            (writer.say(Words("Program")), generator),
+            (writer.say(Words("Program")), document.generator),
             (
                 writer.say(Words("Plugins")),
-                ", ".join(f"{name} {version}" for name, version in sorted(plugins.items())),
+                ", ".join(f"{name} {version}" for name, version in sorted(document.plugins.items())),
             ),
         ),
         writer.say(Words("Evaluated with")),

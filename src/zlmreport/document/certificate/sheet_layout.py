@@ -275,7 +275,7 @@ def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> tuple[Block, 
 def _digest(of: Material) -> Iterator[Paragraph]:
     """Yield the digest as a sentence of its own: by it a page is told from another of the same number."""
     if not of.is_part:  # that of the whole document stands on its first page
-        yield Paragraph(of.writer.say(named(DIGEST, f"{of.digest}.")), fine=True)
+        yield Paragraph(of.writer.say(named(DIGEST, f"{of.document.digest}.")), fine=True)
 
 
 def _gather_said(of: Material, page: _Page) -> SheetContent:
@@ -292,7 +292,7 @@ def _gather_said(of: Material, page: _Page) -> SheetContent:
     notices = (
         *statements.make_amendment_notice(job.keys.certificate, writer),
         *(each for each in said if isinstance(each, Notice)),
-        *cover.list_unlikely(of, writer, evaluations),
+        *cover.list_unlikely(of.document, writer, evaluations),
         *list_missing_readings(evaluations[0].measurements, writer),
         *measured_lines.list_notices(of.tests, writer),
         *statements.list_notices(job.keys, writer, names_all=True),
@@ -321,8 +321,9 @@ def _gather_said(of: Material, page: _Page) -> SheetContent:
 
 def _list_laboratory(of: Material) -> Iterator[Pair]:
     """Yield what of the laboratory its letterhead has no room for."""
-    if of.letterhead:
-        said = filter(None, (", ".join(of.letterhead.laboratory.lines), of.letterhead.accreditation))
+    letterhead = of.document.letterhead
+    if letterhead:
+        said = filter(None, (", ".join(letterhead.laboratory.lines), letterhead.accreditation))
         yield of.writer.say(_LABORATORY), join_parts(said, of.writer.language)
 
 
@@ -336,7 +337,7 @@ def _gather_stated(of: Material, page: _Page) -> tuple[tuple[Pair, ...], tuple[t
     facts = cover.list_identity(of, page.evaluations)
     if of.is_part:
         facts = (each for each in facts if set(each.keys) & cover.OF_MEASUREMENT)
-    said = {of.digest, conditions.describe_axis(job, writer)}
+    said = {of.document.digest, conditions.describe_axis(job, writer)}
     if not of.is_part:  # a part has another heading
         said.add(list_designations(page.evaluated))
     who = tuple(pair for pair in select_stated_facts(facts, writer) if pair[1] not in said)

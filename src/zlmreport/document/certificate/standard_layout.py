@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import TypeAlias, TypeGuard
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
-from zlmreport.document.certificate import columns, conditions, conformity, origin, results, statements
+from zlmreport.document.certificate import columns, conditions, conformity, origin, results
 from zlmreport.document.certificate.cover import Behind, lay_out_cover
 from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.material import (
@@ -131,9 +131,8 @@ def _list_ways(of: Material, groups: Collection[str]) -> Iterator[Behind]:
 
 def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:
     """Return how high a document's letterhead and title stand, points."""
-    subject = of.writer.say(statements.name_subject_of(of.job))
-    number = of.job.keys.certificate.number
-    return columns.estimate_head_height(of.letterhead, of.title, subject, number, head)
+    it = of.document
+    return columns.estimate_head_height(it.letterhead, it.title, it.subtitle, it.number, head)
 
 
 def _lay_out_one(each: Evaluated, writer: Writer) -> Section:

@@ -69,11 +69,10 @@ class OverviewCellContext:
 
 @dataclass(frozen=True, slots=True)
 class OverviewGroupContext:
-    """Rows that share their first cell, and facts by which a reader chooses and orders them."""
+    """Rows that share their first cell."""
 
     head: OverviewCellContext
     rows: tuple[tuple[OverviewCellContext, ...], ...]
-    facts: tuple[tuple[str, str], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

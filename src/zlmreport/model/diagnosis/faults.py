@@ -24,6 +24,7 @@ from zlmreport.measurement.arrays import (
     estimate_robust_deviation,
 )
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.other_unit import CORRECT_RUN, IN_ANOTHER_UNIT, find_run_in_another_unit
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, select_of_the_job, select_readings
@@ -39,8 +40,6 @@ _STRONG, _FARTHER = 20.0, 6.0
 #: Share of the squares within the repeats that a slip must take away.
 _MOST_OF_IT = 0.5
 _FEWEST_RUNS = 3
-#: Times by which a run in another unit is larger or smaller than the others.
-_ANOTHER_UNIT = 100.0
 #: m or rad: a whole test that deviates no more is likelier to be one in another unit.
 _TINY = 1e-7
 #: m or rad: repeats scatter by more on every machine whose deviations are not small as well, and by less.
@@ -145,7 +144,7 @@ def find_recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFau
         *_find_stuck_readings(design, deviation),
         *_find_faults_of_the_clock(design),
         *_find_faults_of_sensors(design),
-        *find_faults_of_units(design, deviation),
+        *_find_faults_of_units(design, deviation),
     )
 
 
@@ -456,19 +455,12 @@ def _find_faults_of_sensors(design: Design) -> Iterator[DataFault]:
             yield DataFault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
 
 
-def find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+def _find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield a run of another size than all others, or a test that is hardly any deviation at all."""
-    sizes = {
-        run: float(np.median(np.abs(deviation[design.cycle == run])))
-        for run in np.unique(design.cycle).tolist()
-    }
-    for run, size in sizes.items() if len(sizes) >= _FEWEST_RUNS else ():
-        others = sorted(each for other, each in sizes.items() if other != run)
-        low, high = others[0], others[-1]
-        if high < _ANOTHER_UNIT * low and (size > _ANOTHER_UNIT * high or size * _ANOTHER_UNIT < low):
-            statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
-            yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
-            return  # how far the whole scatters is that run's doing
+    run = find_run_in_another_unit(design.cycle, deviation)
+    if run is not None:
+        yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, IN_ANOTHER_UNIT.given(run=run), CORRECT_RUN)
+        return  # how far the whole scatters is that run's doing
     # A single reading at another target is no scatter.
     floor = estimate_robust_deviation(find_repeats(design, deviation).centred)
     largest = float(np.abs(deviation).max())
@@ -531,22 +523,17 @@ _WILD_TEST = Words("the readings scatter by {size}, which no machine does, as if
 _STATE_UNITS = Words("state source.units")
 _LAGS_BEHIND = Words("{column} looks as if its sensor lagged about {minutes} min behind")
 _OTHER_SENSOR = Words("repeat with a sensor in better contact, or wait until temperatures stand")
-_CORRECT_RUN = Words("correct the run in the file, or leave it out")
 _OF_RUNS = {
     FaultKind.SWAPPED_DIRECTION: (
         Words("run {run} looks as if its directions were swapped"),
-        _CORRECT_RUN,
+        CORRECT_RUN,
     ),
     FaultKind.WRONG_SIGN: (
         Words("run {run} looks as if its sign were turned"),
-        _CORRECT_RUN,
+        CORRECT_RUN,
     ),
     FaultKind.SHIFTED_RUN: (
         Words("run {run} looks as if every reading stood at the target beside its own"),
-        _CORRECT_RUN,
-    ),
-    FaultKind.WRONG_UNIT: (
-        Words("run {run} looks as if it were in another unit than the others"),
-        _CORRECT_RUN,
+        CORRECT_RUN,
     ),
 }

@@ -265,7 +265,9 @@ def _collect_intervals(fitted: Fit) -> list[dict[str, Any]]:
             "unit": (unit := find_unit_on(fitted.design, each.parameter.dimension)).ascii,
             "low": each.low * unit.per_si if isfinite(each.low) else None,
             "high": each.high * unit.per_si if isfinite(each.high) else None,
-            "open": [side for side in ("low", "high") if getattr(each, f"{side}_is_open")],
+            "open": [
+                side for side, is_open in (("low", each.low_is_open), ("high", each.high_is_open)) if is_open
+            ],
         }
         for each in find_intervals(fitted)
     ]
