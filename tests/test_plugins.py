@@ -139,6 +139,7 @@ def test_title_must_be_words_in_all_languages() -> None:
         ({"designation": None}, "designation: str, not None"),
         ({"notes": "take care"}, "notes: tuple[Words, ...], not str"),
         ({"notes": ("take care",)}, "notes[0]: Words, not str"),
+        ({"notes": (Words("k is {k}"),)}, "notes[0]: no value for {k}"),
         (
             {"position_index": 1, "notes": None},
             "position_index: str, not int; notes: tuple[Words, ...], not None",
@@ -156,6 +157,7 @@ def test_members_must_be_of_the_types_that_their_interface_declares(
     ("changes", "lacking"),
     [
         ({"name": "spread"}, "name: Words, not str"),
+        ({"name": Words("spread {k}")}, "name: no value for {k}"),
         ({"group": "random"}, "group: QuantityGroup, not str"),
         ({"meaning": Words(None)}, "meaning.en: str, not None"),  # type: ignore[arg-type]
     ],

@@ -137,10 +137,20 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
     if not known:
         return "there is none to choose from"
     listed = ", ".join(sorted(known))
+    nearest = find_nearest(name, known)
+    return f"did you mean {nearest!r}? (known: {listed})" if nearest else f"known: {listed}"
+
+
+def find_nearest(name: str, known: Iterable[str]) -> str | None:
+    """Return the known name that is most like one that is not; None where none is like it.
+
+    >>> find_nearest("amplitud", ["P", "amplitude"]), find_nearest("oil", ["P", "amplitude"])
+    ('amplitude', None)
+    """
     by_letters = {each.casefold(): each for each in known}
     editions = sorted(each for each in by_letters if each.startswith(f"{name.casefold()}:"))
     nearest = editions[-1:] or difflib.get_close_matches(name.casefold(), by_letters, n=1)
-    return f"did you mean {by_letters[nearest[0]]!r}? (known: {listed})" if nearest else f"known: {listed}"
+    return by_letters[nearest[0]] if nearest else None
 
 
 #: The list of known names at the end of a message (`did_you_mean`).

@@ -298,6 +298,20 @@ class Appended(Closable):
             os.fsync(self._handle)
 
 
+def is_locked(path: Path) -> bool:
+    """Return whether another writes a file that is added to."""
+    try:
+        import fcntl  # noqa: PLC0415 - not on every system
+
+        with path.open("rb") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except (ImportError, OSError):
+        return False
+    return False
+
+
 class JournalFile(Appended):
     """The file of a journal: one writer has it, and what goes wrong is said to who can mend it.
 

@@ -21,6 +21,7 @@ from live.capture.virtual import InStep
 from processes import PATIENCE, ZLMREPORT, group
 from replacing import replaced
 from zlmreport.cli import main
+from zlmreport.live.capture.journal import Journal
 from zlmreport.plugin.instrument import JournalHistory, ReadingRecorded, read_journal
 
 PLUGIN = Path(__file__).with_name("scripted.py")
@@ -176,6 +177,26 @@ def test_the_capture_goes_on_after_the_datum_was_checked(bench: Bench) -> None:
         "datum    holds: +0.00 µm against visit 2",
         "3/4      run 1 ↓    20.000 mm      +3.00 µm  range 0.00 µm",
     ]
+
+
+def test_beside_a_capture_that_is_at_work_none_is_said_to_be_there_to_resume(bench: Bench) -> None:
+    bench.job("0 20")
+    bench.run("capture", "job.yaml")
+    before = bench.journal.read_bytes()
+    with Journal.resume(bench.journal):
+        for arguments in ((), ("--resume",), ("--end",), ("--resume", "--retake", "1")):
+            done = bench.run("capture", "job.yaml", *arguments)
+            assert (done.code, done.messages) == (
+                3,
+                "x.journal: is being written by another capture; end that first, or name another journal\n",
+            )
+        checked = bench.run("check", "job.yaml").output
+        assert checked.endswith("  a capture is at work on it: 2 of 4 visits\n")
+        made = bench.run("job.yaml")
+        assert made.code == 3
+        assert "not finished: 2 of 4 visits, and it is at work; wait for its end (" in made.messages
+    assert bench.journal.read_bytes() == before
+    assert bench.run("check", "job.yaml").output.endswith("next: zlmreport capture job.yaml --resume\n")
 
 
 def test_ctrl_c_leaves_a_journal_and_says_how_to_go_on(bench: Bench) -> None:

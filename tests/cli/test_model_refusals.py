@@ -56,6 +56,28 @@ def test_an_unknown_effect_is_answered_with_the_nearest(shop: Shop) -> None:
     assert "did you mean 'screw-pitch'?" in refused(shop, "add", "job.yaml", "screwpitch")
 
 
+@pytest.mark.parametrize(
+    ("formula", "said"),
+    [
+        ("amplitud*sin(2*pi*P/L)", "amplitud is read as a logged column: did you mean amplitude?"),
+        ("amplitude*sin(2*pi*P/L) + amplitud", "read as a logged column: did you mean amplitude?"),
+        ("amplitude*sin(2*pi*p/L)", "p is read as a logged column: did you mean P?"),
+        ("amplitude*sin(2*pi*P/Length)", "L does not stand in it; Length is read as a logged column"),
+        ("amplitude*sin(2*pi*P/L)*rate(axis_temprature)", "did you mean axis_temperature?"),
+        ("amplitude*sin(2*pi*P/L)*axis_temprature", "the readings; did you mean axis_temperature?"),
+        ("amplitude*sin(2*pi*P/L)*amplitud", "was logged beside the readings; did you mean amplitude?"),
+        ("amplitude*sin(2*pi*P/L)*oil", "no column oil was logged beside the readings"),
+    ],
+)
+def test_a_misspelled_name_of_a_formula_is_answered_with_the_nearest(
+    shop: Shop, formula: str, said: str
+) -> None:
+    parameters = "{amplitude: {unit: um, range: [-9, 9]}, L: {unit: mm, range: [20, 80]}}"
+    own = f'    - {{name: my-wave, formula: "{formula}", parameters: {parameters}}}\n'
+    change(shop, (LAST, own))
+    assert refused(shop, "fit", "job.yaml").endswith(said)
+
+
 def test_an_effect_of_a_number_that_nothing_counts_is_told(shop: Shop) -> None:
     assert "no plugin provides effect 'scale-joint-9" in refused(
         shop, "add", "job.yaml", f"scale-joint-{'9' * 5000}"

@@ -347,6 +347,16 @@ SINS = [
         "names no value",
     ),
     (
+        figures_are_worded,
+        {"figures": with_figure(lambda figure: replace(figure, alternative=Words("From {low} to {high}")))},
+        "alternative has places without a value; say Words(…).given(low=…, high=…)",
+    ),
+    (
+        marks_stand_at_targets,
+        {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], x=panel.curves[0].x / 1e3),))},
+        "; that is SI: a graph has its own unit, mm (from_si)",
+    ),
+    (
         marks_stand_at_targets,
         {"figures": with_panel(curves=lambda panel: (replace(panel.curves[0], x=panel.curves[0].x + 1),))},
         "curve x̄i↑ stands at positions that are no targets",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import contextlib
+import gzip
 import sys
 import zlib
+from base64 import encodebytes
 from collections.abc import Callable
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile
 
 import pytest
 from fontTools.ttLib import TTFont
@@ -108,6 +111,35 @@ def test_a_truncated_file_never_holds(issued: bytes, verified: Verify, share: fl
 @pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04", b"\x89PNG\r\n\x1a\n"])
 def test_what_is_no_pdf_is_refused(verified: Verify, content: bytes) -> None:
     assert "is no PDF" in refusal(verified, content)
+
+
+def _zipped(pdf: bytes) -> bytes:
+    packed = BytesIO()
+    with ZipFile(packed, "w") as archive:
+        archive.writestr("certificate.pdf", pdf)
+    return packed.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("sent", "said"),
+    [
+        (_zipped, "is no PDF, but a ZIP archive: take the certificate out of it, and verify that"),
+        (gzip.compress, "is no PDF, but a file packed by gzip: unpack it, and verify that"),
+        (encodebytes, "is no PDF, but a mail or a part of one: save the attachment in it"),
+        (lambda pdf: b"From: a@b.example\n\n" + encodebytes(pdf), "is no PDF, but a mail or a part of one"),
+        (lambda _: b"\x78\x9f\x3e\x22" + bytes(40), "is no PDF, but the winmail.dat of a mail: ask for"),
+        (lambda _: b"<!DOCTYPE html><p>502 Bad Gateway", "is no PDF, but a page in HTML: get the PDF itself"),
+        (lambda pdf: b"\n" * 7 + pdf, "7 bytes stand before the PDF, such as the head of a mail; save the"),
+        (lambda pdf: pdf.replace(b"\n", b"\r\n"), "it was sent as text, with other ends of lines; get it"),
+        (lambda pdf: bytes(each & 127 for each in pdf), "keeps seven bits of each byte; get it again, as a"),
+        (lambda pdf: pdf[: len(pdf) // 2], "its end is missing; get it again"),
+    ],
+    ids=["zip", "gzip", "base64", "mail", "winmail", "page", "head", "text", "seven bits", "half"],
+)
+def test_what_a_mail_or_a_transfer_made_of_a_certificate_is_told(
+    sent: Callable[[bytes], bytes], said: str, issued: bytes, verified: Verify
+) -> None:
+    assert said in refusal(verified, sent(issued))
 
 
 @pytest.mark.parametrize("content", [b"%PDF-1.7\n", b"%PDF-1.7\n1 0 obj\n<<", b"%PDF-1.7\n" + b"[" * 100_000])

@@ -123,22 +123,24 @@ def test_metadata_that_say_something_else_do_not_hold(
     assert differing == ["metadata (XMP)"]
 
 
-def test_a_file_arranged_for_fast_web_view_is_not_decided_and_says_what_to_do(
-    issued: bytes, verified: Verify
+@pytest.mark.parametrize("way", ["linearize", "qdf"])
+def test_a_file_arranged_for_fast_web_view_or_for_people_is_not_decided_and_says_what_to_do(
+    way: str, issued: bytes, verified: Verify
 ) -> None:
-    found = verified(saved_by_pikepdf(issued, linearize=True))
+    found = verified(saved_by_pikepdf(issued, **{way: True}))
     assert found.outcome is VerificationOutcome.UNDECIDED
     (open_,) = (each for each in found.document if each.verdict is VerificationVerdict.OPEN)
     assert "qpdf FILE NEW" in str(open_.detail)
 
 
-def test_what_is_forged_in_a_file_arranged_for_fast_web_view_does_not_hold(
-    issued: bytes, verified: Verify
+@pytest.mark.parametrize("way", ["linearize", "qdf"])
+def test_what_is_forged_in_a_file_arranged_for_fast_web_view_or_for_people_does_not_hold(
+    way: str, issued: bytes, verified: Verify
 ) -> None:
     def change(opened: Pdf) -> None:
         draw(opened, page_of(opened), b"0 0 m 100 100 l S")
 
-    found = verified(saved_by_pikepdf(issued, change, linearize=True))
+    found = verified(saved_by_pikepdf(issued, change, **{way: True}))
     assert found.outcome is VerificationOutcome.DOES_NOT_HOLD
 
 

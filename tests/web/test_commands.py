@@ -102,7 +102,7 @@ def test_a_table_is_written_and_a_second_test_held_against_it(
     shutil.copy(without_table, without_table.with_name("after.yaml"))
     assert browser.get("/api/job").json()["offered"]["jobs"] == ["after.yaml"]
     found = made(browser, "confirmation", controller="csv", after="after.yaml")
-    assert found["values"]["verdict"] == "other"  # the same readings: no table acts in them
+    assert found["values"]["acts"] == "not-in-effect"  # the same readings: no table acts in them
 
 
 def test_a_mistake_is_told_as_a_terminal_has_it_with_a_line_or_without() -> None:

@@ -269,10 +269,10 @@ def _say_unfinished(history: JournalHistory | None) -> str:
     if history is None:
         return f"holds nothing yet; '{_COMMAND}' begins the capture"
     progress = history.progress
-    return (
-        f"the capture is not finished: {progress.taken} of {counted(len(progress.visits), 'visit')}; "
-        f"'{_COMMAND} --resume' goes on, '{_COMMAND} --end' closes it without the rest"
-    )
+    far = f"the capture is not finished: {progress.taken} of {counted(len(progress.visits), 'visit')}"
+    if history.is_being_written:
+        return f"{far}, and it is at work; wait for its end"
+    return f"{far}; '{_COMMAND} --resume' goes on, '{_COMMAND} --end' closes it without the rest"
 
 
 def _demand_axis(header: JournalHeader, axis: Axis, place: Place) -> None:

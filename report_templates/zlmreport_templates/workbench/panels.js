@@ -11,7 +11,10 @@ const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
 // Units as programs read them, where documents print a sign.
 const PRINTED = { um: "µm", arcsec: "″" };
 const LIKELY = 0.5;
-const CONFIRMED = { held: "held", "wrong-sign": "wrongSign", half: "half", shifted: "shifted", other: "otherTable" };
+const CONFIRMED = {
+  held: "held", "wrong-sign": "wrongSign", half: "half", double: "double", "not-in-effect": "notInEffect", shifted: "shifted",
+  "play-turned": "playTurned", "play-twice": "playTwice", "play-left": "playLeft", other: "otherTable",
+};
 const DOUBTS = new Set(["doubtful", "implausible"]);
 
 /** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
@@ -353,7 +356,7 @@ export function compensation(texts, job, made, wanted, number, actions) {
     offered.jobs.length > 0 && second,
     ...progress(texts, confirmation, number, texts.holding),
     confirmation?.values?.verdict && h("p", { class: `verdict ${confirmation.values.verdict === "held" ? "adequate" : "unexplained"}` },
-      `${texts[CONFIRMED[confirmation.values.verdict]]} ${said(texts.left, { share: number(Math.round(1000 * confirmation.values.ratio) / 10) })}`),
+      `${texts[CONFIRMED[confirmation.values.acts]]} ${said(texts.left, { share: number(Math.round(1000 * confirmation.values.ratio) / 10) })}`),
   ];
 }
 

@@ -35,6 +35,7 @@ from zlmreport.live.capture.journal import (
     History,
     Journal,
     capture as captured,
+    demand_at_rest,
     demand_nothing_captured,
     read_history,
 )
@@ -176,6 +177,11 @@ def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     yield f"{Colour.BOLD.set(str(path))}  the job is sound; its readings are still to be captured"
     for standard, options in pipeline.choose_standards(job, registry):
         yield from tell_requirements(standard.designation, standard.requirements(test, options), writer)
+    history = _read_history(job)
+    if history is not None and history.is_being_written:
+        visits = count_in_words(len(history.progress.visits), "visit")
+        yield f"  a capture is at work on it: {history.progress.taken} of {visits}"
+        return
     yield f"  next: zlmreport capture {show_path(path)}{' --resume' if _has_begun(job) else ''}"
 
 
@@ -214,6 +220,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     Raises `AccessError` if the instrument or the journal fails, or there is no operator to see to something;
     with how to go on.
     """
+    demand_at_rest(assignment.options.journal)  # before the instrument, which is in its hands
     if resume:
         _demand_own_journal(job, assignment, words)
         _demand_answer(assignment, words.answer)

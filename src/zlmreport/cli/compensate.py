@@ -198,12 +198,14 @@ def _confirm(options: Namespace, registry: Registry) -> int:
         print_json(
             {
                 "schema": CONFIRMATION_SCHEMA,
-                "verdict": found.verdict.value,
+                "verdict": found.verdict.promised.value,
+                "acts": found.verdict.value,
                 "ratio": found.ratio,
                 "applied": found.applied,
                 "applied_uncertainty": found.expanded_uncertainty if found.is_seen else None,
                 "backlash": found.has_backlash,
                 "shift": before.axis.position_unit.from_si(found.shift),
+                "rest": {"as_made": found.left * factor, "as_it_acts": found.rest * factor},
                 "unit": unit.ascii,
                 "before": made.forecast.before.in_unit(factor),
                 "forecast": {name: each.in_unit(factor) for name, each in expected.items()},

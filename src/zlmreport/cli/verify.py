@@ -288,6 +288,8 @@ def _write_value(value: object, digits: int) -> str:
         return "nothing"
     if is_number(value):
         return f"{value:.{digits}g}"
+    if isinstance(value, bool):
+        return str(value).lower()
     text = str(value)
     return f"'{text}'" if len(text) <= _LONGEST_TEXT else f"'{text[: _LONGEST_TEXT - 1]}…'"
 

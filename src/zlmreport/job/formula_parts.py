@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, TypeGuard
 
 import numpy as np
 
+from zlmreport.errors import find_nearest
 from zlmreport.job import formula as parsing
 from zlmreport.job.formula import (
     NUMBER,
@@ -36,6 +37,7 @@ from zlmreport.job.formula import (
 from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter, Possible
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.measurement.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE
 
 #: The names of the readings: target position, direction, time, run, feed.
@@ -344,7 +346,27 @@ def refuse_unsound(keys: FormulaKeys) -> None:
         else:
             return
     assert failed is not None  # noqa: S101  # one kind at least was tried
-    raise failed
+    raise FormulaError(f"{failed}{_say_nearest(keys)}", *failed.key) from failed
+
+
+def find_nearest_known(name: str, keys: FormulaKeys, logged: Iterable[str] = ()) -> str | None:
+    """Return what a name of a formula may have been meant for: a parameter, a variable, a logged column."""
+    return find_nearest(name, (*logged, *CONDITIONS, *DERIVED, *VARIABLES, *keys.parameters))
+
+
+def _say_nearest(keys: FormulaKeys) -> str:
+    """Return the end of a message on a formula with a name that is none of its own; mostly empty."""
+    try:
+        names = find_names_in(name_rates(parse_formula(keys.formula)))
+    except FormulaError:
+        return ""
+    known = {*keys.parameters, *VARIABLES, *DERIVED, *CONDITIONS}
+    known |= {each for key in keys.keys for chosen in key.choices.values() for each in chosen}
+    for name in (find_column_of(each) or each for each in names):
+        if name not in known:
+            nearest = find_nearest_known(name, keys)
+            return f"; {name} is read as a logged column" + (f": did you mean {nearest}?" if nearest else "")
+    return ""
 
 
 def find_kinds_of(keys: FormulaKeys) -> list[AxisKind]:

@@ -8,6 +8,7 @@ is what a run reads. English needs none.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
@@ -20,6 +21,8 @@ from zlmreport.language.formatting import DecimalSign, write_general_number
 
 #: The place of a phrase whose value chooses between singular and plural.
 _COUNTED = "number"
+#: A place of a phrase; after a low line it is an index of a symbol.
+_PLACE = re.compile(r"(?<!_)\{([A-Za-z]\w*)\}")
 _CATALOGUES = Path(__file__).parent / "translations"
 
 
@@ -85,6 +88,16 @@ class Words:
     def given(self, **values: str | float | Said) -> Words:
         """Return the phrase with values for its marked places."""
         return replace(self, values={**self.values, **values})
+
+    def list_unfilled(self) -> tuple[str, ...]:
+        """Return the names of its places, where it was given no values at all: they are printed so.
+
+        A place that lacks a value beside others that have one is a `KeyError` when the phrase is written.
+
+        >>> Words("from {low} to x̄_{i}").list_unfilled()
+        ('low',)
+        """
+        return () if self.values else tuple(dict.fromkeys(_PLACE.findall(self.en)))
 
     def in_language(self, language: Language) -> str:
         """Return the phrase in one language, its places filled."""

@@ -1,4 +1,4 @@
-"""Numbers by which instruments write that they have no reading: 9999.999, -9999, 1E+30, 32767."""
+"""Numbers by which instruments write that they have no reading: 9999.999, -999.25, 1E+30, 32767."""
 
 from __future__ import annotations
 
@@ -12,7 +12,9 @@ from zlmreport.measurement.text_file import parse_number
 _NINES = re.compile(r"[+-]?9{4,}(?:[.,]9*0*)?|[+-]?9{1,3}[.,](?:9+)0*|-999(?:[.,]0*)?")
 _FEWEST_NINES = 4
 #: What counters of 16 and 32 bits show that have run over.
-_COUNTERS = frozenset({32767.0, -32768.0, 65535.0, 2147483647.0, -2147483648.0, 4294967295.0})
+_COUNTERS = frozenset({32767.0, -32767.0, -32768.0, 65535.0, 2147483647.0, -2147483648.0, 4294967295.0})
+#: What the logs of bore holes, and loggers after them, have for nothing.
+_OF_LOGS = frozenset({-999.25, -9999.25})
 #: No quantity of a measurement is so large in any unit.
 _HUGE = 1e12
 #: How many times as large as any other number of its column such a number is.
@@ -49,5 +51,6 @@ def _is_suspect(cell: str, number: float) -> bool:
     return (
         (is_nines and (cell.count("9") >= _FEWEST_NINES or number <= -999.0))
         or number in _COUNTERS
+        or number in _OF_LOGS
         or abs(number) >= _HUGE
     )

@@ -113,6 +113,8 @@ def expect_identifier(identifier: object, owner: str) -> None:
 def expect_words(words: object, owner: str) -> None:
     """Expect a phrase that says something in every language, with all its places filled."""
     expect(isinstance(words, Words), f"{owner} must be Words(…), not {words!r}")
+    unfilled = ", ".join(f"{name}=…" for name in words.list_unfilled())  # type: ignore[attr-defined]  # said above
+    expect(not unfilled, f"{owner} has places without a value; say Words(…).given({unfilled})")
     for language in Language:
         try:
             text = words.in_language(language)  # type: ignore[attr-defined]  # said above

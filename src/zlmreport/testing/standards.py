@@ -196,7 +196,8 @@ def marks_stand_at_targets(standard: Standard, options: Options, *_more: Any) ->
             for mark in _list_marks(panel):
                 expect(
                     mark.x.ndim == 1 and _is_all_among(mark.x, targets),
-                    f"{where}: {_name(mark)} stands at positions that are no targets: {mark.x}",
+                    f"{where}: {_name(mark)} stands at positions that are no targets: {mark.x}"
+                    f"{_say_if_si(mark.x, np.concatenate(lines), figure.x_unit)}",
                 )
             for arrow in panel.arrows:
                 expect(
@@ -279,7 +280,8 @@ def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options
                     expect(
                         abs((bracket.high - bracket.low) - abs(value)) <= 2 * _RELATIVE * scale,
                         f"{where}: bracket {write_plain(bracket.notation)} spans "
-                        f"{bracket.high - bracket.low} {unit.symbol}, but the results table has {value}",
+                        f"{bracket.high - bracket.low} {unit.symbol}, but the results table has {value}"
+                        f"{_say_if_si(bracket.high - bracket.low, abs(unit.to_si(value)), unit.symbol)}",
                     )
 
 
@@ -303,6 +305,12 @@ def _name(mark: Curve | Band | PlottedReadings) -> str:
     if isinstance(mark, PlottedReadings):
         return f"the readings {mark.approach.arrow}"
     return f"{type(mark).__name__.lower()} {write_plain(mark.notation)}"
+
+
+def _say_if_si(values: float | FloatArray, of_si: float | FloatArray, unit: str) -> str:
+    """Return the end of a message on values that are right in SI, and stand in a graph of another unit."""
+    is_si = _is_all_among(values, np.atleast_1d(of_si))
+    return f"; that is SI: a graph has its own unit, {unit} (from_si)" if is_si else ""
 
 
 def _is_all_among(values: float | FloatArray, allowed: FloatArray) -> bool:

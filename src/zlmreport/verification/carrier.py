@@ -18,6 +18,7 @@ from typing import Any, TypeVar
 from zlmreport.document.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
 from zlmreport.errors import InputError, Place
 from zlmreport.files import demand
+from zlmreport.verification.transport import find_damage, find_wrapping
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
 LARGEST = 2 * LARGEST_TOTAL
@@ -82,6 +83,8 @@ def read_file(path: Path) -> bytes:
     content = demand(path, LARGEST)
     if len(content) > LARGEST:
         raise InputError.at(place, f"is larger than {LARGEST >> 20} MiB; no certificate is")
+    if wrapping := find_wrapping(content):
+        raise InputError.at(place, f"is no PDF, but {wrapping}")
     if b"%PDF-" not in content[:1024]:
         raise InputError.at(place, "is no PDF; verify takes a certificate, such as CAL-2026-0117.pdf")
     return content
@@ -92,7 +95,7 @@ def open_pdf(content: bytes, place: Place) -> Carrier:
 
     Raises `InputError` if it is damaged or encrypted, or carries more than any certificate.
     """
-    return guard(lambda: _open_carrier(content, place), place)
+    return guard(lambda: _open_carrier(content, place), place, content)
 
 
 def find_results_in(path: Path) -> bytes | None:
@@ -104,15 +107,19 @@ def find_results_in(path: Path) -> bytes | None:
     )
 
 
-def guard(read: Callable[[], Read], place: Place) -> Read:
-    """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line."""
+def guard(read: Callable[[], Read], place: Place, content: bytes = b"") -> Read:
+    """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line.
+
+    `content`: The bytes of the PDF, where it is opened: how they were damaged is said before what a reader
+        stumbled over.
+    """
     with silence_pypdf():
         try:
             return read()
         except InputError:
             raise
         except Exception as error:  # a foreign file may break its reader in any way
-            reason = " ".join(str(error).split())[:200] or type(error).__name__
+            reason = find_damage(content) or " ".join(str(error).split())[:200] or type(error).__name__
             message = f"is damaged, and cannot be read as a certificate: {reason}"
             raise InputError.at(place, message) from error
 

@@ -48,6 +48,12 @@ _SAY_LINEARISED = Words(
     "arranged anew for fast web view (linearized), with two tables of which a viewer may go by either: ask "
     "for the file as it was issued, or save it without that (qpdf FILE NEW), and verify the new one"
 )
+#: A file that was written for people to read has comments between its objects.
+_FOR_PEOPLE = re.compile(_HEADER.pattern + rb"%QDF-1\.0\s")
+_SAY_FOR_PEOPLE = Words(
+    "written anew for people to read (QDF), with comments between its objects: ask for the file as it was "
+    "issued, or save it without that (qpdf FILE NEW), and verify the new one"
+)
 _SUBJECT = "objects of the file"
 _TOO_MANY = "it holds more objects than any certificate"
 _MOST_TOLD = 4
@@ -92,8 +98,9 @@ def check_table(content: bytes, *, is_signed: bool) -> CheckedStatement:
     try:
         scanned = scan(content, is_signed=is_signed)
     except OddError as error:
-        if _LINEARISED.match(content):
-            return CheckedStatement(_SUBJECT, VerificationVerdict.OPEN, _SAY_LINEARISED)
+        for written, said in ((_LINEARISED, _SAY_LINEARISED), (_FOR_PEOPLE, _SAY_FOR_PEOPLE)):
+            if written.match(content):
+                return CheckedStatement(_SUBJECT, VerificationVerdict.OPEN, said)
         return CheckedStatement(_SUBJECT, VerificationVerdict.DIFFERS, str(error))
     lost = [f"nothing leads to object {number}" for number in _find_orphans(scanned)]
     return CheckedStatement.of(_SUBJECT, name_first_of(lost, _MOST_TOLD))

@@ -19,7 +19,12 @@ _CONFIRMED = {
     ConfirmationVerdict.HELD: "held",
     ConfirmationVerdict.WRONG_SIGN: "wrongSign",
     ConfirmationVerdict.HALF: "half",
+    ConfirmationVerdict.DOUBLE: "double",
+    ConfirmationVerdict.NOT_IN_EFFECT: "notInEffect",
     ConfirmationVerdict.SHIFTED: "shifted",
+    ConfirmationVerdict.PLAY_TURNED: "playTurned",
+    ConfirmationVerdict.PLAY_TWICE: "playTwice",
+    ConfirmationVerdict.PLAY_LEFT: "playLeft",
     ConfirmationVerdict.OTHER: "otherTable",
 }
 TEXTS: Mapping[str, Words] = {

@@ -61,10 +61,11 @@ def _folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize(
-    ("part", "verdict"), [(1.0, "held"), (-1.0, "wrong-sign"), (0.5, "half"), (0.0, "other")]
+    ("part", "acts"),
+    [(1.0, "held"), (-1.0, "wrong-sign"), (0.5, "half"), (2.0, "double"), (0.0, "not-in-effect")],
 )
 def test_a_table_that_replaced_another_is_held_against_the_axis_without_any(
-    capsys: Capture, part: float, verdict: str
+    capsys: Capture, part: float, acts: str
 ) -> None:
     old = np.array([[0, 0, 0], [200, 3, -1], [500, 4, 0]], dtype=float)
     rows = "".join(f"{at:g},{up:g},{down:g}\n" for at, up, down in old)
@@ -83,22 +84,24 @@ def test_a_table_that_replaced_another_is_held_against_the_axis_without_any(
 
     measure("after", after, seed=2)
     code, values, _ = confirm(capsys, "linuxcnc")
-    assert (code, values["verdict"]) == (0 if verdict == "held" else 1, verdict)
+    assert (code, values["acts"]) == (0 if acts == "held" else 1, acts)
+    assert values["verdict"] == (acts if acts in {"held", "wrong-sign", "half"} else "other")
     assert values["applied"] == pytest.approx(part, abs=0.1)
 
 
 @pytest.mark.parametrize(
-    ("part", "backlash", "verdict"),
+    ("part", "backlash", "acts"),
     [
         (1.0, 0.0, "held"),
         (1.0, 1.0, "held"),
         (-1.0, 1.0, "wrong-sign"),
         (0.5, 1.0, "half"),
-        (1.0, -1.0, "other"),
+        (1.0, -1.0, "play-turned"),
+        (1.0, 2.0, "play-twice"),
     ],
 )
 def test_a_table_without_directions_is_held_with_the_backlash_parameter_and_without(
-    capsys: Capture, part: float, backlash: float, verdict: str
+    capsys: Capture, part: float, backlash: float, acts: str
 ) -> None:
     measure("before", axis)
     assert main(["compensate", "before.yaml", "--controller", "etalon", "--unconfirmed", "-o", "out"]) == 0
@@ -111,12 +114,56 @@ def test_a_table_without_directions_is_held_with_the_backlash_parameter_and_with
 
     measure("after", after, seed=5)
     code, values, text = confirm(capsys, "etalon")
-    assert (code, values["verdict"]) == (0 if verdict == "held" else 1, verdict)
+    assert (code, values["acts"]) == (0 if acts == "held" else 1, acts)
+    assert ("backlash parameter is to take 4.0" in text or "3.9" in text) is acts.startswith("play")
     assert values["backlash"] is (backlash > 0)
     assert ("the control's backlash parameter takes it" in text) is (backlash > 0)
-    if verdict == "held":
+    if acts == "held":
         low, high = (values["forecast"]["E"][end] for end in ("low", "high"))
         assert low <= values["after"]["E"] <= high
+
+
+def apply(table: FloatArray, shared: float, play: float, shift: float = 0.0) -> Axis:
+    """Return an axis with a table, mm, of which each part acts so often, and so much further on, mm."""
+    nominal, *both = table.T
+    forward, reverse = (1e3 * (each - nominal) for each in both)
+    mean, apart = (forward + reverse) / 2, (forward - reverse) / 2
+
+    def move(at: FloatArray, sign: int) -> FloatArray:
+        taken = np.interp(at - shift, nominal, shared * mean + sign * play * apart)
+        return np.asarray(axis(at, sign) - taken)
+
+    return move
+
+
+@pytest.mark.parametrize("noise", [0.05, 0.3])
+@pytest.mark.parametrize(
+    ("how", "acts", "said"),
+    [
+        ((1, 1), "held", ()),
+        ((-1, -1), "wrong-sign", ("Enter every value with the other sign",)),
+        ((2, 2), "double", ("Leave it in once; where it is, enter half of every value",)),
+        ((0, 0), "not-in-effect", ("In the section of the joint state COMP_FILE", "start LinuxCNC again")),
+        ((1, -1), "play-turned", ("Enter the values of moving forward where those of moving back stand",)),
+        ((1, 2), "play-twice", ("set the control's backlash parameter to 0",)),
+        ((1, 0), "play-left", ("Switch on compensation in both directions",)),
+        ((1, 1, 50), "shifted", ("its rows are 50 mm apart", "instead of 0 mm")),
+        ((1, 1, -100), "shifted", ("its rows are 50 mm apart", "instead of 0 mm")),
+        ((0.75, 0.75), "other", ()),
+    ],
+)
+def test_a_table_that_a_control_applies_in_another_way_is_told_with_what_to_enter(
+    capsys: Capture, how: tuple[float, ...], acts: str, said: tuple[str, ...], noise: float
+) -> None:
+    measure("before", axis, noise=noise)
+    assert main(["compensate", "before.yaml", "--controller", "linuxcnc", "-o", "out"]) == 0
+    measure("after", apply(np.loadtxt("out/before.comp"), *how), noise=noise, seed=7)
+    code, values, text = confirm(capsys, "linuxcnc")
+    assert (code, values["acts"]) == (0 if acts == "held" else 1, acts)
+    assert all(each in text for each in said)
+    assert ("as it was made," in text) is (acts not in {"held", "other"})
+    assert (values["rest"]["as_it_acts"] < values["rest"]["as_made"] / 3) is (acts not in {"held", "other"})
+    assert values["shift"] == pytest.approx(how[2] if len(how) > 2 else 0.0, abs=4 * noise / 0.05**0.5)
 
 
 def test_what_the_backlash_parameter_will_leave_is_told_with_the_table(capsys: Capture) -> None:

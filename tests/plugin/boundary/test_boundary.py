@@ -22,6 +22,7 @@ from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import What
+from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.plugin import Axis, Figure, InputError, Language, MeasurementSet, Place, Words
 from zlmreport.plugin.boundary import PluginError, guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
@@ -115,6 +116,22 @@ SINS: Mapping[str, tuple[Mapping[str, Any], str]] = {
         {"figures": lambda *_: [_figure(alternative=Words("{n} µm", de="{m} µm", values={"n": 1}))]},
         "figures returns words that cannot be said in de, alternative of figure 'means': no value for {m}",
     ),
+    "figure without any value": (
+        {"figures": lambda *_: [_figure(alternative=Words("Means from {low} to {high}"))]},
+        "figures returns words with empty places, alternative of figure 'means': no value for {low}, {high}",
+    ),
+    "figure with a unit of a results file": (
+        {"figures": lambda *_: [_figure(y_unit="um")]},
+        "figures returns 'um' as y_unit of figure 'means'; what is printed is expected, 'µm'",
+    ),
+    "panel with a unit of a results file": (
+        {"figures": lambda *_: [_figure(panels=(Panel(y_title=Words("Slope"), y_unit="urad"),))]},
+        "figures returns 'urad' as y_unit of a panel of figure 'means'; what is printed is expected, 'µrad'",
+    ),
+    "figure with a unit as an object": (
+        {"figures": lambda *_: [_figure(x_unit=MILLIMETRE)]},
+        "figures returns an object of type Unit as x_unit of figure 'means'; what is printed is expected",
+    ),
     "curve": (
         {"figures": lambda *_: [_figure(panels=(Panel(curves=(_curve(np.zeros(2)),)),))]},
         "figures gives y of curve 'x' of figure 'means' of the shape (2,); (3,) is expected",
@@ -124,7 +141,7 @@ SINS: Mapping[str, tuple[Mapping[str, Any], str]] = {
         "figures gives high of Bracket 'A' of figure 'means' that is NaN; a number is expected",
     ),
     "finding without a value": (
-        {"requirements": lambda *_: [Finding(Words("{n} runs"), Words("{n} runs").given(m=1), met=True)]},
+        {"requirements": lambda *_: [Finding(Words("Five runs"), Words("{n} runs").given(m=1), met=True)]},
         "requirements returns words that cannot be said in en, what was found: no value for {n}",
     ),
 }

@@ -110,7 +110,11 @@ def test_what_stands_for_a_missing_reading_is_no_target_direction_or_run(
 
 
 @pytest.mark.parametrize(
-    "lost", ["9999.999", "-9999", "99999", "-999.0", "1e30", "9.91E+37", "32767", "−9999.99"]
+    "lost",
+    [
+        *("9999.999", "-9999", "99999", "-999.0", "1e30", "9.91E+37", "32767", "−9999.99"),
+        *("-999.25", "-999.2500", "-9999.25", "−999.25", "-32767"),
+    ],
 )
 def test_a_number_that_stands_for_no_reading_is_none(lost: str, file: File) -> None:
     table = f"target,direction,run,deviation\n0,+,1,11.5\n10,+,1,{lost}\n20,+,1,-12\n"
@@ -121,7 +125,9 @@ def test_a_number_that_stands_for_no_reading_is_none(lost: str, file: File) -> N
     assert np.isnan(file.read(table, missing=[lost]).deviation).tolist() == [False, True, False]
 
 
-@pytest.mark.parametrize("values", ["9999,8888,7777", "99.9,12,11", "999.9,450,410", "9.999,-3.4,1", "0,0,0"])
+@pytest.mark.parametrize(
+    "values", ["9999,8888,7777", "99.9,12,11", "-999.25,-400,1", "999.9,450,410", "9.999,-3.4,1", "0,0,0"]
+)
 def test_nines_that_a_quantity_has_are_readings(values: str, file: File) -> None:
     at = dict(zip((0, 1000, 2000), values.split(","), strict=True))
     table = "\n".join(f"{target},+,1,{value}" for target, value in at.items())

@@ -331,6 +331,38 @@ def _two_blocks() -> Untidy:
     )
 
 
+def _a_table_of_each_pass() -> Untidy:
+    """One table of each run and direction, below each other; runs stand above them in words."""
+    blocks, parts = [], []
+    for run in range(2):
+        for name, sign, grid in (("vorwärts", "+", UP), ("rückwärts", "-", DOWN)):
+            first = len(blocks) + 2
+            parts.append({"lines": [first, first + len(TARGETS)], "direction": sign})
+            values = zip(TARGETS, grid[run], strict=True)
+            rows_ = [f"{target};{value}" for target, value in list(values)[:: 1 if sign == "+" else -1]]
+            blocks += [f"Lauf {run + 1} {name}", "Soll;Abweichung (um)", *rows_, ""]
+    return Untidy(
+        "durchgänge.csv",
+        text(*blocks),
+        {
+            "columns": {"target": "Soll", "deviation": "Abweichung"},
+            "parts": parts,
+            "runs": "counted",
+        },
+    )
+
+
+def _a_table_of_each_pass_without_a_word() -> Untidy:
+    """The same without a word of run and direction: targets rise and fall in turn."""
+    blocks, parts = [], []
+    for run in range(2):
+        for sense, grid in ((1, UP), (-1, DOWN)):
+            parts.append({"lines": [len(blocks) + 1, len(blocks) + 1 + len(TARGETS)]})
+            values = list(zip(TARGETS, grid[run], strict=True))[::sense]
+            blocks += ["target,deviation", *(f"{target},{value}" for target, value in values), ""]
+    return Untidy("passes.csv", text(*blocks), {"direction": "by-order", "parts": parts, "runs": "counted"})
+
+
 def _sheets_of_directions() -> Untidy:
     """A workbook with a sheet of each direction."""
 
@@ -822,6 +854,8 @@ FILES: tuple[Callable[[], Untidy], ...] = (
     _rotary,
     _positions_with_blanks,
     _two_blocks,
+    _a_table_of_each_pass,
+    _a_table_of_each_pass_without_a_word,
     _sheets_of_directions,
     _nominal_minus_actual,
     _without_names,

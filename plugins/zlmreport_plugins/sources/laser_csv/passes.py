@@ -150,13 +150,31 @@ def draft_of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iter
     tells_direction = "direction" in best.meanings or any(map(run_and_direction, alone.columns))
     if {each.approach for each in tables} == {*Approach} and not tells_direction:
         parts = [{**each.part, "direction": each.approach.sign} for each in tables if each.approach]
-        yield _join_parts(alone, parts, questions.DIRECTION_ASKED, questions.ORDER_ASKED, without="direction")
-    elif len(sheets) < 2 and _are_runs_of_one(tables, alone) and "header" not in alone.keys:
-        draft = _join_parts(alone, [each.part for each in tables], questions.RUNS_ASKED)
-        if draft.find_column("run") is None:
-            draft.keys["runs"] = "counted"
-        draft.asks.append(questions.PARTS_ASKED.format(count=len(tables)))
+        draft = _join_parts(
+            alone, parts, questions.DIRECTION_ASKED, questions.ORDER_ASKED, without="direction"
+        )
+        if len(parts) > len(Approach) and _are_runs_of_one(tables, alone):
+            _ask_for_runs(draft)
         yield draft
+    elif len(sheets) < 2 and _are_runs_of_one(tables, alone) and "header" not in alone.keys:
+        draft = _join_parts(alone, [each.part for each in tables])
+        if questions.DIRECTION_ASKED in draft.asks and len({_goes_up(each.targets) for each in tables}) > 1:
+            draft.keys["direction"] = "by-order"
+            draft.asks[draft.asks.index(questions.DIRECTION_ASKED)] = questions.ORDER_ASKED
+        _ask_for_runs(draft)
+        yield draft
+
+
+def _goes_up(targets: Sequence[float]) -> bool:
+    return targets[0] < targets[-1]
+
+
+def _ask_for_runs(draft: Draft) -> None:
+    """Count the runs of tables below each other, if no column does, and ask whether they are of one test."""
+    if draft.find_column("run") is None:
+        draft.keys["runs"] = "counted"
+    draft.asks = [each for each in draft.asks if each != questions.RUNS_ASKED]
+    draft.asks.append(questions.PARTS_ASKED.format(count=len(draft.keys["parts"])))
 
 
 def _are_laid_out_alike(one: FoundTable, other: FoundTable) -> bool:
@@ -170,7 +188,7 @@ def _find_line(table: FoundTable) -> int:
 
 def _are_runs_of_one(tables: Sequence[_Part], alone: Draft) -> bool:
     """Return whether tables have the same targets, or a column numbers their runs."""
-    return len({each.targets for each in tables}) == 1 or alone.find_column("run") is not None
+    return len({frozenset(each.targets) for each in tables}) == 1 or alone.find_column("run") is not None
 
 
 def _join_parts(alone: Draft, parts: list[dict[str, Any]], *answered: str, without: str = "") -> Draft:
@@ -189,7 +207,7 @@ class _Part:
 
     part: dict[str, Any]  #: The keys of its place.
     approach: Approach | None  #: The direction that its sheet or a line above it names.
-    targets: frozenset[float] = frozenset()  #: Its targets, as the file has them.
+    targets: tuple[float, ...] = ()  #: Of its rows, as the file has them.
     axis: str = ""  #: The letter of the axis that its sheet or a line above it names.
 
 
@@ -215,7 +233,7 @@ def _list_stacked(table: FoundTable) -> Iterator[_Part]:
     while targets:
         above = " ".join(line for number_, line in numbered.items() if before - 3 < number_ < header.line)
         last = max(targets)
-        of_part = frozenset(targets.values())
+        of_part = tuple(targets.values())
         yield _Part({"lines": [header.line, last]}, _find_direction_in(above), of_part, find_axis_in(above))
         starts = [index for index, row in enumerate(below) if row.cells == table.header.cells]
         if not starts:

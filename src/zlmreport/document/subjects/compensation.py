@@ -83,7 +83,22 @@ CONFIRMED = {
     ConfirmationVerdict.HELD: Words("The second test holds the forecast."),
     ConfirmationVerdict.WRONG_SIGN: Words("The table acts with the wrong sign: turn it."),
     ConfirmationVerdict.HALF: Words("Half of the table acts; look for a factor of two."),
+    ConfirmationVerdict.DOUBLE: Words(
+        "The table acts twice: is it loaded a second time, or does the control count in half the unit?"
+    ),
+    ConfirmationVerdict.NOT_IN_EFFECT: Words(
+        "The table does not act: is it loaded, switched on, and the axis referenced since?"
+    ),
     ConfirmationVerdict.SHIFTED: Words("The table acts at other positions; look at its start."),
+    ConfirmationVerdict.PLAY_TURNED: Words(
+        "What parts the directions is added where it is to be taken away: the table's directions are "
+        "exchanged, or the control's backlash parameter has the wrong sign."
+    ),
+    ConfirmationVerdict.PLAY_TWICE: Words(
+        "The play is taken away twice: a backlash parameter of the control takes it, too, or is twice as "
+        "large."
+    ),
+    ConfirmationVerdict.PLAY_LEFT: Words("The table acts in both directions alike: the play is left."),
     ConfirmationVerdict.OTHER: Words(
         "The second test does not show this table as it was made; is it active, and is it this one?"
     ),
@@ -94,7 +109,32 @@ _NOT_SEEN = Words("What part of the table acts does not show: it takes no more a
 _BY_BACKLASH = Words(
     "The lost motion that the table leaves is gone: the control's backlash parameter takes it."
 )
-_SHIFTED = Words("It is shifted by {length}.")
+_SHIFTED = Words(
+    "It is shifted by {length} (its rows are {step} apart): let it begin at {start} instead of {first}."
+)
+#: What to enter in the control, where the verdict alone does not say it.
+_ENTER = {
+    ConfirmationVerdict.WRONG_SIGN: Words("Enter every value with the other sign, or take the table out."),
+    ConfirmationVerdict.HALF: Words("Where no unit is wrong, enter twice every value."),
+    ConfirmationVerdict.DOUBLE: Words("Leave it in once; where it is, enter half of every value."),
+    ConfirmationVerdict.PLAY_TWICE: Words(
+        "The table has both directions: set the control's backlash parameter to 0."
+    ),
+    ConfirmationVerdict.PLAY_TURNED: Words(
+        "Enter the values of moving forward where those of moving back stand, and these where those stand."
+    ),
+    ConfirmationVerdict.PLAY_LEFT: Words(
+        "Switch on compensation in both directions; a control that has none takes the play by its backlash "
+        "parameter: {play} (forward − reverse)."
+    ),
+}
+_ENTER_PLAY = Words(
+    "The table has one column: the control's backlash parameter is to take {play} (forward − reverse)."
+)
+_FITS = Words(
+    "So read, the table leaves {rest} of what went between the tests; as it was made, {left} (root mean "
+    "squares)."
+)
 _WITHIN, _BELOW, _ABOVE = Words("within"), Words("below"), Words("above")
 _SYMBOL, _PARAMETER = Words("Symbol"), Words("Parameter")
 _BEFORE, _SECOND_TEST = Words("Before"), Words("Second test")
@@ -220,8 +260,7 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
     ]
     if found.has_backlash:
         sentences.append(_BY_BACKLASH)
-    if found.shift:
-        sentences.append(_SHIFTED.given(length=_write_length(found.shift, writer)))
+    sentences += _list_settings(found, made, writer)
     rows = tuple(
         (
             Symbol(symbol),
@@ -250,6 +289,32 @@ def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer
             Table(say(_SECOND_TEST), columns, (RowGroup(rows),)),
         ),
     )
+
+
+def _list_settings(found: Confirmation, made: Made, writer: Writer) -> Iterator[Words]:
+    """Yield how well the verdict fits, and what is to be entered in the control."""
+    verdict, unit, rows = found.verdict, writer.deviation_unit, made.decoded
+
+    def amount(value: float) -> str:
+        return with_unit(_write_number(unit.from_si(value), writer), unit.symbol)
+
+    if verdict in {ConfirmationVerdict.HELD, ConfirmationVerdict.OTHER}:
+        return
+    yield _FITS.given(rest=amount(found.rest), left=amount(found.left))
+    if verdict is ConfirmationVerdict.SHIFTED:
+        first = float(rows.positions[0])
+        lengths = (found.shift, float(np.median(np.diff(rows.positions))), first - found.shift, first)
+        names = ("length", "step", "start", "first")
+        yield _SHIFTED.given(**{
+            name: _write_length(each, writer) for name, each in zip(names, lengths, strict=True)
+        })  # fmt: skip
+    elif verdict is ConfirmationVerdict.NOT_IN_EFFECT:
+        yield from made.controller.notes
+    elif made.forecast.play and verdict in {ConfirmationVerdict.PLAY_TURNED, ConfirmationVerdict.PLAY_TWICE}:
+        yield _ENTER_PLAY.given(play=amount(made.forecast.play))
+    else:
+        play = float(np.mean(rows.forward - rows.reverse))
+        yield _ENTER[verdict].given(play=amount(play))
 
 
 def say_adjustment(made: Made) -> Words:

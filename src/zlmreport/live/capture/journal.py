@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from zlmreport.errors import AccessError, Place, count_in_words
-from zlmreport.files import Closable, JournalFile, make_unreadable, read
+from zlmreport.files import Closable, JournalFile, is_locked, make_unreadable, read
 from zlmreport.live.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import (
@@ -39,6 +39,7 @@ _SUM = re.compile(rb',"sum":"([0-9a-f]{16})"\}')
 _DIGITS = 16
 #: Of every journal; what begins otherwise is a file of somebody else.
 _BEGINNING = f'{{"schema":"{SCHEMA}"'.encode()
+_IS_WRITTEN = "is being written by another capture; end that first, or name another journal"
 _UNSOUND = (KeyError, TypeError, ValueError, IndexError, RecursionError, OverflowError)
 
 
@@ -89,6 +90,11 @@ class History:
     def has_readings(self) -> bool:
         """Whether anything was read: also in a part of the test that is to be taken again."""
         return any(isinstance(entry.event, Recorded) for entry in self.entries)
+
+    @property
+    def is_being_written(self) -> bool:
+        """Whether a capture is at work on it."""
+        return self.file.path is not None and is_locked(self.file.path)
 
     @property
     def progress(self) -> Progress:
@@ -291,6 +297,15 @@ class Journal(Closable):
         self._file.append(line)
 
 
+def demand_at_rest(path: Path) -> None:
+    """Refuse a journal that a capture is writing.
+
+    Raises `AccessError` at the journal.
+    """
+    if is_locked(path):
+        raise AccessError.at(Place(str(path)), _IS_WRITTEN)
+
+
 def demand_nothing_captured(path: Path) -> None:
     """Refuse to begin a journal where there is one with readings in it, or a file of somebody else.
 
@@ -315,7 +330,7 @@ def _close_on_error(file: JournalFile) -> Iterator[JournalFile]:
 def _open_journal(path: Path) -> JournalFile:
     return JournalFile(
         path,
-        "is being written by another capture; end that first, or name another journal",
+        _IS_WRITTEN,
         "; what happened last is not in it: see to the disk, then go on with --resume",
     )
 

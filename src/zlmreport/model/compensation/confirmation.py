@@ -1,4 +1,9 @@
-"""Whether a second test confirms the forecast of a table, and if not: sign, half, shifted."""
+"""Whether a second test confirms the forecast of a table, and if not how the table acts instead.
+
+What went between the tests is held against what a control takes away that was given the table as it was made,
+and against what it takes away by each mistake that is known: another sign, a part of it, other positions, the
+directions exchanged.
+"""
 
 from __future__ import annotations
 
@@ -14,15 +19,18 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve, halve_play
 
-#: A part of the table that was applied is taken for 1, ½ or −1 within this.
+#: A part of the table that was applied is taken for 1, 2, ½, 0 or −1 within this.
 _NEAR = 0.2
 #: A part that is known no better says nothing.
 _UNKNOWN = 0.5
 #: Of the deviations before, what may be left beside the scatter of the means.
 _MAY_BE_LEFT = 0.05
-#: By how much a shift must make the rest smaller to be the reason.
+#: By how much a shift, or another play, must make the rest smaller to be the reason.
 _FAR_SMALLER = 3.0
-_SHIFTS = np.linspace(-3, 3, 121)
+#: Up to which ratio of what they leave a part of the table goes before these, which have more freedom.
+_ALIKE = 1.25
+#: By how many rows a table may be shifted: where to begin, and about the best of these.
+_SHIFTS, _FINE_SHIFTS = np.linspace(-3, 3, 121), np.linspace(-0.05, 0.05, 41)
 
 
 class ConfirmationVerdict(StrEnum):
@@ -31,8 +39,40 @@ class ConfirmationVerdict(StrEnum):
     HELD = "held"
     WRONG_SIGN = "wrong-sign"
     HALF = "half"
+    DOUBLE = "double"
+    NOT_IN_EFFECT = "not-in-effect"
     SHIFTED = "shifted"
+    #: What parts the directions is added where it is to be taken away; taken away twice; or not at all.
+    PLAY_TURNED = "play-turned"
+    PLAY_TWICE = "play-twice"
+    PLAY_LEFT = "play-left"
     OTHER = "other"
+
+    @property
+    def promised(self) -> ConfirmationVerdict:
+        """The one of the first five, which programs know, that it counts as."""
+        return self if self in _FIRST else ConfirmationVerdict.OTHER
+
+
+_FIRST = {
+    ConfirmationVerdict.HELD,
+    ConfirmationVerdict.WRONG_SIGN,
+    ConfirmationVerdict.HALF,
+    ConfirmationVerdict.SHIFTED,
+}
+#: What part of a table a control applies that does something else with it.
+_PARTS = {
+    -1.0: ConfirmationVerdict.WRONG_SIGN,
+    0.5: ConfirmationVerdict.HALF,
+    2.0: ConfirmationVerdict.DOUBLE,
+    0.0: ConfirmationVerdict.NOT_IN_EFFECT,
+}
+#: What part of the play it takes that takes what both directions share as it should.
+_PLAYS = {
+    -1.0: ConfirmationVerdict.PLAY_TURNED,
+    2.0: ConfirmationVerdict.PLAY_TWICE,
+    0.0: ConfirmationVerdict.PLAY_LEFT,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +87,10 @@ class Confirmation:
     #: Whether the control's backlash parameter takes the play that a table without directions leaves.
     has_backlash: bool = False
     shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
+    #: left and rest: Of what went between the tests, root mean squares of what the table as it was made does
+    #: not take away, and the table as the verdict has it, m or rad.
+    left: float = 0.0
+    rest: float = 0.0
 
     @property
     def is_seen(self) -> bool:
@@ -97,25 +141,39 @@ def confirm(  # noqa: PLR0913, PLR0917 - two tests, and the tables of both
     # Of the axis without a table, but for a constant: each test has its own zero.
     removed = was + (active.at(positions)[common] if active else 0.0) - is_now
     by_backlash = _find_taken_play(removed, play)
-    removed = removed - by_backlash
-    applied = _fit_part(removed, taken)
-    left = _compute_rms(_centre(removed - taken))
+    own = removed - by_backlash
+    applied = _fit_part(own, taken)
+    left = _compute_rms(_centre(own - taken))
     scatter = _compute_scatter(before, after)
     allowed = scatter + _MAY_BE_LEFT * _compute_rms(was - was.mean())
     of_table = _compute_rms(_centre(taken)) * np.sqrt(taken.size)
     expanded = float(scatter / of_table) if of_table else np.inf
 
-    def make_confirmation(verdict: ConfirmationVerdict, shift: float = 0.0) -> Confirmation:
-        return Confirmation(verdict, ratio, applied, expanded, bool(by_backlash.any()), shift)
+    def make_confirmation(
+        verdict: ConfirmationVerdict, rest: float = left, shift: float = 0.0
+    ) -> Confirmation:
+        return Confirmation(verdict, ratio, applied, expanded, bool(by_backlash.any()), shift, left, rest)
 
     if abs(applied - 1) < max(_NEAR, expanded) and left <= allowed:
         return make_confirmation(ConfirmationVerdict.HELD)
-    for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
-        if abs(applied - part) < _NEAR and _compute_rms(_centre(removed - part * taken)) <= 2 * allowed:
-            return make_confirmation(verdict)
-    shift, rest = _fit_shift(removed, positions, table, common)
+    part, known = min(_PARTS.items(), key=lambda each: abs(applied - each[0]))
+    of_part = _compute_rms(_centre(own - part * taken))
+    shift, rest = _fit_shift(own, positions, table, common)
+    best = (rest, ConfirmationVerdict.SHIFTED)
+    if len(common) > 1:
+        shared = taken.mean(axis=0)
+        parting = taken - shared + halve_play(play)
+        plays = (
+            (_compute_rms(_centre(removed - shared - part * parting)), verdict)
+            for part, verdict in _PLAYS.items()
+        )
+        best = min((best, *(each for each in plays if each[0] <= 2 * allowed)))
+    is_part = expanded < _UNKNOWN and abs(applied - part) < _NEAR and of_part <= 2 * allowed
+    if is_part and of_part <= _ALIKE * best[0]:
+        return make_confirmation(known, of_part)
+    rest, verdict = best
     if rest * _FAR_SMALLER < left:
-        return make_confirmation(ConfirmationVerdict.SHIFTED, shift)
+        return make_confirmation(verdict, rest, shift if verdict is ConfirmationVerdict.SHIFTED else 0.0)
     return make_confirmation(ConfirmationVerdict.OTHER)
 
 
@@ -141,12 +199,16 @@ def _fit_shift(
 ) -> tuple[float, float]:
     """Return the shift of the table that explains most, and what it leaves in the common directions."""
     step = float(np.median(np.diff(table.positions)))
-    left = [
-        (_compute_rms(_centre(removed - table.at(positions - part * step)[common])), part * step)
-        for part in _SHIFTS.tolist()
-    ]
-    rest, shift = min(left)
-    return shift, rest
+
+    def find_best(shifts: FloatArray) -> tuple[float, float]:
+        return min(
+            (_compute_rms(_centre(removed - table.at(positions - part * step)[common])), part)
+            for part in shifts.tolist()
+        )
+
+    _, near = find_best(_SHIFTS)
+    rest, part = find_best(near + _FINE_SHIFTS)
+    return part * step, rest
 
 
 def _compute_scatter(before: ErrorCurve, after: ErrorCurve) -> float:

@@ -13,11 +13,12 @@ from pydantic import AfterValidator, Field, create_model
 
 from zlmreport.job.formula import Call, Number, Tree, compute, find_calls_in, find_names_in, parse_formula
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys, FormulaParameter, Search
-from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, find_kinds_of
+from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, find_kinds_of, find_nearest_known
 from zlmreport.job.types import Options
 from zlmreport.language import Words, named, same
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import (
     CHOSEN_RANGES,
@@ -53,6 +54,7 @@ _JOINTS = frozenset({"step", "sign", "abs", "min", "max", "floor"})
 _STATED = Words("stated where the formula is written; no standard states them")
 _LOOK = Words("The residuals follow {formula}.")
 _MEANING = Words("parameter of {formula}")
+_MISSPELLED = Words("no column {column} was logged beside the readings; did you mean {nearest}?")
 _AGAIN = Words("{title}, number {number}")
 _KNOWN = {
     "published": Words("published"),
@@ -237,6 +239,7 @@ class FormulaEffect(Effect):
             or (needs_both_directions(design) if needs.both_directions else None)
             or self._say_unstated(design.axis)
             or self._say_without_period(design)
+            or self._say_misspelled(design)
             or needs_logged(design, *logs)
             or (needs_passing_time(design) if "t" in names else None)
             or needs_targets(design, needs.targets or 1)
@@ -244,6 +247,15 @@ class FormulaEffect(Effect):
             or (needs_moments(design) if self._is_searched(Search.MOMENT) else None)
             or (needs_pause(design) if self._is_searched(Search.PAUSE) else None)
         )
+
+    def _say_misspelled(self, design: Design) -> Words | None:
+        """Return which column is not logged, and looks like the name of something else in the formula."""
+        for column in self.formula.columns:
+            if column not in design.conditions and column not in CONDITIONS:
+                nearest = find_nearest_known(column, self.keys, design.conditions)
+                if nearest:
+                    return _MISSPELLED.given(column=column, nearest=nearest)
+        return None
 
     def _is_searched(self, way: Search) -> bool:
         return any(each is way for each in self._ways.values())

@@ -23,6 +23,8 @@ _KNOWN = frozenset(
         "Confusion",
     }
 )
+#: Questions, whose places are filled when they are asked.
+_ASKED = frozenset({"question", "question_below"})
 
 
 def find_unlike(interface: type, offered: object, prefix: str = "") -> Iterator[str]:
@@ -47,7 +49,11 @@ def _find_unlike_value(name: str, value: object, where: str) -> Iterator[str]:
     if name not in {each.__name__ for each in type(value).__mro__}:
         yield f"{where}: {name}, not {_name_type(value)}"
     elif is_dataclass(value):
-        yield from find_unlike(type(value), value, f"{where}.")
+        unlike = [*find_unlike(type(value), value, f"{where}.")]
+        yield from unlike
+        list_unfilled = getattr(value, "list_unfilled", None)  # of Words alone
+        if list_unfilled and not unlike and where.rpartition(".")[2] not in _ASKED:
+            yield from (f"{where}: no value for {{{place}}}" for place in list_unfilled())
 
 
 def _name_type(value: object) -> str:

@@ -66,6 +66,10 @@ def require_kind(kind: type, answer: Any) -> Any:
 def require_sayable(answer: Any, what: str) -> Words:
     """Return words that can be said in every language; refuse others, and such as lack a value."""
     words: Words = require_kind(Words, answer)
+    if names := words.list_unfilled():
+        missing, given = (", ".join(form.format(each) for each in names) for form in ("{{{}}}", "{}=…"))
+        message = f"no value for {missing}; say Words(…).given({given})"
+        raise Unacceptable(f"returns words with empty places, {what}: {message}")
     for language in Language:
         try:
             words.in_language(language)

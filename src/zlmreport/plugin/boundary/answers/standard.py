@@ -12,6 +12,7 @@ from zlmreport.document.figures.figure import Arrow, Bracket, Figure, Panel
 from zlmreport.evaluation.evaluation import Arithmetic, Finding
 from zlmreport.evaluation.uncertainty.budget import Contribution
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.boundary import Guarded, Unacceptable
 from zlmreport.plugin.boundary.answers.required import (
     name_answer,
@@ -66,9 +67,23 @@ def figures(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Figure
     for each in found:
         for name in ("title", "alternative", "x_title", "y_title"):
             require_sayable(getattr(each, name), f"{name} of figure {each.key!r}")
+        for name in ("x_unit", "y_unit"):
+            _require_printed(getattr(each, name), f"{name} of figure {each.key!r}")
         for panel in require_all_of(Panel, each.panels):
+            _require_printed(panel.y_unit, f"y_unit of a panel of figure {each.key!r}")
             _require_drawable(panel, f"of figure {each.key!r}")
     return found
+
+
+def _require_printed(unit: Any, of: str) -> None:
+    """Refuse a unit that is no text, or as a results file has it and no page."""
+    if not isinstance(unit, str):
+        raise Unacceptable(
+            f"returns {name_answer(unit)} as {of}; what is printed is expected, such as "
+            "axis.deviation_unit.symbol"
+        )
+    if (printed := find_printed_symbol(unit)) != unit:
+        raise Unacceptable(f"returns {unit!r} as {of}; what is printed is expected, {printed!r}")
 
 
 def _require_drawable(panel: Panel, of: str) -> None:
