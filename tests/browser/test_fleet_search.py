@@ -64,15 +64,26 @@ def shown(page: Page) -> list[str]:
 
 def test_all_are_shown_at_first(page: Page) -> None:
     assert len(shown(page)) == MACHINES + 1
-    assert page.locator("#tools output").inner_text() == "41 of 41 axes"
+    assert page.locator("#search output").inner_text() == "41 of 41 axes"
 
 
 def test_what_is_typed_is_searched_in_all_tables(page: Page) -> None:
     page.locator("input[name=search]").fill("ex-007 mc")
     assert shown(page) == ["EX-007"]
-    assert page.locator("#tools output").inner_text() == "1 of 41 axes"
+    assert page.locator("#search output").inner_text() == "1 of 41 axes"
     assert page.locator("#not-met").is_visible()
     assert not page.locator("#drifting").is_visible()
+
+
+@pytest.mark.parametrize("number", ["CAL-011", "cal-011 ex"])
+def test_an_axis_is_found_by_its_certificate(page: Page, number: str) -> None:
+    page.locator("input[name=search]").fill(number)
+    assert shown(page) == ["EX-011"]
+
+
+def test_the_scale_of_a_graph_is_not_searched(page: Page) -> None:
+    page.locator("input[name=search]").fill("2025-01")
+    assert len(shown(page)) == 0
 
 
 def test_a_word_that_is_nowhere_leaves_nothing(page: Page) -> None:
@@ -104,7 +115,7 @@ def test_axes_are_ordered_by_limit_by_date_and_by_machine_again(page: Page) -> N
 def test_without_scripts_everything_is_shown(window: Callable[..., Page], page_file: Path) -> None:
     page = window(page_file.as_uri(), java_script_enabled=False)
     assert page.locator("table.machine tbody:visible").count() == MACHINES + 1
-    assert not page.locator("#tools").is_visible()
+    assert not page.locator("#search, #choices").first.is_visible()
 
 
 def test_what_is_due_is_a_list_with_the_earliest_first(page: Page) -> None:

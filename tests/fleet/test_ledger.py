@@ -9,12 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from sqlalchemy import create_engine, text
+from sqlalchemy import Connection, Executable, create_engine, insert, text
+from sqlalchemy.schema import CreateTable
 
 from fleet.fleets import FLEET, Fleet, without_processes
 from fleet.servers import server
 from zlmreport.fleet.basis import CertificateBasis, FileStamp, KnownFile
-from zlmreport.fleet.database import FORMAT
+from zlmreport.fleet.database import FORMAT, FORMATS, METADATA, open_database
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Issued, Ledger, Night, NumberTakenError
 from zlmreport.fleet.records import (
@@ -443,3 +444,19 @@ def test_a_certificate_is_known_by_its_number_with_where_it_belongs(north: tuple
         "S-1": Issued("south", "x.yaml", NIGHTS[0], FILES),
         "CAL-1": Issued("north", "x.yaml", NIGHTS[0], FILES),
     }
+
+
+@pytest.mark.parametrize("last", [CreateTable(FORMATS), insert(FORMATS).values(format=FORMAT)])
+def test_a_ledger_that_another_night_makes_at_the_same_moment_is_used(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, last: Executable
+) -> None:
+    address, usual = str(tmp_path / "ledger.db"), METADATA.create_all
+
+    def create_all(connection: Connection) -> None:
+        monkeypatch.setattr(METADATA, "create_all", usual)
+        open_database(address, create=True).engine.dispose()
+        connection.execute(last)
+
+    monkeypatch.setattr(METADATA, "create_all", create_all)
+    with Ledger.open(address, "Hall North") as ledger, ledger.hold_night(NIGHTS[0], "fleet.yaml"):
+        assert ledger.find_last_night() is not None

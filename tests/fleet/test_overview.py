@@ -6,6 +6,7 @@ import base64
 import hashlib
 import itertools
 import re
+import zlib
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from html import unescape
@@ -16,7 +17,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview import make_overview
+from zlmreport.fleet.overview import MOST_DRAWN, make_overview
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import describe_state
@@ -242,6 +243,27 @@ def test_a_small_graph_leads_to_the_trend_in_full() -> None:
     ):
         assert part in said
     assert said.count("± 1.0 µm") == 8
+
+
+def test_of_a_large_fleet_graphs_of_what_needs_nobody_are_packed() -> None:
+    axes = [
+        replace(each, machine=f"MT 500 EX-{number:03}", job=f"{number}/{each.job}")
+        for number in range(MOST_DRAWN)
+        for each in CALM
+    ]
+    exceeds = entry(LATEST, parameter(21.0, conforms=False), axis="Z", job="z.yaml")
+    html = page(*axes, exceeds)
+    shown = re.findall(r'<a class="to-trend" href="#(trend-\d+)"', html)
+    assert len(shown) == 2, "in what needs somebody, and among the machines"
+    packed = [
+        link
+        for content in re.findall(r'<script type="application/zlib"[^>]*>(.*?)</script>', html)
+        for link in re.findall(r'href="#(trend-\d+)"', zlib.decompress(base64.b64decode(content)).decode())
+    ]
+    places = [f"trend-{number}" for number in re.findall(r'data-trend="(\d+)"', html)]
+    assert packed == places
+    assert len({*packed, *shown}) == MOST_DRAWN + 1
+    assert len(html) < 600_000
 
 
 def test_a_trend_shows_the_effects_of_its_axis() -> None:

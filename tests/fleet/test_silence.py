@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import datetime as dt
+import itertools
 import shutil
+import sqlite3
+import sys
+import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, closing, contextmanager
 from pathlib import Path
 from signal import SIGKILL
 from subprocess import Popen
+from threading import Timer
 from typing import NoReturn
 
 import pytest
 
-from fleet.fleets import FLEET, Fleet, Here, without_processes
+from fleet.fleets import FLEET, Fleet, Here, Witness, without_processes
 from processes import PATIENCE, PYTHON, started
-from zlmreport.fleet import night
+from zlmreport.fleet import ledger as ledger_module, night
 from zlmreport.fleet.database import TakenError
 from zlmreport.fleet.issuing import What
-from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.ledger import Ledger, Night
 from zlmreport.fleet.making import Task
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.records import About, PastNight, State
@@ -378,10 +383,23 @@ def night_at_work(address: str, *beats: str) -> Iterator[Popen[bytes]]:
         yield program.process
 
 
-def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(fleet: Fleet) -> None:
+def _beat(address: str, now: str) -> None:
+    with closing(sqlite3.connect(address)) as ledger, ledger:
+        ledger.execute("UPDATE nights SET beat = ? WHERE ended IS NULL", [now])
+
+
+@pytest.mark.parametrize(
+    "beats",
+    [(), ("2026-11-22T02:00:00+00:00",)],
+    ids=["silent for half an hour", "the clock was set back by a day since"],
+)
+def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(
+    fleet: Fleet, beats: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ledger_module, "WATCHED", 0.3)
     address = str(fleet.folder / "ledger.db")
     with (
-        night_at_work(address) as stuck,
+        night_at_work(address, *beats) as stuck,
         Ledger.open(address, "Hall North") as ledger,
         ledger.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml") as second,
     ):
@@ -398,6 +416,54 @@ def test_a_night_that_lives_is_left_alone(fleet: Fleet) -> None:
         with pytest.raises(TakenError), ledger.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml"):
             pass
         assert at_work.poll() is None
+
+
+def test_a_night_that_lives_on_after_the_computer_slept_is_left_alone(fleet: Fleet) -> None:
+    address, morning = str(fleet.folder / "ledger.db"), "2026-11-21T08:00:00+00:00"
+    with night_at_work(address) as at_work, Ledger.open(address, "Hall North") as ledger:
+        beating = Timer(1.0, _beat, [address, morning])
+        beating.start()
+        with pytest.raises(TakenError), ledger.hold_night(morning, "fleet.yaml"):
+            pass
+        assert at_work.poll() is None
+
+
+def test_a_night_takes_the_time_that_the_computer_slept(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times = itertools.chain([100.0], itertools.repeat(100.0 + 6 * 3600))
+    monkeypatch.setattr(night, "read_steady_clock", lambda: next(times))
+    fleet.job("a")
+    witness = Witness()
+    night.spend_night(fleet.file, night.Order(seconds=4 * 3600), witness)
+    assert witness.what["a"] is What.LEFT
+    with Ledger.open(str(fleet.folder / "ledger.db"), "Hall North") as ledger:
+        last = ledger.find_last_night()
+    assert last is not None
+    assert last.seconds == 6 * 3600
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="this clock is Linux's")
+def test_the_clock_of_a_night_goes_on_while_the_computer_sleeps() -> None:
+    assert night.read_steady_clock() == pytest.approx(time.clock_gettime(time.CLOCK_BOOTTIME), abs=1.0)
+
+
+def test_a_night_that_ends_while_the_next_begins_hides_nothing_from_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    without_processes(monkeypatch)
+    fleet = Fleet.of(tmp_path, "a", "b", "c", "d", "e")
+    usual, others = Ledger.hold_night, [fleet.spend]
+
+    def hold(ledger: Ledger, began: str, fleet_file: str) -> AbstractContextManager[Night]:
+        if others:
+            assert others.pop()().what["a"] is What.ISSUED
+        return usual(ledger, began, fleet_file)
+
+    monkeypatch.setattr(Ledger, "hold_night", hold)
+    witness = fleet.spend()
+    assert set(witness.what.values()) == {What.UNCHANGED}
+    assert witness.notices == []
 
 
 def test_an_overview_alone_in_the_folder_of_certificates_does_not_make_it_mounted(fleet: Fleet) -> None:

@@ -21,7 +21,7 @@ from zlmreport.cli.terminal import collect_problem, make_visible, print_json, sh
 from zlmreport.errors import INCOMPLETE, AccessError, InputError, Place
 from zlmreport.files import confine
 from zlmreport.fleet.issuing import Happened, What
-from zlmreport.fleet.night import Order, foretell, spend_night
+from zlmreport.fleet.night import Order, foretell, read_steady_clock, spend_night
 from zlmreport.fleet.plan import Due, PlannedJob
 from zlmreport.fleet.records import NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
@@ -86,7 +86,7 @@ class _Watcher:
         self._fleet = fleet
         self._logs = logs
         self._options = options
-        self._begun = time.monotonic()
+        self._begun = read_steady_clock()
         self.notices: list[NightNotice] = []
         self._progress = NightProgress(sys.stderr, 0)
 
@@ -141,7 +141,7 @@ class _Watcher:
         self._progress.hide()
         is_interrupted = isinstance(error, KeyboardInterrupt)
         for log in self._logs if error is None or is_interrupted else ():
-            log.write_end(self.counts, time.monotonic() - self._begun, is_interrupted=is_interrupted)
+            log.write_end(self.counts, read_steady_clock() - self._begun, is_interrupted=is_interrupted)
         if is_interrupted and self._options.json:
             print_json(_summarise(self._fleet, self, INTERRUPTED))
 

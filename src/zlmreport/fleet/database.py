@@ -190,13 +190,32 @@ def open_database(address: str, *, create: bool) -> Database:
         url = URL.create("sqlite")
     database = Database(_make_engine(url, address), address)
     try:
-        with database.begin_transaction() as connection:
-            METADATA.create_all(connection)
-            _demand_format(connection, address)
+        for _ in METADATA.sorted_tables:  # each may be made by the other just before
+            with contextlib.suppress(_MadeMeanwhileError):
+                _lay_out_tables(database)
+                return database
+        _lay_out_tables(database)
     except ZlmreportError:
         database.engine.dispose()
         raise
     return database
+
+
+class _MadeMeanwhileError(AccessError):
+    """Another night makes the same tables at this moment."""
+
+
+def _lay_out_tables(database: Database) -> None:
+    try:
+        with database.begin_transaction() as connection:
+            METADATA.create_all(connection)
+            _demand_format(connection, database.address)
+    except IntegrityError as error:
+        raise _MadeMeanwhileError(_make_no_access(database.address, error).problems) from error
+    except AccessError as error:
+        if "already exists" in str(error):
+            raise _MadeMeanwhileError(error.problems) from error
+        raise
 
 
 def copy(database: Database, to: Path) -> None:

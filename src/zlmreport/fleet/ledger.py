@@ -47,6 +47,8 @@ from zlmreport.language import Language, Words
 
 #: How often, and how many seconds apart, the lock of a night that was killed is tried.
 _ATTEMPTS, _PAUSE = 50, 0.1
+#: So long a night is watched before it is held for stuck, s: three times the usual between signs of life.
+WATCHED = 15.0
 #: What the table of entries keeps of an entry as it is.
 _OWN = (*(each.name for each in fields(Subject)), "job", "digest", "state", "message", "seconds")
 
@@ -63,8 +65,13 @@ class Night:
     fleet: str  #: Name of the fleet.
     identity: int  #: Of the night in the ledger.
     began: str  #: Date and time, ISO 8601 in UTC.
-    was_interrupted: bool  #: Whether the night before never came to its end.
+    before: PastNight | None  #: The night before of this fleet, as it was when this one began.
     took_over: str = ""  #: When the night began that was stuck, and was killed for this one; empty for none.
+
+    @property
+    def was_interrupted(self) -> bool:
+        """Whether the night before never came to its end."""
+        return self.before is not None and self.before.ended is None
 
     def add(
         self, entry: LedgerEntry, files: Sequence[KnownFile] = (), basis: CertificateBasis | None = None
@@ -405,7 +412,8 @@ class Ledger(Closable):
 
         Raises `AccessError` if another is at work on it.
 
-        One of this host that has given no sign of life for `SILENT` is killed, and this one takes its place.
+        One of this host that has given no sign of life for `SILENT`, and gives none while it is watched, is
+        killed, and this one takes its place.
         """
         holder = f"{fleet_file} on {socket.gethostname()}, since {began}"
         with contextlib.ExitStack() as stack:
@@ -426,18 +434,29 @@ class Ledger(Closable):
         own = {"fleet": self._fleet, "began": began, "host": socket.gethostname(), "process": os.getpid()}
         with self._database.begin_transaction() as connection:
             identity = _add_row(connection, insert(NIGHTS).values(beat=began, **own))
-        was_interrupted = before is not None and before.ended is None
-        return Night(self._database, self._fleet, identity, began, was_interrupted, took_over)
+        return Night(self._database, self._fleet, identity, began, before, took_over)
 
     def _find_stuck(self, now: str) -> Row[Any] | None:
         """Return the night at work if it is of this host, and has been silent for too long."""
-        query = select(NIGHTS).order_by(NIGHTS.c.id.desc()).limit(1)
-        with self._database.begin_transaction() as connection:
-            night = connection.execute(query).one_or_none()
+        night = self._find_latest()
         if night is None or night.ended or night.host != socket.gethostname() or not night.beat:
             return None
-        silent = dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat)
-        return night if silent >= SILENT and night.process != os.getpid() else None
+        # A beat that is to come is of a clock that was set back since.
+        silent = abs(dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat))
+        if silent < SILENT or night.process == os.getpid():
+            return None
+        # The clock may have been set a moment ago, or the computer have slept: whoever lives soon says so.
+        for _ in range(round(WATCHED / _PAUSE)):
+            time.sleep(_PAUSE)
+            if self._find_latest() != night:
+                return None
+        return night
+
+    def _find_latest(self) -> Row[Any] | None:
+        """Return the latest night of all fleets."""
+        query = select(NIGHTS).order_by(NIGHTS.c.id.desc()).limit(1)
+        with self._database.begin_transaction() as connection:
+            return connection.execute(query).one_or_none()
 
 
 def _refuse_taken(connection: Connection, number: str) -> None:

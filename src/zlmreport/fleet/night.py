@@ -110,18 +110,18 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     cannot be used, or another night is at work; `MissingError` if the folder of certificates is gone, or most
     of the jobs.
     """
-    plugins, start = order.plugins, time.monotonic()
+    plugins, start = order.plugins, read_steady_clock()
     ends = start + order.seconds
     jobs, unmatched = find_jobs(fleet)
     ways, language = find_ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
-        last = ledger.find_last_night()
-        known = _prepare_evening(fleet, jobs, ledger, plugins)
-        gone = find_vanished(known)
-        if unmatched and not gone:
+        if unmatched and not find_vanished(_prepare_evening(fleet, jobs, ledger, plugins)):
             raise InputError(unmatched)
-        lacking = find_missing(known, gone)
         with ledger.hold_night(read_clock(), str(fleet.path)) as night, _show_alive(fleet):
+            # What is known is read now: a night that was at work a moment ago may have ended since.
+            last, known = night.before, _prepare_evening(fleet, jobs, ledger, plugins)
+            gone = find_vanished(known)
+            lacking = find_missing(known, gone)
             if lacking:
                 place, notice = lacking
                 noticed = (*say_of_last(night, last), notice)
@@ -162,7 +162,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
 
 def _compute_end(began: str, start: float) -> str:
     """Return when a night ends that began at `start` by the steady clock: the other may have been set."""
-    took = dt.timedelta(seconds=time.monotonic() - start)
+    took = dt.timedelta(seconds=read_steady_clock() - start)
     return (dt.datetime.fromisoformat(began) + took).isoformat(timespec="seconds")
 
 
@@ -237,7 +237,7 @@ class _Work:
 
     night: Night  #: In the ledger.
     gone: Sequence[str]  #: Jobs whose files are gone.
-    ends: float  #: When no job is begun any more, by `time.monotonic`.
+    ends: float  #: When no job is begun any more, by `read_steady_clock`.
     longest: Mapping[str, float]  #: The longest time that each job ever took, s.
 
 
@@ -279,7 +279,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         ]
 
         def waiting() -> Iterator[Task]:
-            while remaining and time.monotonic() < work.ends:
+            while remaining and read_steady_clock() < work.ends:
                 yield remaining.pop()[1]
 
         if executor:
@@ -363,6 +363,12 @@ def make_executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], N
         return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"), beat)
     wanted = order.workers or keys.workers or len(os.sched_getaffinity(0))
     return Pool(min(wanted, due), order.plugins, beat)
+
+
+def read_steady_clock() -> float:
+    """Return seconds by a clock that nobody sets, and that does not stand still while the computer sleeps."""
+    steady: int | None = getattr(time, "CLOCK_BOOTTIME", getattr(time, "CLOCK_MONOTONIC", None))
+    return time.monotonic() if steady is None else time.clock_gettime(steady)
 
 
 def read_clock() -> str:

@@ -8,20 +8,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
-from itertools import groupby
+from itertools import groupby, islice
 from typing import Generic, TypeVar
 
 from zlmreport.document.typesetting.overview import (
     OverviewCellContext,
+    OverviewChoicesContext,
     OverviewContext,
     OverviewGroupContext,
     OverviewLegendContext,
     OverviewMachineContext,
     OverviewMachinesContext,
     OverviewRowContext,
+    OverviewSearchContext,
     OverviewSectionContext,
     OverviewTableContext,
-    OverviewToolsContext,
     TileContext,
     make_drawing,
     make_overview_style,
@@ -32,8 +33,8 @@ from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import LEAST_MACHINES, Shared, find_shared
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, group_by_axis
-from zlmreport.fleet.overview_cells import CellWriter, make_key_of
-from zlmreport.fleet.overview_trend import show_trend_in_full
+from zlmreport.fleet.overview_cells import CellWriter, TrendKey, make_key_of
+from zlmreport.fleet.overview_trend import pack_trends, show_trend_in_full
 from zlmreport.fleet.printing import Names
 from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
 from zlmreport.fleet.state import DueDate, FailingJob, FleetState
@@ -45,6 +46,8 @@ from zlmreport.language import Language, Words, join_parts
 from zlmreport.version import __version__
 
 _MINUTE = 60
+#: So many graphs a page has as they are; where there are more, those of what needs nobody are packed.
+MOST_DRAWN = 100
 
 
 def make_overview(state: FleetState, language: Language, names: Names, files: str) -> str:
@@ -56,8 +59,11 @@ def make_overview(state: FleetState, language: Language, names: Names, files: st
     period = Period(min(dates, default=date.min), max(dates, default=date.min))
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
     chosen = _choose_shown_in_full(printed)
-    anchors = {make_key_of(each.series): f"trend-{number}" for number, each in enumerate(chosen, 1)}
-    cells = CellWriter(language, names, period, files, state.effects, anchors)
+    keys = [make_key_of(each.series) for each in chosen]
+    anchors = {key: f"trend-{number}" for number, key in enumerate(keys, 1)}
+    drawn = _choose_drawn(printed, keys)
+    packed = {key: number for number, key in enumerate(keys, 1) if key not in drawn}
+    cells = CellWriter(language, names, period, files, state.effects, anchors, packed)
     script = read_overview_script()
     return render(
         OverviewContext(
@@ -71,8 +77,14 @@ def make_overview(state: FleetState, language: Language, names: Names, files: st
             facts=tuple(_list_facts(printed, cells)),
             tiles=tuple(_make_tiles(printed, cells)),
             tiles_title=cells.say(words.HEADLINE),
+            search=tuple(map(render, _make_search(printed, cells))),
             sections=tuple(map(render, _make_sections(printed, cells))),
-            trends=tuple(render(show_trend_in_full(each, cells)) for each in chosen),
+            trends=tuple(
+                render(show_trend_in_full(each, cells))
+                for each, key in zip(chosen, keys, strict=True)
+                if key in drawn
+            ),
+            packs=tuple(pack_trends(chosen, cells)),
         )
     )
 
@@ -139,7 +151,8 @@ def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSec
         found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
         tables = (render(_SHARED.lay_out(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
-    shown = (render(_make_tools(state, cells)), render(_list_machines(state, cells))) if state.trends else ()
+    all_axes = (_make_choices(state, cells), _list_machines(state, cells)) if state.trends else ()
+    shown = tuple(map(render, all_axes))
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
     reading = (render(_make_legend(cells)),)
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
@@ -330,7 +343,11 @@ def _list_machines(state: FleetState, cells: CellWriter) -> OverviewMachinesCont
     return OverviewMachinesContext(
         title=cells.say(words.AXES),
         count=str(len(axes)),
-        caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
+        caption=cells.say(
+            (words.LARGE_CAPTION if cells.packed else words.MACHINE_CAPTION).given(
+                first=cells.period.first.isoformat()
+            )
+        ),
         headings=tuple(map(cells.say, headings)),
         machines=tuple(_make_machine(dict(its_axes), marks, due, cells) for _, its_axes in of_machine),
     )
@@ -360,8 +377,7 @@ def _make_machine(
             beside = tuple(cell(cells, trend) for _, cell in _OF_AXES)
             head = None if number else cells.write_quantity(trend)
             measured = OverviewCellContext() if number else cells.write_day_measured(trend, due.get(key))
-            row = (*beside, measured)
-            rows.append(OverviewRowContext(head, len(shown), row, facts))
+            rows.append(OverviewRowContext(head, len(shown), () if number else facts, (*beside, measured)))
     counted = words.COUNTED_AXES.given(number=len(axes))
     name = cells.name_machine(next(iter(axes.values()))[0].series)
     return OverviewMachineContext(name, cells.say(counted), tuple(rows))
@@ -376,23 +392,38 @@ def _choose_shown_in_full(state: FleetState) -> tuple[Trend, ...]:
     return tuple(each for each in state.trends if make_key_of(each.series) in keys)
 
 
-def _make_tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
-    """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
+def _choose_drawn(state: FleetState, keys: Sequence[TrendKey]) -> frozenset[TrendKey]:
+    """Return the trends whose graphs a page has as they are: of many those alone of what needs somebody."""
+    if len(keys) <= MOST_DRAWN:
+        return frozenset(keys)
+    needing = (*state.not_met, *state.undecided, *state.changed, *state.drifting)
+    return frozenset(islice(dict.fromkeys(make_key_of(each.series) for each in needing), MOST_DRAWN))
+
+
+def _make_search(state: FleetState, cells: CellWriter) -> Iterator[OverviewSearchContext]:
+    """Yield the search where there is something to be searched."""
+    if state.trends:
+        yield OverviewSearchContext(
+            search=cells.say(words.SEARCH),
+            example=state.trends[0].series.machine,
+            # How many are shown the page says itself, whenever somebody searches.
+            found=cells.say(words.FOUND.given(shown="{shown}", number=len(group_by_axis(state.trends)))),
+        )
+
+
+def _make_choices(state: FleetState, cells: CellWriter) -> OverviewChoicesContext:
+    """Return what a reader chooses and orders the axes by: only what there is can be chosen."""
     choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _list_marks(state) if axes]
     orders = (
         *(("machine", words.BY_MACHINE), ("used", words.BY_USE)),
         *((("due", words.BY_DUE),) if state.terms else ()),
         ("measured", words.BY_MEASURED),
     )
-    return OverviewToolsContext(
-        search=cells.say(words.SEARCH),
-        example=state.trends[0].series.machine,
+    return OverviewChoicesContext(
         choices=(
             ("choice", cells.say(words.CHOICE), (("", cells.say(words.ALL_AXES)), *choices)),
             ("order", cells.say(words.ORDER), tuple((key, cells.say(label)) for key, label in orders)),
-        ),
-        # How many are shown the page says itself, whenever somebody searches.
-        found=cells.say(words.FOUND.given(shown="{shown}", number=len(group_by_axis(state.trends)))),
+        )
     )
 
 
@@ -416,7 +447,6 @@ def _list_facts_of(
     latest = [trend.series.latest for trend in trends]
     used = [abs(each.value) / each.limit for each in latest if each.limit]
     return (
-        ("axis", "\n".join(trends[0].series.axis_key)),
         ("marks", " ".join(marks)),
         ("used", f"{max(used):.3f}" if used else ""),
         ("measured", max(each.series.calibrations[-1].measured for each in trends).isoformat()),

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
+from typing import TypeAlias
 from urllib.parse import quote
 
 from zlmreport.document.typesetting.overview import LinkContext, OverviewCellContext, make_drawing
@@ -23,6 +24,9 @@ from zlmreport.language.writer import LanguageWriter
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import find_printed_symbol, with_unit
 
+#: Machine, axis, standard and symbol.
+TrendKey: TypeAlias = tuple[str, str, str, str]
+
 #: Of numbers in the description of a graph.
 _DECIMALS = 2
 #: The test of a trend knows no tail beyond it.
@@ -37,8 +41,9 @@ class CellWriter(LanguageWriter):
     period: Period  #: That all graphs show.
     files: str  #: Folder of the certificates, as seen from the page.
     effects: Sequence[Series]  #: Parameters of the error models of all axes over time.
-    #: Anchors of the trends that are shown in full, by machine, axis, standard and symbol.
-    anchors: Mapping[tuple[str, str, str, str], str] = field(default_factory=dict)
+    #: Of the trends that are shown in full.
+    anchors: Mapping[TrendKey, str] = field(default_factory=dict)
+    packed: Mapping[TrendKey, int] = field(default_factory=dict)  #: Numbers of those that the script unpacks.
 
     def write_parameter(self, trend: Trend) -> OverviewCellContext:
         """Return the symbol, with the standard below."""
@@ -71,7 +76,9 @@ class CellWriter(LanguageWriter):
         return OverviewCellContext(self.say(word), style=f"state {style}")
 
     def write_course(self, trend: Trend) -> OverviewCellContext:
-        """Return the small graph, which leads to the trend in full."""
+        """Return the small graph, which leads to the trend in full, or the place of one that is packed."""
+        if number := self.packed.get(make_key_of(trend.series)):
+            return OverviewCellContext(style="course", packed=str(number))
         alternative = self.describe_graph(trend)
         image = draw_trend(trend, self.period, alternative, self.language.decimal_sign)
         anchor = self.anchors.get(make_key_of(trend.series), "")
@@ -249,7 +256,7 @@ class CellWriter(LanguageWriter):
         return text
 
 
-def make_key_of(series: Series) -> tuple[str, str, str, str]:
+def make_key_of(series: Series) -> TrendKey:
     """Return what tells a parameter of an axis from every other."""
     return series.machine, series.axis, series.standard, series.symbol
 

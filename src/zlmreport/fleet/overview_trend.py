@@ -8,9 +8,12 @@ from dataclasses import replace
 from zlmreport.document.typesetting.overview import (
     OverviewCellContext,
     OverviewGroupContext,
+    OverviewPackedContext,
     OverviewTableContext,
     OverviewTrendContext,
+    PackContext,
     make_drawing,
+    pack,
 )
 from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
@@ -19,6 +22,9 @@ from zlmreport.fleet.overview_cells import CellWriter, make_key_of
 from zlmreport.fleet.trend import Series
 from zlmreport.fleet.trend_graph import LARGE, draw_trend
 from zlmreport.language import join_parts
+
+#: So many trends, of neighbours, are unpacked at once.
+_TOGETHER = 60
 
 
 def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
@@ -42,6 +48,19 @@ def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
             )
         ),
     )
+
+
+def pack_trends(trends: Sequence[Trend], cells: CellWriter) -> Iterator[PackContext]:
+    """Yield the small graphs and what is behind them, of those that are packed."""
+    packed = [each for each in trends if make_key_of(each.series) in cells.packed]
+    drawing = replace(cells, packed={})
+    for start in range(0, len(packed), _TOGETHER):
+        together = packed[start : start + _TOGETHER]
+        shown = (
+            OverviewPackedContext(drawing.write_course(each), render(show_trend_in_full(each, drawing)))
+            for each in together
+        )
+        yield PackContext(str(cells.packed[make_key_of(together[0].series)]), pack(map(render, shown)))
 
 
 def _list_facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:

@@ -92,6 +92,10 @@ DRAFTS_CAPTION = Words(
 
 MACHINES = Words("Machines and axes")
 MACHINE_CAPTION = Words("Latest values and their course since {first}")
+LARGE_CAPTION = Words(
+    "Latest values and their course since {first}; graphs of what needs nobody are drawn when they come in "
+    "sight"
+)
 NO_MACHINE = Words("Machine not named")
 COUNTED_AXES = Words("{number} axis", plural="{number} axes")
 DUE_ON = Words("due {due}")

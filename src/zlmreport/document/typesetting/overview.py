@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import zlib
 from base64 import b64encode
+from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.resources import files
 
@@ -41,6 +43,11 @@ def _embed_face(face: FontFace) -> str:
     return f"data:font/woff2;base64,{b64encode(read_font(f'{face.stem}.woff2')).decode('ascii')}"
 
 
+def pack(markup: Iterable[str]) -> str:
+    """Return markup as the script of an overview unpacks it: deflated, in base64."""
+    return b64encode(zlib.compress("".join(markup).encode(), zlib.Z_BEST_COMPRESSION)).decode("ascii")
+
+
 _NO_DRAWING = Markup()
 
 
@@ -65,6 +72,7 @@ class OverviewCellContext:
     #: address and title: Where a click on the graph leads, and what a pointer on it says; empty for most.
     address: str = ""
     title: str = ""
+    packed: str = ""  #: Number of the trend whose graph the script puts here; empty for most.
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,13 +99,14 @@ class OverviewTableContext(Context):
 
 @dataclass(frozen=True, slots=True)
 class OverviewRowContext:
-    """A parameter of an axis: its cells, of which the first names the axis, and what it is chosen by."""
+    """A parameter of an axis: its cells, before them the axis."""
 
-    #: The axis, which of several rows of one only the first names; and over how many rows it stands.
+    #: The axis, which of several rows of one only the first names; over how many rows it stands; and by what
+    #: a reader chooses and orders it.
     head: OverviewCellContext | None
     rows: int
-    cells: tuple[OverviewCellContext, ...]
     facts: tuple[tuple[str, str], ...]
+    cells: tuple[OverviewCellContext, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +145,23 @@ class OverviewTrendContext(Context):
 
 
 @dataclass(frozen=True, slots=True)
+class OverviewPackedContext(Context):
+    """A small graph with the trend behind it, before both are packed."""
+
+    template = "overview_packed.html"
+    course: OverviewCellContext
+    trend: Markup
+
+
+@dataclass(frozen=True, slots=True)
+class PackContext:
+    """Trends that the script unpacks when one of them is looked at: number of the first, and all of them."""
+
+    first: str
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
 class TileContext:
     """A number of the headline: what it counts, its style, and the anchor of the table that lists it."""
 
@@ -158,16 +184,23 @@ class OverviewSectionContext(Context):
 
 
 @dataclass(frozen=True, slots=True)
-class OverviewToolsContext(Context):
-    """Search, choices and order of the axes, above their table."""
+class OverviewSearchContext(Context):
+    """The search in all tables, above them."""
 
-    template = "overview_tools.html"
+    template = "overview_search.html"
     #: search and example: Label of the field, and what may stand in it.
     search: str
     example: str
+    found: str  #: How many axes are shown: ``{shown}`` of ``{all}``.
+
+
+@dataclass(frozen=True, slots=True)
+class OverviewChoicesContext(Context):
+    """Choices and order of the axes, above their table."""
+
+    template = "overview_choices.html"
     #: Name, label, and the options of each list: what an option stands for, and its text.
     choices: tuple[tuple[str, str, tuple[tuple[str, str], ...]], ...]
-    found: str  #: How many axes are shown: ``{shown}`` of ``{all}``.
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,5 +231,7 @@ class OverviewContext(Context):
     facts: tuple[tuple[str, str], ...]  #: Name and value of what is said of the last night.
     tiles: tuple[TileContext, ...]  #: The numbers of the headline.
     tiles_title: str  #: Name of the headline, for those who cannot see it.
+    search: tuple[Markup, ...]  #: None where there is nothing to be searched.
     sections: tuple[Markup, ...]  #: Markup, in this order.
     trends: tuple[Markup, ...]  #: Trends in full.
+    packs: tuple[PackContext, ...]  #: And those that nobody may ever look at, by their numbers.
