@@ -105,6 +105,14 @@ def test_each_place_that_an_altered_reading_changes_is_told(report: bytes, run: 
     assert "differs  nmtba 200.0 mean_fwd: 3 is stated, and 5.5 recomputed" in output
 
 
+@pytest.mark.long
+def test_a_verdict_is_told_as_the_results_file_has_it(report: bytes, run: Run) -> None:
+    _, output, _ = run(
+        with_results(report, lambda found: found["evaluations"][0]["parameters"][0].update(conforms=1))
+    )
+    assert "conforms: 1 is stated, and true recomputed" in output
+
+
 def test_machines_read_every_finding(report: bytes, run: Run) -> None:
     code, output, _ = run(with_value(report, 7.25), "--json")
     found = json.loads(output)

@@ -107,6 +107,11 @@ SINS = [
         "does not carry the certificate's number",
     ),
     (renderers.prints_what_the_document_says, {"render": title_only}, "does not print "),
+    (
+        renderers.prints_what_the_document_says,
+        {"render": on_paper(lambda page: page + b"<p>Verdict(mark=&lt;Mark.MET: 'met'&gt;, word='met')</p>")},
+        "prints an object as Python shows it: Verdict(mark=<Mark.MET: 'met'>…; a cell is a text",
+    ),
     (renderers.prints_what_the_document_says, {"render": without(Notice)}, "(notice: heading "),
     (renderers.prints_what_the_document_says, {"render": without(Table)}, "(verdict: "),
     (renderers.prints_what_the_document_says, {"render": without(Formulas)}, "(formulas: "),

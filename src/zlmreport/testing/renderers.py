@@ -13,9 +13,10 @@ import time
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from html.parser import HTMLParser
-from typing import TypeAlias
+from typing import TypeAlias, get_args
 from xml.etree import ElementTree as ET
 
+from zlmreport.document.blocks import Block, Cell
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport.plugin.kinds import RENDERER
@@ -101,6 +102,12 @@ def prints_what_the_document_says(renderer: Renderer, read: Reader | None = None
         return
     missing = [f"{word} ({what})" for what, word in words.items() if word not in _remove_spaces(text)]
     expect(not missing, f"{renderer.identifier}: the file does not print {', '.join(missing)}")
+    printed = _OBJECT.search(text)
+    expect(
+        not printed,
+        f"{renderer.identifier}: the file prints an object as Python shows it: {printed and printed[0]}…; a "
+        "cell is a text, a Symbol (notation_spans), an Explained (name, meaning) or a Verdict (word)",
+    )
 
 
 @check
@@ -277,6 +284,10 @@ _WORD = "Kitword"
 _DATA = frozenset({".json", ".xml", ".xlsx", ".csv"})
 _TABLES = frozenset({".csv"})
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
+
+#: Of blocks and cells as Python shows them.
+_KINDS = [each.__name__ for each in (*get_args(Block), *get_args(Cell)) if each is not str]
+_OBJECT = re.compile(rf"(?:{'|'.join(_KINDS)})\(\w+=[^,)]*")
 
 #: Every check of a renderer, each called with it and with how its author reads its files.
 RENDERER_CHECKS = list_checks_of(__name__)

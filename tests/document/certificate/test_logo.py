@@ -54,9 +54,16 @@ def test_a_small_file_that_unpacks_to_a_huge_picture_is_refused(tmp_path, kind):
 
 
 @pytest.mark.parametrize(
-    "content", [b"\x89PNG\r\n\x1a\nrest", b"\xff\xd8\xffrest", b"\xff\xd8\xff\xe0\x00\x00" * 9]
+    "content",
+    [
+        b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x09\0\0\0\x09\x08\x02\0\0\0....\0\0\x90\0IDATbroken off",
+        b"\xff\xd8\xff\xc0\0\x11\x08\0\x09\0\x09\x03 broken off",
+        b"\x89PNG\r\n\x1a\nrest",
+        b"\xff\xd8\xffrest",
+        b"\xff\xd8\xff\xe0\x00\x00" * 9,
+    ],
 )
-def test_a_picture_without_a_size_is_damaged(tmp_path, content):
+def test_a_picture_without_a_size_or_an_end_is_damaged(tmp_path, content):
     path = tmp_path / "logo.png"
     path.write_bytes(content)
     with pytest.raises(InputError, match="is damaged; save it again"):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import re
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +14,13 @@ from fontTools.ttLib import TTFont
 from document.certificate.documents import certificate, having
 from installed import registry
 from refusals import refusal
+from zlmreport.document.typesetting import own_templates
 from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.renderer import Certificate
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 TYPEFACE = {"regular": str(FONTS / "DejaVuSerif.ttf"), "semibold": str(FONTS / "DejaVuSerif-Bold.ttf")}
+FOR = "{% for each in range(999) %}"
 NOTICE = '<div class="house">{% include "usual/notice.html" %}</div>'
 
 
@@ -105,17 +106,46 @@ def test_a_template_takes_the_place_of_one_kind_of_block(tmp_path: Path, rendere
 @pytest.mark.parametrize(
     ("template", "told"),
     [
-        ("{{ heading }}", r"notice\.html: this template leaves out"),
-        ("<p>{{ headline }}</p>", r"notice\.html: this template does not work: 'headline' is undefined"),
-        ("\n{% if %}", r"notice\.html:2:1: this template does not work"),
-        ("<p>" + NOTICE, r"notice\.html: this template does not work: mismatched tag"),
-        ("{{ ''.__class__.__mro__ }}" + NOTICE, r"notice\.html: this template does not work: access"),
-        ('{% include "../../secret" %}', r"notice\.html: this template does not work"),
+        ("{{ heading }}", ": this template leaves out"),
+        ("\n<p>{{ headng }}</p>", ":2:1: … 'headng' is not given here; did you mean 'heading'?"),
+        ("{{ items }}\n{{ items.x }}", ":2:1: … 'x' is nothing that this value has; known: count, index"),
+        ("\n{% if %}", ":2:1: … Expected an expression"),
+        ("\n{{ heading | uper }}", ":2:1: … No filter named 'uper'"),
+        (
+            "\n<p>" + NOTICE + "<br></p>",
+            ": … what it writes is no XHTML: mismatched tag in </div></div><br></p>",
+        ),
+        ("<p>" + NOTICE, ": … what it writes is no XHTML: an element is not closed"),
+        ("{{ ''.__class__.__mro__ }}" + NOTICE, ":1:1: … access to attribute"),
+        ('\n{% include "../../secret" %}', ":2:1: … there is no template '../../secret'; known: facts.html"),
+        (
+            '{% include "usual/notise.html" %}',
+            ":1:1: … there is no template 'usual/notise.html'; did you mean",
+        ),
+        ("\n{{ 1 / 0 }}", ":2:1: … division by zero"),
+        ('\n{% include "notice.html" %}', ":2:1: … it "),
+        (
+            f"\n{FOR}{FOR}{FOR}x{'{% endfor %}' * 3}",
+            ":2:1: … it has not come to its end after 100000 steps",
+        ),
+        ("\n{{ 'x' * 10 ** 9 }}", ":2:1: … the result of * is too large"),
+        ("\n{{ 10 ** 1000000 }}", ":2:1: … the result of ** is too large"),
     ],
 )
-def test_a_template_that_is_wrong_or_leaves_out_is_refused(tmp_path: Path, template: str, told: str) -> None:
-    found = styled(tmp_path, templates=str(templates(tmp_path, notice_html=template)))
-    assert re.match(told, told_of(found)), told_of(found)
+def test_a_template_that_is_wrong_or_leaves_out_is_refused_at_its_line(
+    tmp_path: Path, template: str, told: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(own_templates, "MOST_STEPS", 100_000)
+    house = templates(tmp_path, notice_html=template)
+    expected = f"{house / 'notice.html'}{told.replace('…', 'this template does not work:')}"
+    assert told_of(styled(tmp_path, templates=str(house))).startswith(expected)
+
+
+def test_a_template_that_is_no_utf_8_is_named_with_its_line(tmp_path: Path) -> None:
+    house = templates(tmp_path, notice_html=NOTICE, table_html="")
+    (house / "table.html").write_bytes(b"<div>\n\xff</div>")
+    with pytest.raises(InputError, match=r"table\.html:2:1: byte 7 is no UTF-8"):
+        styled(tmp_path, templates=str(house))
 
 
 def test_a_picture_cannot_be_left_out_either(tmp_path: Path) -> None:

@@ -44,6 +44,12 @@ def test_a_placeholder_is_looked_up_and_nothing_is_executed(tmp_path: Path) -> N
         )
 
 
+@pytest.mark.parametrize("written", ["{customer.name", "{ customer.name }", "{customer.name }"])
+def test_a_placeholder_that_is_not_closed_or_has_blanks_is_refused(tmp_path: Path, written: str) -> None:
+    told = refusal(certificate, tmp_path, having(style={"footer": f"Order 4711 · {written} · A"}))
+    assert f"{written!r} stands for no value; write {{customer.name}}" in told
+
+
 def test_what_a_customer_is_called_is_no_placeholder(tmp_path: Path) -> None:
     customer = {**COMPLETE["customer"], "name": "{certificate.number} Ltd"}
     keys = {**having(style={"header": "{customer.name}"}), "customer": customer}

@@ -96,18 +96,27 @@ class Typeface:
 
 
 @dataclass(frozen=True, slots=True)
+class OwnTemplate:
+    """A template of a laboratory's own, or its style sheet: name, path as messages show it, text."""
+
+    name: str
+    path: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Look:
     """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands.
 
-    `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, by name, with
-    its style sheet ``style.css`` among them. Where it `may_lack_letters`, boxes stand for those that no
+    `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, its
+    style sheet ``style.css`` among them. Where it `may_lack_letters`, boxes stand for those that no
     typeface has: so a document is printed only to be compared with one that was issued.
     """
 
     accent: str = ACCENT
     logo: Literal["left", "right"] = "right"
     typeface: Typeface | None = None
-    templates: tuple[tuple[str, str], ...] = ()
+    templates: tuple[OwnTemplate, ...] = ()
     may_lack_letters: bool = False
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from string import ascii_letters, digits, punctuation
 from typing import TYPE_CHECKING
 
-from zlmreport.document.certificate.document import Look, Typeface
+from zlmreport.document.certificate.document import Look, OwnTemplate, Typeface
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean, quoted
@@ -99,7 +99,7 @@ def _load_font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, 
     return scaled.getvalue(), width("0") / em, width(".") / em
 
 
-def _read_templates(folder: Path, place: Place) -> tuple[tuple[str, str], ...]:
+def _read_templates(folder: Path, place: Place) -> tuple[OwnTemplate, ...]:
     try:
         names = sorted(each.name for each in folder.iterdir() if not each.name.startswith("."))
     except OSError as error:
@@ -108,10 +108,18 @@ def _read_templates(folder: Path, place: Place) -> tuple[tuple[str, str], ...]:
         if name not in TEMPLATES:
             told = did_you_mean(name, TEMPLATES)
             raise InputError.at(place, f"{folder.name}/{name} stands for no block of a document; {told}")
+    return tuple(OwnTemplate(name, str(folder / name), _read_text(folder / name, place)) for name in names)
+
+
+def _read_text(path: Path, place: Place) -> str:
+    content = _read_content(path, place)
     try:
-        return tuple((name, _read_content(folder / name, place).decode()) for name in names)
+        return content.decode()
     except UnicodeDecodeError as error:
-        raise InputError.at(place, f"a template of {folder.name} is no UTF-8") from error
+        line = content.count(b"\n", 0, error.start) + 1
+        raise InputError.at(
+            Place(str(path), line), f"byte {error.start + 1} is no UTF-8; save the file as UTF-8"
+        ) from error
 
 
 def _read_content(path: Path, place: Place) -> bytes:
@@ -185,15 +193,26 @@ def describe(content: bytes) -> Picture | None:
 
 
 def _read_png(content: bytes) -> Picture:
-    """Read the header (ISO/IEC 15948), which comes first and knows no inks."""
-    if content[12:16] != b"IHDR":
+    """Read the header (ISO/IEC 15948), which comes first and knows no inks; one without an end is damaged."""
+    if content[12:16] != b"IHDR" or not _has_end(content):
         return Picture("image/png")
     return Picture("image/png", int.from_bytes(content[16:20]), int.from_bytes(content[20:24]))
 
 
+def _has_end(content: bytes) -> bool:
+    """Return whether the chunks of a PNG lead to its last one: length, name, data, check sum."""
+    place = 8
+    while (name := content[place + 4 : place + 8]) and name != b"IEND":
+        place += 12 + int.from_bytes(content[place : place + 4])
+    return bool(name)
+
+
 def _read_jpeg(content: bytes) -> Picture:
-    """Read the first header of a frame (ISO/IEC 10918-1, B.2.2): C0 to CF, but for C4, C8 and CC."""
-    place = 2
+    """Read the first header of a frame (ISO/IEC 10918-1, B.2.2): C0 to CF, but for C4, C8 and CC.
+
+    One that does not come to its end (D9) is damaged.
+    """
+    place = 2 if b"\xff\xd9" in content else len(content)
     while content[place : place + 1] == b"\xff" and place + 10 <= len(content):
         marker = content[place + 1]
         if 0xC0 <= marker <= 0xCF and marker not in {0xC4, 0xC8, 0xCC}:

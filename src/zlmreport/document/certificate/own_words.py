@@ -20,7 +20,10 @@ if TYPE_CHECKING:
 
 #: Above what no reading gives: nobody is to take it for a result.
 _QUOTED = Words("The laboratory's own words")
-_PLACEHOLDER = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)+)\}")
+_KEY = r"([a-z_]+(?:\.[a-z_]+)+)"
+_PLACEHOLDER = re.compile(rf"\{{{_KEY}\}}")
+#: A key in braces with blanks beside it, or without the second brace.
+_MISWRITTEN = re.compile(rf"\{{\s*{_KEY}(?![a-z_.])\s*\}}?")
 _NAMES = frozenset({"conditions", "definitions", "uncertainty", "readings", "origin", "opinions", "model"})
 #: Sections that a calibration certificate cannot leave out: what they state, and its clause of ISO/IEC 17025.
 _MANDATORY = {
@@ -46,6 +49,11 @@ def fill_in(text: str, job: Job, key: str) -> str:
         )
         for name in dict.fromkeys(_PLACEHOLDER.findall(text))
         if name not in known
+    )
+    problems += tuple(
+        Problem(job.place_of(key), f"{found[0].strip()!r} stands for no value; write {{{found[1]}}}")
+        for found in _MISWRITTEN.finditer(text)
+        if found[1] in known and not _PLACEHOLDER.fullmatch(found[0])
     )
     if problems:
         raise InputError(problems)

@@ -26,7 +26,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.columns import GatheredBlock, NumberedBlock
-from zlmreport.document.certificate.document import Certificate, Linked
+from zlmreport.document.certificate.document import Certificate, Linked, OwnTemplate
 from zlmreport.document.certificate.endings import Ending, find_endings, is_all_of
 from zlmreport.document.typesetting.resources import write_linked_values
 from zlmreport.document.typesetting.templates import (
@@ -121,7 +121,7 @@ def _set_section(  # noqa: PLR0913, PLR0917 - what a section is set from
     ending: Ending,
     blocks: list[tuple[GatheredBlock, Markup]],
     linked: Linked | None,
-    own: tuple[tuple[str, str], ...],
+    own: tuple[OwnTemplate, ...],
 ) -> Markup:
     """Set a section, the linked graphs before the first that cannot be pointed at."""
     markup = [each for _, each in blocks]

@@ -66,7 +66,7 @@ def write_font_faces(address: Callable[[FontFace], str]) -> str:
 
 def write_own_style(look: Look, address: Callable[[bytes], str]) -> str:
     """Return the style sheet of a laboratory's own look; `address` says where a font is found."""
-    rules = [text for name, text in look.templates if name == STYLE_SHEET]
+    rules = [each.text for each in look.templates if each.name == STYLE_SHEET]
     if face := look.typeface:
         regular, semibold = face.regular, face.semibold
         family = f"own-{sha256(regular + semibold).hexdigest()[:12]}"

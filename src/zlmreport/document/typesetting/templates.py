@@ -13,16 +13,21 @@ from functools import lru_cache
 from html import unescape
 from math import inf
 from typing import ClassVar
-from xml.etree import ElementTree as ET
 
-from jinja2 import ChoiceLoader, DictLoader, PackageLoader, PrefixLoader, StrictUndefined, TemplateError
+from jinja2 import ChoiceLoader, FunctionLoader, PackageLoader, PrefixLoader
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
 from zlmreport.document.blocks import Facts, Symbol, split_at_symbols
-from zlmreport.document.certificate.document import Certificate, Letterhead
+from zlmreport.document.certificate.document import Certificate, Letterhead, OwnTemplate
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
+from zlmreport.document.typesetting.own_templates import (
+    BoundedEnvironment,
+    LackingValue,
+    demand_xhtml,
+    render_own,
+)
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.errors import InputError, Place
 from zlmreport.language.formatting import HELD, WORD_JOINER, Span, hold_together, split_spans
@@ -222,21 +227,23 @@ def _hold_together(value: object) -> object:
 
 
 @lru_cache(maxsize=8)
-def make_environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
+def make_environment(own: tuple[OwnTemplate, ...] = ()) -> ImmutableSandboxedEnvironment:
     """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
-    usual = PackageLoader(PACKAGE)
-    return ImmutableSandboxedEnvironment(
-        loader=ChoiceLoader([DictLoader(dict(own)), usual, PrefixLoader({_USUAL: usual})]) if own else usual,
+    usual, house = PackageLoader(PACKAGE), {each.name: (each.text, each.path, lambda: True) for each in own}
+    return (BoundedEnvironment if own else ImmutableSandboxedEnvironment)(
+        loader=ChoiceLoader([FunctionLoader(house.get), usual, PrefixLoader({_USUAL: usual})])
+        if own
+        else usual,
         autoescape=True,
         finalize=_hold_together,
-        undefined=StrictUndefined,
+        undefined=LackingValue,
         trim_blocks=True,
         lstrip_blocks=True,
         auto_reload=False,
     )
 
 
-def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
+def render(context: Context, own: tuple[OwnTemplate, ...] = ()) -> Markup:
     """Render the template that belongs to a context; characters that XML cannot hold are shown as U+FFFD.
 
     Raises `InputError` if a template of a laboratory's own is wrong, or leaves out a word that the usual one
@@ -245,17 +252,12 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
     values = {field.name: getattr(context, field.name) for field in fields(context)}
     name = context.template
     text = make_environment().get_template(name).render(values)
-    if name in dict(own):
-        usual, place = text, Place(name)
-        try:
-            text = make_environment(own).get_template(name).render(values)
-            ET.fromstring(f"<block>{_NOT_IN_XML.sub(_REPLACEMENT, text)}</block>")  # noqa: S314 - the job's own
-        except (TemplateError, ArithmeticError, RecursionError, TypeError, ET.ParseError) as error:
-            line = getattr(error, "lineno", None) or 0
-            raise InputError.at(Place(name, line), f"this template does not work: {error}") from error
+    if house := next((each for each in own if each.name == name), None):
+        usual, text = text, render_own(house, own, make_environment(own), values)
+        demand_xhtml(house, _NOT_IN_XML.sub(_REPLACEMENT, text))
         if lacking := [*(_count_shown(usual) - _count_shown(text))]:
             raise InputError.at(
-                place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
+                Place(house.path), f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
             )
     text = _set_held_words(
         _NOT_IN_XML.sub(_REPLACEMENT, text), context.room if isinstance(context, FactsContext) else inf
