@@ -97,6 +97,15 @@ def test_a_name_that_is_as_likely_as_a_form_goes_before_it() -> None:
 
 
 @pytest.mark.long
+def test_a_bump_has_the_place_of_three_names_that_describe_it() -> None:
+    drawn = drawn_axis(46006, with_stranger=True)  # a polynomial, a worn zone and a kink, or one bump
+    found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)
+    assert not {"polynomial", "worn-zone", "scale-kink"} & {each.identifier for each in found.together}
+    assert found.remainder is not None
+    assert is_where_told(found.remainder, drawn)
+
+
+@pytest.mark.long
 def test_a_displaced_stretch_among_many_targets_is_no_joint_and_another_back() -> None:
     drawn = drawn_axis(33010, with_stranger=True, targets=101)
     found = diagnose(AxisModel((Term(EFFECTS["offset"]),)), drawn.observed, INSTALLED)

@@ -37,8 +37,10 @@ from zlmreport.model.diagnosis.set_members import renumber
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
 #: One beside smooth curves may lack as much.
 _MOST_ALONE, _NEAR = 5, 40.0
-#: Of forms that may stand for two names how many a scan brings, and how many of these are tried.
+#: Of forms that may stand for two names how many a scan brings, and how many of these are tried; and what one
+#: may lack whose place and width are those of a grid.
 _FOR_TWO: Breadth = (3, 1)
+_UNREFINED = 60.0
 #: How many of those that explain most are tried with another in the place of one.
 _FIRSTS = 12
 #: How many of the sets of names alone that were passed are looked at so.
@@ -223,7 +225,8 @@ class SetSearch:
     def _put_forms_for_two(self, now: EffectSet) -> EffectSet:
         """Return where climbs lead in which a form has the place of two names, as long as one ends higher.
 
-        A stretch that is displaced is one joint and another back: beside either of them it is needless.
+        A stretch that is displaced is one joint and another back: beside either of them it is needless. One
+        that stands for three names gains once the third has gone.
         """
         forms = replace(self._whole, with_names=False)
         while True:
@@ -233,13 +236,16 @@ class SetSearch:
                 )
                 for one, other in combinations(now.named, 2)
             )
-            tried = (self._climbs.look_ahead(each, forms, _FOR_TWO, now.score + PROMISING) for each in fewer)
-            better = next(
-                (each for each in chain.from_iterable(tried) if each.score < now.score - GAIN), None
+            tried = (self._climbs.look_ahead(each, forms, _FOR_TWO, now.score + _UNREFINED) for each in fewer)
+            ends = (
+                self._climb(each, self._whole, goal=now.score)
+                for each in chain.from_iterable(tried)
+                if each.score < now.score + PROMISING
             )
+            better = next((each for each in ends if each.score < now.score - GAIN), None)
             if better is None:
                 return now
-            now = min(better, self._climb(better, self._whole), key=find_score)
+            now = better
 
     def _begin(self, members: Sequence[SetMember], scope: Scope) -> EffectSet:
         """Return a set with its best amplitudes near nothing."""
