@@ -209,3 +209,13 @@ def test_effect_with_a_log_of_its_own_brings_a_test_that_has_it() -> None:
         check_effect(Hydraulic())
     design = DESIGNS["a complete linear test"]
     check_effect(Hydraulic(), {"a test with oil": replace(design, conditions={"oil_pressure": design.time})})
+
+
+@pytest.mark.filterwarnings("error")
+def test_columns_that_are_infinite_are_told_as_such() -> None:
+    def columns(_self: object, design: Design, *_: object) -> object:
+        return np.full((len(design.position), 1), np.inf)
+
+    sinner = make_sinner(ExemplaryEffect, {"columns": columns})
+    assert "is_seen_somewhere" not in (told := failed_checks(check_effect, sinner))
+    assert {"columns_are_readings_by_parameters", "plausible_sizes_are_metres"} <= {*told}

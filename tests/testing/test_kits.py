@@ -35,6 +35,16 @@ def test_exit_in_one_check_ends_no_other() -> None:
     assert "Traceback" not in str(failure.value)
 
 
+def test_what_several_checks_find_is_said_once() -> None:
+    def raises(_self: object, *_: object) -> None:
+        raise ValueError("no")
+
+    found = failure(check_standard, type("Sinner", (ExemplaryStandard,), {"arithmetic": raises})())
+    sentences = [line.partition(": ")[2] for line in found.splitlines()]
+    told = [each for each in sentences if not each.startswith("as ")]
+    assert len(told) == len(set(told)) < len(sentences)
+
+
 def test_raw_error_becomes_a_sentence_with_its_line() -> None:
     with pytest.raises(AssertionError, match=r"exemplary:1: raised KeyError: 'A' \(test_kits.py, line \d+\)"):
         check_standard(_sinful(figures=property(lambda _: {}["A"])))

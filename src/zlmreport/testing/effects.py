@@ -176,6 +176,8 @@ def _count_independent(form: Effect, design: Design, *, beside_constant: bool) -
     if beside_constant:
         columns.append(np.ones((len(design.position), 1)))
     matrix = np.hstack(columns)
+    if not np.isfinite(matrix).all():
+        return int(matrix.shape[1])  # another check says so
     lengths = np.linalg.norm(matrix, axis=0)
     matrix = matrix[:, lengths > 0] / lengths[lengths > 0]
     return int(np.linalg.matrix_rank(matrix, tol=_ROUNDING * max(matrix.shape))) if matrix.size else 0
@@ -328,6 +330,8 @@ def is_seen_somewhere(effect: Effect, designs: Designs, *_more: Any) -> None:
     for form, _, design in _list_tested(effect, designs):
         for theta in _select_some(form.grid(design)):
             columns = form.columns(design, theta)
+            if not np.isfinite(columns).all():
+                return  # another check says so
             lengths = np.linalg.norm(columns, axis=0)
             if np.all(lengths > 0) and np.linalg.matrix_rank(columns / lengths) == len(form.linear):
                 return

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
@@ -84,16 +84,21 @@ def expect_members(offered: object, kind: Kind[Any]) -> None:
 def run_all(kind: Kind[Any], checks: Iterable[Callable[..., None]], *subject: object) -> None:
     """Run every check on the subject; raise one `AssertionError` with the sentences of all that fail.
 
-    Where a member that its kind has is missing, that alone is said.
+    Where a member that its kind has is missing, that alone is said; what several checks say, once.
     """
     expect_members(subject[0], kind)
-    failures = []
+    failures: dict[str, str] = {}
     for check in checks:
         try:
             check(*subject)
         except AssertionError as failure:
-            failures.append(f"{check.__name__}: {failure}")
-    expect(not failures, "\n".join(failures))
+            said = str(failure)
+            failures[check.__name__] = f"as {before}" if (before := _find_key(failures, said)) else said
+    expect(not failures, "\n".join(f"{name}: {said}" for name, said in failures.items()))
+
+
+def _find_key(failures: Mapping[str, str], said: str) -> str:
+    return next((name for name, sentence in failures.items() if sentence == said), "")
 
 
 def guard_subject(subject: Any, kind: Kind[Any]) -> Any:
