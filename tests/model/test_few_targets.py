@@ -113,14 +113,17 @@ def test_what_would_not_lower_the_error_beside_a_large_remainder_is_not_named(se
     assert is_told is (found.candidates[0].probability >= 0.8)
 
 
-@pytest.mark.parametrize(("targets", "is_refused"), [(6, True), (7, False)])
-def test_a_set_with_as_many_numbers_as_there_are_targets_is_refused(targets: int, is_refused: bool) -> None:
-    # Offset and slope are two, first and second harmonic of a known pitch four.
+@pytest.mark.parametrize(("targets", "is_refused"), [(9, True), (10, False)])
+def test_a_set_with_more_numbers_than_there_are_targets_is_refused(targets: int, is_refused: bool) -> None:
+    # Offset and slope are two, first and second harmonic of a known pitch and of a signal period four each.
     design = linear_test(targets, 5)
     base = fit(_MODEL, design, noise(design, seed=3)).compute_base()
-    pitch = EFFECTS["screw-pitch"]
-    contest = Contest.of(design, base, [pitch.with_settings(pitch.options(harmonics=[1, 2]))])
-    costs = SetCosts(contest).compute([make_member(contest.families[0], 0, 0.0)], contest.quiet)
+    effects = [EFFECTS[each] for each in ("screw-pitch", "encoder-interpolation")]
+    contest = Contest.of(
+        design, base, [each.with_settings(each.options(harmonics=[1, 2])) for each in effects]
+    )
+    members = [make_member(each, 0, 0.0) for each in contest.families]
+    costs = SetCosts(contest).compute(members, contest.quiet)
     assert (costs >= FORBIDDEN) is is_refused
 
 
@@ -137,11 +140,13 @@ def test_of_a_model_that_describes_any_readings_it_is_said_so() -> None:
     ("names", "targets", "is_too_rich"),
     [
         (("offset",), 2, False),
-        (("offset", "scale-error"), 2, True),
+        (("offset", "scale-error"), 2, False),  # nobody asks more of two targets
         (("offset", "scale-error"), 3, False),
         (("offset", "scale-error", "thermal-drift"), 3, False),
-        (("offset", "backlash", "backlash-gradient"), 2, True),
-        (("offset", "backlash", "backlash-gradient"), 3, False),
+        (("offset", "scale-error", "screw-pitch"), 6, True),
+        (("offset", "scale-error", "screw-pitch"), 7, False),
+        (("offset", "backlash", "directional-pitch", "backlash-gradient"), 4, True),
+        (("offset", "backlash", "backlash-gradient", "lost-motion-step"), 5, False),
     ],
 )
 def test_numbers_count_in_the_mean_of_both_directions_and_in_their_difference(

@@ -163,10 +163,9 @@ def test_period_that_the_data_contradict_is_tried_as_another_form_of_the_screw()
     assert effect.expected(_DESIGN.axis) == {"period": 0.01}
 
 
-def test_another_pitch_has_harmonics_and_they_are_tried_where_it_stands_in_the_model() -> None:
+def test_harmonics_of_another_pitch_are_tried_where_it_stands_in_the_model() -> None:
     effect = EFFECTS["screw-pitch"]
     other = effect.with_settings(effect.options(harmonics=(1,), pitch="other"))
-    assert effect.options(harmonics=(1, 2), pitch="other") in [form.settings for form in effect.forms()]
     assert effect.options(harmonics=(1, 2, 3, 4), pitch="other") in [
         form.settings for form in other.further_forms()
     ]
@@ -183,17 +182,6 @@ def test_nothing_that_counts_from_the_stated_pitch_stands_beside_another() -> No
         reason.in_language(Language.ENGLISH)
         == "screw-pitch has another value than the job states under axis.screw_pitch"
     )
-
-
-@pytest.mark.parametrize(("waves", "harmonics"), [((0.012, 0.006), (1, 2)), ((0.01, 0.01 / 3), (1, 3))])
-def test_a_wave_and_its_harmonic_are_one_screw(
-    waves: tuple[float, float], harmonics: tuple[int, ...]
-) -> None:
-    large, small = (np.sin(2 * np.pi * _DESIGN.position / each + 1) for each in waves)
-    deviation = 3e-6 * large + 1e-6 * small + noise(_DESIGN, sigma=4e-7)
-    found = diagnose(model_of("offset"), observations(_DESIGN, deviation), INSTALLED)
-    assert [each.identifier for each in found.together] == ["screw-pitch"]
-    assert found.together[0].settings.model_dump()["harmonics"] == harmonics
 
 
 def test_other_pitches_are_none_that_the_stated_one_has_as_a_harmonic() -> None:

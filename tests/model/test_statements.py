@@ -108,7 +108,7 @@ def test_what_is_left_beside_a_name_is_told_after_it() -> None:
 
 
 def test_what_is_left_after_a_build_stands_beside_its_steps_and_else_alone() -> None:
-    last = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, remainder=LEFT)
+    last = replace(example_diagnosis(), verdict=DiagnosisVerdict.UNEXPLAINED, candidates=(), remainder=LEFT)
     after_steps, alone = (
         write_statement_after_build(last, has_steps=each).in_language(Language.ENGLISH)
         for each in (True, False)
@@ -166,7 +166,7 @@ def test_unequal_scatter_makes_a_model_no_less_adequate(test: ResidualTest) -> N
 
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
-    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=LEFT) == (
+    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, candidates=(), remainder=LEFT) == (
         "Something is left that no installed effect explains: a bump, around 250 mm; root mean square 1.2 µm."
     )
 
@@ -182,7 +182,7 @@ def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
 def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(odds: float, told: str) -> None:
     effects = (EFFECTS["first-run"], EFFECTS["run-displaced"])
     left = replace(LEFT, instead=NamesInstead(effects, odds))
-    statement = said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=left)
+    statement = said(verdict=DiagnosisVerdict.UNEXPLAINED, candidates=(), remainder=left)
     assert statement.startswith("Something is left that no installed effect explains for sure: a bump")
     assert statement.endswith(told)
     assert "explains for sure" not in said(remainder=left)
@@ -191,7 +191,9 @@ def test_names_that_are_not_told_from_what_has_none_are_told_with_their_odds(odd
 
 def test_all_parts_of_what_has_no_name_are_told_with_their_places() -> None:
     also = replace(LEFT, shape=same("every run displaced as a whole"), where=same("most in run 2"))
-    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=replace(LEFT, further=(also,))) == (
+    assert said(
+        verdict=DiagnosisVerdict.UNEXPLAINED, candidates=(), remainder=replace(LEFT, further=(also,))
+    ) == (
         "Something is left that no installed effect explains: a bump, around 250 mm, and every run displaced "
         "as a whole, most in run 2; root mean square 1.2 µm."
     )
@@ -199,7 +201,9 @@ def test_all_parts_of_what_has_no_name_are_told_with_their_places() -> None:
 
 def test_parts_at_one_place_are_told_with_it_once() -> None:
     also = replace(LEFT, shape=same("a step"))
-    assert said(verdict=DiagnosisVerdict.UNEXPLAINED, remainder=replace(LEFT, further=(also,))) == (
+    assert said(
+        verdict=DiagnosisVerdict.UNEXPLAINED, candidates=(), remainder=replace(LEFT, further=(also,))
+    ) == (
         "Something is left that no installed effect explains: a bump, and a step, around 250 mm; root mean "
         "square 1.2 µm."
     )

@@ -23,7 +23,7 @@ from zlmreport.plugin import InputError, Language
 from zlmreport.plugin.renderer import Attachment, Certificate, CertificateSource, Relationship
 from zlmreport.plugin.source import SourceFile
 
-PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1rest"
+PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0sums\0\0\0\0IENDsums"
 
 
 def composed(folder: Path, *lines: str, readings: str = "six.txt", job: str = "jobs/job.yaml") -> Certificate:

@@ -18,6 +18,8 @@ from zlmreport.model.effects.design import Design
 
 #: Of the largest value of a column, what is as small is rounding.
 _ROUNDING = 1e-9
+#: Of fewer targets a constant and a slope are all that is asked, and both of them are.
+_FEWEST_TARGETS = 4
 #: Numbers in the mean of both directions, and in their difference.
 Counted: TypeAlias = tuple[int, int]
 
@@ -41,14 +43,15 @@ class FixedNumbers:
         self._known: dict[int, Counted] = {}  # of families
 
     def are_too_many(self, members: Sequence[SetMember]) -> bool:
-        """Return whether the numbers of a set and of the model are no fewer than the targets."""
+        """Return whether the numbers of a set and of the model are more than the targets."""
         own = [self._count_numbers(each.family) for each in members]
         sums = zip(zip(*own, strict=True), self._base, self._targets, strict=True)
-        return any(0 < sum(numbers) >= targets - before for numbers, before, targets in sums)
+        return any(_is_too_many(sum(numbers), targets - before, targets) for numbers, before, targets in sums)
 
     def is_model_too_rich(self) -> bool:
         """Return whether the model alone has as many numbers as there are targets, or more."""
-        return any(0 < own >= targets for own, targets in zip(self._base, self._targets, strict=True))
+        pairs = zip(self._base, self._targets, strict=True)
+        return any(own >= targets >= _FEWEST_TARGETS for own, targets in pairs)
 
     def _count_numbers(self, family: Family) -> Counted:
         """Return the numbers of a family: those that the model does not imitate, and what is searched."""
@@ -73,6 +76,10 @@ class FixedNumbers:
         mean = (down + up) / np.maximum(there.sum(axis=0), 1)
         difference = (up - down)[self._both]
         return _count_independent(mean), _count_independent(difference)
+
+
+def _is_too_many(numbers: int, left: int, targets: int) -> bool:
+    return targets >= _FEWEST_TARGETS and 0 < numbers > left
 
 
 def _count_independent(columns: FloatArray) -> int:

@@ -68,13 +68,6 @@ class SetSearch:
         self._regular = Scope(
             tuple(len(part.levels) if part.irregular is None else part.noise_levels for part in contest.parts)
         )
-        # And for these shares alone, beside none of the smooth curves.
-        self._irregular = replace(
-            self._names,
-            levels=tuple(
-                part.noise_levels if part.irregular is None else len(part.levels) for part in contest.parts
-            ),
-        )
         # What was tried already: sets with one effect less.
         self._fewer: dict[tuple[Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
 
@@ -156,7 +149,7 @@ class SetSearch:
             parts = [self.contest.parts[number] for number in list_loud(self.contest, best)]
             is_irregular = any(part.irregular is not None for part in parts)
             if is_irregular:
-                best = self._begin_anew(best, (self._regular, self._forms, self._irregular))
+                best = self._begin_anew(best, (self._regular, self._forms))
             elif any(part.course.along is Along.TIME for part in parts):
                 best = self._begin_anew(best, (self._forms,))
             if is_irregular:
@@ -193,8 +186,7 @@ class SetSearch:
 
         `scopes`: What is thought of at first. What is irregular takes in every wave and every step at once:
         where several are there, none gains by itself what it costs; beside curves that are smooth, or forms
-        alone, each does. And where two curves in time cancel each other, a form says when it happens. What is
-        irregular alone leaves a wave in time to its name, which a smooth curve would take in.
+        alone, each does. And where two curves in time cancel each other, a form says when it happens.
         """
         for scope in scopes:
             end = self._climb(self._begin((), scope), scope, is_thorough=True)

@@ -455,13 +455,8 @@ def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[O
             yield options.model_validate({key.name: _read_value(choice)})
     for each in keys.parameters.values():
         if each.instead:
-            # What is not round in a screw of another pitch has harmonics as well.
-            other = {each.instead.key: OTHER}
-            if keys.harmonics is None:
-                yield options.model_validate(other)
-            else:
-                for orders in ((1,), keys.harmonics.usual):
-                    yield options.model_validate({"harmonics": orders, **other})
+            plainest = {"harmonics": (1,)} if keys.harmonics else {}
+            yield options.model_validate({**plainest, each.instead.key: OTHER})
 
 
 def _read_value(text: str) -> str | int:
