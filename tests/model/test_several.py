@@ -13,7 +13,8 @@ import zlmreport as z
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, observations
 from zlmreport.cli import main
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
 from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin import InputError
@@ -169,6 +170,18 @@ def test_harmonics_of_another_pitch_are_tried_where_it_stands_in_the_model() -> 
     assert effect.options(harmonics=(1, 2, 3, 4), pitch="other") in [
         form.settings for form in other.further_forms()
     ]
+
+
+def test_a_build_adds_the_harmonic_of_another_pitch() -> None:
+    large, small = (np.sin(2 * np.pi * _DESIGN.position / each + 1) for each in (0.012, 0.006))
+    observed = observations(_DESIGN, 4e-6 * large + 1.2e-6 * small + noise(_DESIGN, sigma=4e-7))
+    built = build(
+        model_of("offset"),
+        lambda model, may_go, told: diagnose(model, observed, INSTALLED, may_go=may_go, told=told),
+    )
+    (pitch,) = (each.effect for each in built.model.terms if each.effect.identifier == "screw-pitch")
+    assert pitch.settings.model_dump() == {"harmonics": (1, 2), "pitch": "other"}
+    assert built.last.verdict is DiagnosisVerdict.ADEQUATE
 
 
 def test_nothing_that_counts_from_the_stated_pitch_stands_beside_another() -> None:

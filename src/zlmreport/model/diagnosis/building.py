@@ -138,10 +138,10 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         extended, taken = _extend_model(rounds[-1].model, rounds[-1].diagnosis)
         if not taken:
             break
-        tried = [frozenset(each.model.identifiers) for each in rounds]
-        if frozenset(extended.identifiers) in tried:
+        tried = [_name_forms(each.model) for each in rounds]
+        if _name_forms(extended) in tried:
             # Models each of which takes the next for the better one are as good as each other.
-            alike = rounds[tried.index(frozenset(extended.identifiers)) :]
+            alike = rounds[tried.index(_name_forms(extended)) :]
             kept = min(alike, key=lambda each: each.diagnosis.error.rms)
             exchange = kept.find_exchange()
             if exchange is not None:
@@ -163,6 +163,12 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         for each in rounds[-1].steps
     )
     return Built(rounds[0].diagnosis, steps, last, model, exchange, _collect_doubts(rounds))
+
+
+def _name_forms(model: AxisModel) -> frozenset[tuple[str, str]]:
+    """Return the effects of a model, each in its form: one with more harmonics is another."""
+    effects = (term.effect for term in model.terms)
+    return frozenset((each.identifier, each.settings.model_dump_json()) for each in effects)
 
 
 def _collect_doubts(rounds: Sequence[_Round]) -> tuple[Doubt, ...]:

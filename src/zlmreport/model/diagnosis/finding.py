@@ -166,7 +166,14 @@ class _Stated:
             *(form for each in going if each.several for form in each.forms()),
             *(list_effects_to_try(fitted.model, fitted.design, several).forms if going else ()),
         ]
-        forms = (*entered, *(each for each in further if each.identifier not in names))
+        # A form with more harmonics came in once a plainer one stood there.
+        tried = [(each.identifier, each.settings) for each in entered]
+        richer = [each for each in going if (each.identifier, each.settings) not in tried]
+        forms = (
+            *entered,
+            *(each for each in richer if each.identifier in names),
+            *(each for each in further if each.identifier not in names),
+        )
         is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
         return cls(
             fitted,
