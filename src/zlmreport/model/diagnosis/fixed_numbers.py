@@ -1,7 +1,8 @@
 """How many numbers of a set are fixed to position, and how many the targets can tell.
 
 The mean of both directions at m targets is m numbers, their difference as many again. A model with as many
-in one of the two describes any readings, whatever made them: its terms grow without bounds and cancel.
+in one of the two describes any readings, whatever made them: its terms grow without bounds and cancel. A
+search passes through sets with just as many on its way to smaller ones; none with more is looked at.
 """
 
 from __future__ import annotations
@@ -46,7 +47,10 @@ class FixedNumbers:
         """Return whether the numbers of a set and of the model are more than the targets."""
         own = [self._count_numbers(each.family) for each in members]
         sums = zip(zip(*own, strict=True), self._base, self._targets, strict=True)
-        return any(_is_too_many(sum(numbers), targets - before, targets) for numbers, before, targets in sums)
+        return any(
+            targets >= _FEWEST_TARGETS and 0 < sum(numbers) > targets - before
+            for numbers, before, targets in sums
+        )
 
     def is_model_too_rich(self) -> bool:
         """Return whether the model alone has as many numbers as there are targets, or more."""
@@ -76,10 +80,6 @@ class FixedNumbers:
         mean = (down + up) / np.maximum(there.sum(axis=0), 1)
         difference = (up - down)[self._both]
         return _count_independent(mean), _count_independent(difference)
-
-
-def _is_too_many(numbers: int, left: int, targets: int) -> bool:
-    return targets >= _FEWEST_TARGETS and 0 < numbers > left
 
 
 def _count_independent(columns: FloatArray) -> int:
