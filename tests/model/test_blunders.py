@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
+import pytest
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations, pendulum_test
 from zlmreport.model.diagnosis.diagnosis import diagnose
@@ -15,6 +18,24 @@ PENDULUM = pendulum_test(21, 3)
 def test_clean_readings_do_not_stand_off() -> None:
     flagged = [len(find_outliers(DESIGN, noise(DESIGN, seed)).readings) for seed in range(20)]
     assert sum(flagged) <= 4  # of 4200 normal readings
+
+
+@pytest.mark.parametrize("runs", [3, 4, 5])
+def test_chance_sets_readings_aside_no_more_often_than_p_says(runs: int) -> None:
+    """A median of three is one of them: held against that, one test in five with three runs lost good ones."""
+    design, tests = linear_test(21, runs), 100
+    found = [find_outliers(design, noise(design, seed)) for seed in range(tests)]
+    assert sum(len(each.readings) > 0 for each in found) <= 3
+    likely = 0.05 * tests
+    assert sum(each.p_value < 0.05 for each in found) <= likely + 3 * math.sqrt(likely)
+
+
+@pytest.mark.parametrize("runs", [3, 5])
+def test_a_reading_far_off_draws_none_of_its_repeats_after_it(runs: int) -> None:
+    design = linear_test(21, runs)
+    readings = noise(design)
+    readings[57] += 40 * SIGMA
+    assert find_outliers(design, readings).readings.tolist() == [57]
 
 
 def test_a_reading_far_off_is_flagged_and_no_other() -> None:

@@ -13,11 +13,12 @@ import zlmreport as z
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, observations
 from zlmreport.cli import main
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.building import build, name_changes, name_steps
 from zlmreport.model.diagnosis.diagnosis import DiagnosisVerdict, diagnose
 from zlmreport.model.diagnosis.effects_to_try import list_effects_to_try
+from zlmreport.model.diagnosis.report import build_values
 from zlmreport.model.fitting.fit import fit
-from zlmreport.plugin import InputError
+from zlmreport.plugin import Axis, AxisKind, InputError
 from zlmreport.plugin.registry import find_plugins
 
 _DESIGN = linear_test(21, 5)
@@ -182,6 +183,9 @@ def test_a_build_adds_the_harmonic_of_another_pitch() -> None:
     (pitch,) = (each.effect for each in built.model.terms if each.effect.identifier == "screw-pitch")
     assert pitch.settings.model_dump() == {"harmonics": (1, 2), "pitch": "other"}
     assert built.last.verdict is DiagnosisVerdict.ADEQUATE
+    assert name_steps(built.steps) == ("+ screw-pitch", "screw-pitch in another form")
+    assert [each.get("reshaped", False) for each in build_values(built)["steps"]] == [False, True]
+    assert name_changes(built) == ("+ screw-pitch",)
 
 
 def test_nothing_that_counts_from_the_stated_pitch_stands_beside_another() -> None:
@@ -205,7 +209,20 @@ def test_other_pitches_are_none_that_the_stated_one_has_as_a_harmonic() -> None:
     assert not {10.0, 5.0, 2.5} & tried
 
 
-def test_other_pitches_are_not_tried_where_the_job_states_none() -> None:
-    effect = EFFECTS["screw-pitch"]
+def test_usual_pitches_are_tried_where_the_job_states_none() -> None:
+    effect, silent = EFFECTS["screw-pitch"], replace(_DESIGN, axis=replace(_DESIGN.axis, screw_pitch=None))
     other = effect.with_settings(effect.options(pitch="other"))
-    assert other.untestable(replace(_DESIGN, axis=replace(_DESIGN.axis, screw_pitch=None))) is not None
+    assert other.untestable(silent) is None
+    assert {2.0, 5.0, 10.0, 25.4} <= set(np.round(other.grid(silent)[:, 0] * 1e3, 6))
+    assert effect.untestable(silent) is not None
+
+
+def test_no_other_teeth_are_tried_where_the_job_states_no_pitch() -> None:
+    """All whole numbers are searched then."""
+    effect = EFFECTS["gear-mesh"]
+    other = effect.with_settings(effect.options(number="other"))
+    turn = 2 * np.pi
+    table = Axis("C", kind=AxisKind.ROTARY, travel=(0.0, turn))
+    silent = linear_test(axis=table, places=np.linspace(0.0, turn, 21, endpoint=False))
+    assert effect.untestable(silent) is None
+    assert other.untestable(silent) is not None

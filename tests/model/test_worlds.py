@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import EFFECTS, SIGMA, USUAL, known, linear_test, model_of, noise
+from model.axis_tests import AXIS, EFFECTS, SIGMA, USUAL, known, linear_test, model_of, noise
 from model.worlds import (
     built,
     corrected_twice,
@@ -111,6 +111,34 @@ def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> 
     said = _said(diagnosed(USUAL, _DESIGN, known(_DESIGN) + wave + noise(_DESIGN)))
     assert "screw-pitch" in said
     assert "12.0 mm fits, the job says 10.0 mm" in said
+
+
+def test_pitch_that_the_job_does_not_state_is_found() -> None:
+    """Who knows least states none: a wrong one led to the cause, and none to nothing."""
+    design = linear_test(axis=replace(AXIS, screw_pitch=None))
+    wave = 3e-6 * np.sin(2 * np.pi * design.position / 0.016)
+    said = _said(diagnosed(USUAL, design, known(design) + wave + noise(design)))
+    assert "screw-pitch" in said
+    assert "pitch of the screw: 16.0 mm fits, the job states no axis.screw_pitch." in said
+
+
+def test_wave_beside_that_of_the_stated_pitch_contradicts_no_pitch() -> None:
+    design = linear_test(41, 3, axis=replace(AXIS, screw_pitch=0.125))
+    pulley = 5e-6 * np.sin(2 * np.pi * design.position / 0.125)
+    teeth = 4e-6 * np.sin(2 * np.pi * design.position / 0.005)
+    found = built(model_of("offset"), design, pulley + teeth + noise(design))
+    (question,) = found.questions
+    said = question.in_language(Language.ENGLISH)
+    assert said == "pitch of the screw: 5.00 mm fits beside the 125 mm that the job states."
+
+
+@pytest.mark.parametrize("length", [0.06, 0.075])
+def test_wave_shorter_than_two_intervals_is_found_where_targets_lie_irregularly(length: float) -> None:
+    places = np.sort(np.random.default_rng(4).uniform(0.0, 1.0, 21))
+    design = linear_test(places=places, axis=replace(AXIS, screw_pitch=None))
+    wave = 4e-6 * np.sin(2 * np.pi * design.position / length)
+    (found,) = diagnosed(USUAL, design, known(design) + wave + noise(design)).together
+    assert found.identifier == "periodic"
 
 
 def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:

@@ -29,6 +29,7 @@ from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, find_re
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import Panels, collect_errors, collect_parameter
 
+_RESHAPED = Words("{effect}, in another form")
 _READING = Words("{target} {arrow}, run {run}")
 _ARROWS = {"+": "↑", "-": "↓"}
 _STEPS = {
@@ -260,12 +261,13 @@ def make_stairs(
 
     def make_stair(each: Mapping[str, Any]) -> dict[str, Any]:
         removed = bool(each.get("removed"))
-        noise = each["noise_rms"]
+        name, noise = _name_one_of(each, names), each["noise_rms"]
+        reshaped = _RESHAPED.given(effect=name).in_language(language)
         return {
             "effect": each["effect"],
             "argument": _write_argument(each["effect"], each["settings"], job, registry),
             "removed": removed,
-            "name": f"{'−' if removed else '+'} {_name_one_of(each, names)}",
+            "name": reshaped if each.get("reshaped") else f"{'−' if removed else '+'} {name}",
             "before": write(each["rms_before"]),
             "after": write(each["rms_after"]),
             "share": each["rms_after"] / largest,

@@ -38,6 +38,7 @@ class ModelStep:
     before: ErrorNumbers  #: How far the model is from the readings without this step.
     after: ErrorNumbers  #: The same with it.
     is_removed: bool = False  #: Whether the effect goes out again.
+    is_reshaped: bool = False  #: Whether it stood there in another form.
     equals: tuple[str, ...] = ()  #: Effects that the readings did not tell from it when it came in.
 
     @property
@@ -234,18 +235,24 @@ def _extend_model(model: AxisModel, diagnosis: AxisDiagnosis) -> tuple[AxisModel
             fitted = fit(changed, fitted.design, fitted.deviation, diagnosis.fit.assumptions)
         except ModelError:
             continue
+        is_reshaped = not is_removed and effect.identifier in model.identifiers
         model, before, error = changed, error, compute_error_numbers(fitted)
         beside = () if is_removed else equals.get(effect.identifier, ())
-        steps.append(ModelStep(effect, before, error, is_removed, beside))
+        steps.append(ModelStep(effect, before, error, is_removed, is_reshaped, beside))
     return model, steps
 
 
 def name_steps(steps: Sequence[ModelStep]) -> tuple[str, ...]:
     """Return the effects of steps with those not told from them, what goes out with a minus."""
-    return tuple(
-        f"− {each.identifier}" if each.is_removed else f"+ {' or '.join((each.identifier, *each.equals))}"
-        for each in steps
-    )
+    return tuple(map(_name_step, steps))
+
+
+def _name_step(step: ModelStep) -> str:
+    if step.is_removed:
+        return f"− {step.identifier}"
+    if step.is_reshaped:
+        return f"{step.identifier} in another form"
+    return f"+ {' or '.join((step.identifier, *step.equals))}"
 
 
 def name_changes(built: Built) -> tuple[str, ...]:
@@ -254,5 +261,10 @@ def name_changes(built: Built) -> tuple[str, ...]:
     What only passed through is neither; what another effect contains went out without a step of its own.
     """
     added = {each.identifier for each in built.added}
-    coming = {each.identifier: each for each in built.steps if each.identifier in added}
+    before = built.first.fit.model.identifiers
+    coming = {
+        each.identifier: replace(each, is_reshaped=each.identifier in before)
+        for each in built.steps
+        if each.identifier in added
+    }
     return (*name_steps(tuple(coming.values())), *(f"− {each}" for each in built.removed))

@@ -36,6 +36,8 @@ _CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left
 _NOTHING = Words("explains nothing by itself of what the noise leaves open")
 _NO_FLOOR = Words("takes the error from {before} to {after}")
 _JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
+_JOB_SAYS_NOTHING = Words("{name}: {fitted} fits, the job states no axis.{key}.")
+_BESIDE = Words("{name}: {fitted} fits beside the {stated} that the job states.")
 #: Of a ratio, whose meaning is that of the expected value: "1: exactly one row off".
 _NOT_AS_MEANT = Words("{effect}: a {name} of {fitted} fits ({meaning}).")
 _AND = Words("{first}; {second}")
@@ -129,7 +131,8 @@ def list_questions(fitted: Fit, effects: Container[str]) -> Iterator[Words]:
     own = [each for each in fitted.estimates if each.effect in effects]
     is_many = len({each.effect for each in own}) > 1
     for each in own:
-        question, contradiction = _say_question(each, fitted.design), _say_contradiction(each, fitted.design)
+        question = _say_question(each, fitted.design)
+        contradiction = _say_contradiction(each, fitted.estimates, fitted.design)
         if question is not None:
             yield ask_about(each.effect, question) if is_many else question
         elif contradiction is not None:
@@ -157,7 +160,8 @@ def _make_candidate(
     )
     estimates = own or alone
     question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
-    contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
+    contradictions = (_say_contradiction(each, complete.estimates, base.design) for each in estimates)
+    contradiction = next(filter(None, contradictions), None)
     values = {each.parameter.name: each.value for each in estimates}
     yield EffectCandidate(
         effect=rival.member.effect,
@@ -188,14 +192,23 @@ def _say_question(estimate: ParameterEstimate, design: Design) -> Words | None:
     return ask_of(estimate.parameter, estimate.value, design.axis)
 
 
-def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | None:
-    """Return that the readings contradict a value that follows from the job; None if they do not."""
-    if estimate.expected is None or estimate.is_given:
-        return None
-    off = abs(estimate.value - estimate.expected)
-    if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
-        return None
+def _say_contradiction(
+    estimate: ParameterEstimate, others: Iterable[ParameterEstimate], design: Design
+) -> Words | None:
+    """Return that the readings contradict a value that follows from the job; None if they do not.
+
+    `others`: Those of the same model: beside one that has the value of the job it is a further one.
+    """
     parameter = estimate.parameter
+    if estimate.is_given or (estimate.expected is None and parameter.instead_of is None):
+        return None
+    if estimate.expected is None:
+        fitted = wording.quantity(find_unit_on(design, parameter.dimension), estimate.value)
+        return _JOB_SAYS_NOTHING.given(
+            name=parameter.description, fitted=fitted, key=parameter.instead_of or ""
+        )
+    if _has_value(estimate, estimate.expected):
+        return None
     if parameter.dimension is Dimension.RATIO:
         return _NOT_AS_MEANT.given(
             effect=estimate.effect,
@@ -203,7 +216,15 @@ def _say_contradiction(estimate: ParameterEstimate, design: Design) -> Words | N
             fitted=wording.quantity(find_unit_on(design, parameter.dimension), estimate.value),
             meaning=parameter.description,
         )
-    return _say_other_value(estimate, estimate.expected, design)
+    alike = (each for each in others if each.parameter.dimension is parameter.dimension)
+    sentence = _BESIDE if any(_has_value(each, estimate.expected) for each in alike) else _JOB_SAYS
+    return _say_other_value(estimate, estimate.expected, design, sentence)
+
+
+def _has_value(estimate: ParameterEstimate, expected: float) -> bool:
+    """Return whether a parameter may have a value."""
+    reach = max(estimate.expanded_uncertainty, _CONTRADICTS * abs(expected))
+    return abs(estimate.value - expected) <= reach
 
 
 def say_other_value(estimate: ParameterEstimate, stated: float, design: Design) -> Words:
@@ -211,11 +232,13 @@ def say_other_value(estimate: ParameterEstimate, stated: float, design: Design) 
     return ask_about(estimate.effect, _say_other_value(estimate, stated, design))
 
 
-def _say_other_value(estimate: ParameterEstimate, stated: float, design: Design) -> Words:
+def _say_other_value(
+    estimate: ParameterEstimate, stated: float, design: Design, sentence: Words = _JOB_SAYS
+) -> Words:
     parameter = estimate.parameter
     unit = find_unit_on(design, parameter.dimension)
     fitted, given = (wording.quantity(unit, value) for value in (estimate.value, stated))
-    return _JOB_SAYS.given(fitted=fitted, stated=given, name=parameter.description)
+    return sentence.given(fitted=fitted, stated=given, name=parameter.description)
 
 
 def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:

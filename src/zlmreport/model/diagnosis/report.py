@@ -159,6 +159,7 @@ def build_values(built: Built) -> dict[str, Any]:
                 "effect": each.identifier,
                 "settings": each.effect.settings.model_dump(mode="json"),
                 **({"removed": True} if each.is_removed else {}),
+                **({"reshaped": True} if each.is_reshaped else {}),
                 **({"indistinguishable_from": list(each.equals)} if each.equals else {}),
                 "rms_before": axis.deviation_unit.from_si(each.before.rms),
                 "rms_after": axis.deviation_unit.from_si(each.after.rms),

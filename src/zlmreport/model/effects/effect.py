@@ -131,6 +131,8 @@ class Parameter:
         question; ``{value}`` and ``{times}`` stand in it (`ask_of`).
     named
         Values that have a name of their own.
+    instead_of
+        The key of the axis in whose place it has another value; None of others.
     """
 
     name: str
@@ -146,6 +148,7 @@ class Parameter:
     question: Words | None = None
     question_below: Words | None = None
     named: tuple[NamedValue, ...] = ()
+    instead_of: str | None = None
 
 
 class Shape(Enum):

@@ -176,6 +176,7 @@ class FormulaEffect(Effect):
                     NamedValue(each.between[0] / per_si, each.between[1] / per_si, each.says)
                     for each in own.meanings
                 ),
+                instead_of=own.stated if self._is_other(own) and own.stated in AXIS_KEYS else None,
             ),
         )
 
@@ -266,7 +267,9 @@ class FormulaEffect(Effect):
         keys = [TABLES.get(name, name) for name in self.formula.names if name in known]
         for parameter in self.searched:
             own = self.keys.parameters[parameter.name]
-            if own.stated and (parameter.name not in self._ways or self._is_other(own)):
+            # Other values than a stated one make no sense without it where all values are searched.
+            is_needed = parameter.name not in self._ways or (self._is_other(own) and own.search)
+            if own.stated and is_needed:
                 keys.extend(name for name in find_names_in(parse_formula(own.stated)) if name in AXIS_KEYS)
         return next((why for key in keys if (why := needs_stated(getattr(axis, key), f"axis.{key}"))), None)
 
@@ -296,7 +299,9 @@ class FormulaEffect(Effect):
                 continue
             usual = np.array(own.instead.values) / self.formula.units[name].per_si
             if self._is_other(own):
-                ways[name] = _drop_harmonics(usual, known.pop(name), is_count=own.spelled == "1")
+                value = known.pop(name, None)
+                others = usual if value is None else _drop_harmonics(usual, value, is_count=own.spelled == "1")
+                ways[name] = others
             elif name not in known:
                 ways[name] = np.union1d(choose_values_of(ways[name], design), usual)
         found = search_grid(design, self.searched, known, ways)

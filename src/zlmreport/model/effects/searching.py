@@ -35,6 +35,8 @@ _PLACES, _WIDTHS, _SPELLS = np.linspace(-0.5, 0.5, 11), np.array([0.2, 0.3, 0.45
 _LAGS = np.geomspace(0.02, 0.5, 6)
 _FIXED_POINTS, _AT_ZERO = np.linspace(-0.5, 0.5, 5), 0.05
 _MOST_MOMENTS = 200
+#: How much alike a wave and its image on the grid of the mean interval are, where targets lie evenly.
+_EVEN = 0.8
 #: One and two waves a turn have names of their own.
 _FEWEST_TEETH = 3
 _TURN = 2 * math.pi
@@ -96,8 +98,13 @@ def choose_values_of(way: Search | FloatArray, design: Design) -> FloatArray:
 
 
 def _list_waves_along(design: Design) -> FloatArray:
-    """Return periods, even in their inverse, up to half as many as there are targets."""
-    most = len(design.target_positions) / 2
+    """Return periods, even in their inverse, up to half as many as there are targets.
+
+    Where these lie irregularly, up to as many: only on an even grid a shorter period looks like a longer one.
+    """
+    targets = design.target_positions
+    turns = np.exp(2j * np.pi * targets * (len(targets) - 1) / design.length)
+    most = len(targets) / (1 if abs(turns.mean()) < _EVEN else 2)
     return design.length / np.arange(_FEWEST_WAVES, most + 1e-9, 1 / _STEPS_PER_WAVE)
 
 

@@ -7,6 +7,7 @@ reading to reading of one block, is evidence of something that the model lacks.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -24,12 +25,9 @@ from zlmreport.model.fitting.distributions import normal_tail
 from zlmreport.model.fitting.repeats import number_cells
 
 #: Of the robust standard deviation.
-_LIMIT = 4.5
+_LIMIT = 4.2
 #: Neighbours in time whose median tells drift from a single reading.
 _WINDOW = 15
-#: By 1.35/n the median of n readings draws their median absolute deviation from it towards zero: of an odd
-#: number one reading is the median itself.
-_SHARE_OF_MEDIAN = 1.35
 #: More readings in a row are no blunder but something that the model lacks. A pattern of those flagged: so
 #: many at least, and such a share of them in one run, or at one target.
 _MOST_IN_A_ROW, _FEWEST_ALIKE, _MOST_ALIKE = 2, 3, 0.6
@@ -52,30 +50,66 @@ class Outliers:
 def find_outliers(design: Design, deviation: FloatArray) -> Outliers:
     """Return the readings that stand off from their repeats and from their neighbours in time.
 
+    At each place the one that stands off most goes first: it draws the others of few after it.
+
     `deviation`, (N,): x, or what a model leaves of it, m or rad.
     """
-    none = Outliers(read_only_integers([]), 1.0)
     cell = number_cells(design)
-    count = np.bincount(cell)
-    if count.max() < _FEWEST_REPEATS or len(deviation) < _WINDOW:
-        return none
-    medians = np.array([np.median(deviation[cell == index]) for index in range(len(count))])
-    left = deviation - medians[cell]
-    half = _WINDOW // 2
-    padded = np.pad(left, half, mode="reflect")
-    left = left - np.median(np.lib.stride_tricks.sliding_window_view(padded, _WINDOW), axis=1)
-    judged = count[cell] >= _FEWEST_REPEATS
-    typical = float(np.median(count[cell][judged]))
-    left = left / _estimate_growth(design.position, left, judged)
-    spread = estimate_robust_deviation(left[judged]) / (1.0 - _SHARE_OF_MEDIAN / typical)
-    if spread == 0:
-        return none
-    sizes = np.where(judged, np.abs(left) / spread, 0.0)
-    flagged = sizes > _LIMIT
-    for pattern in _find_patterns(design, flagged, left):
+    sizes, aside = np.zeros(len(cell)), np.zeros(len(cell), dtype=np.bool_)
+    if np.bincount(cell).max() < _FEWEST_REPEATS or len(deviation) < _WINDOW:
+        return Outliers(read_only_integers([]), 1.0)
+    while True:
+        left = _leave_beside_others(design, deviation, cell, aside)
+        sizes = np.where(aside, sizes, np.abs(left))
+        largest = np.zeros(cell.max() + 1)
+        np.maximum.at(largest, cell[~aside], sizes[~aside])
+        worst = ~aside & (sizes > _LIMIT) & (sizes == largest[cell])
+        if not worst.any():
+            break
+        aside |= worst
+    for pattern in _find_patterns(design, aside, left):
         sizes[pattern] = np.minimum(sizes[pattern], _LIMIT)
     p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
     return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)
+
+
+def _leave_beside_others(
+    design: Design, deviation: FloatArray, cell: IntArray, aside: BoolArray
+) -> FloatArray:
+    """Return how far each reading is from the median of the others at its place, in standard deviations.
+
+    The others know nothing of it: what is between them is normal as the readings are, be they as few as
+    three; from a median of three that it is one of, one of three is no way off at all. What its neighbours in
+    time have in common is taken out likewise. 0 of readings beside which there are too few.
+
+    `aside`, (N,): Those that are none of the others.
+    """
+    left, judged = np.zeros(len(cell)), np.zeros(len(cell), dtype=np.bool_)
+    for number in np.unique(cell):
+        own = np.flatnonzero(cell == number)
+        kept = own[~aside[own]]
+        for each in own:
+            others = deviation[kept[kept != each]]
+            if len(others) >= _FEWEST_REPEATS - 1:
+                judged[each] = True
+                left[each] = (deviation[each] - np.median(others)) / _find_spread_beside(len(others))
+    half = _WINDOW // 2
+    windows = np.lib.stride_tricks.sliding_window_view(np.pad(left, half, mode="reflect"), _WINDOW)
+    # A reading may be the median of its window, which is then no way off: the scatter is that without it.
+    # But beside a jump it is its own that says on which side it is.
+    without = (left - np.median(np.delete(windows, half, axis=1), axis=1))[judged & ~aside]
+    left = left - np.median(windows, axis=1)
+    growth = _estimate_growth(design.position, left, judged)
+    spread = estimate_robust_deviation(without / growth[judged & ~aside])
+    return np.where(judged, left / growth / spread, 0.0) if spread > 0 else np.zeros(len(left))
+
+
+def _find_spread_beside(others: int) -> float:
+    """Return the standard deviation, in σ, of a normal reading less the median of so many others.
+
+    That of the median of n is near √(π/2)/√(n + ½) where n is odd, √(π/2)/√(n + 1.14) where it is even.
+    """
+    return math.sqrt(1.0 + math.pi / 2.0 / (others + (0.5 if others % 2 else 1.14)))
 
 
 def _estimate_growth(position: FloatArray, left: FloatArray, judged: BoolArray) -> FloatArray:
