@@ -278,6 +278,10 @@ class FormulaKeys(Options):
     )
     harmonics: Harmonics | None = optional("Of its wave; without it the first alone.")
     keys: tuple[FormKey, ...] = Field((), description="Keys that choose between forms of it.")
+    common: bool = Field(
+        default=False,
+        description="Whether hardly a machine is without it: it then needs less evidence than what is rare.",
+    )
     several: bool = Field(
         default=False, description="Whether it may stand in a model more than once, as joint, joint-2 …"
     )

@@ -21,8 +21,9 @@ from zlmreport.model.fitting.contrasts import Contrasts
 from zlmreport.model.fitting.pauses import find_pauses
 from zlmreport.model.fitting.repeats import number_cells
 
-#: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.
-PRICE = 6.0
+#: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there;
+#: and against one without which hardly a machine is: beside a rarer one that does the same it leads.
+PRICE, _PRICE_OF_COMMON = 6.0, 3.0
 #: Root mean square value of columns, SI, below which they are rounding: all targets are whole increments.
 _ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
@@ -84,7 +85,8 @@ def list_families_of(
             continue
         width = blocks.shape[2]
         places = columns.add(np.ascontiguousarray(blocks.reshape(len(blocks), -1)))
-        price = (PRICE if is_named else NAMELESS_PRICE) + 2.0 * float(np.log(count[effect.identifier]))
+        own = (_PRICE_OF_COMMON if effect.common else PRICE) if is_named else NAMELESS_PRICE
+        price = own + 2.0 * float(np.log(count[effect.identifier]))
         found.append(
             Family(
                 effect,

@@ -13,6 +13,7 @@ from zlmreport.model.diagnosis.null_distribution import LEVEL
 from zlmreport.model.diagnosis.residuals import Failure, Residuals, ResidualTest
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.searching import count_waves_told
 from zlmreport.model.fitting.blunders import Outliers
 from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, find_repeats, list_spread_tests
@@ -235,12 +236,12 @@ def examine_time_order(residuals: Residuals) -> Failure | None:
 def examine_period_in_position(residuals: Residuals) -> Failure | None:
     """Return the strongest wave along the axis; periods that the job states are tried beside all others."""
     design = residuals.design
-    targets = len(design.target_positions)
-    if targets < _FEWEST_TARGETS or design.length == 0:
+    if len(design.target_positions) < _FEWEST_TARGETS or design.length == 0:
         return None
     stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
     known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
-    period, p_value, size = _find_strongest_wave(residuals, design.position, targets / 2, known)
+    most = count_waves_told(design)
+    period, p_value, size = _find_strongest_wave(residuals, design.position, most, known)
     statement = _REPEATS.given(period=wording.length(design.axis, period))
     return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, _ALONG_THE_AXIS.given(size=size), statement)
 

@@ -116,7 +116,7 @@ class SeenSets:
         return None if instead is None else (instead, instead.score - best)
 
     def find_names_alone(self, found: EffectSet, within: float) -> EffectSet | None:
-        """Return the best set in which one name each does what forms and curves do.
+        """Return the best set in which one name each does what forms and curves do, or more names do it better.
 
         `within`: What evidence it may lack; None where all lack more.
         """
@@ -124,8 +124,7 @@ class SeenSets:
         alone = [
             each
             for each in self._best.values()
-            if each.score < found.score + within
-            and len(each.named) <= most
+            if each.score < found.score + (within if len(each.named) <= most else 0.0)
             and not has_nameless(self._contest, each)
         ]
         return min(alone, key=find_score, default=None)

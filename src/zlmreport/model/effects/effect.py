@@ -210,6 +210,8 @@ class Effect(Protocol):
         The values of these keys in this form of the effect.
     several
         Whether it may stand in a model more than once (`repeated`).
+    common
+        Whether hardly a machine is without it.
     takes, denies
         Keys of the axis (``screw_pitch``) whose stated values this form takes, and those in the place of
         which it has others: no effect that takes a key stands beside one that denies it.
@@ -233,6 +235,7 @@ class Effect(Protocol):
     options: type[Options] = Options
     settings: Options = Options()
     several: bool = False
+    common: bool = False
     takes: frozenset[str] = frozenset()
     denies: frozenset[str] = frozenset()
     source: Words | None = None

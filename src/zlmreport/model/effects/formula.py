@@ -105,6 +105,7 @@ class FormulaEffect(Effect):
         self.contains = keys.contains
         self.measurands = keys.acts_on
         self.several = keys.several
+        self.common = keys.common
         self._ways = self._list_searched()
         parameters = {
             each.name: each
@@ -300,7 +301,9 @@ class FormulaEffect(Effect):
             usual = np.array(own.instead.values) / self.formula.units[name].per_si
             if self._is_other(own):
                 value = known.pop(name, None)
-                others = usual if value is None else _drop_harmonics(usual, value, is_count=own.spelled == "1")
+                others = (
+                    usual if value is None else _drop_harmonics(usual, value, is_count=own.spelled == "1")
+                )
                 ways[name] = others
             elif name not in known:
                 ways[name] = np.union1d(choose_values_of(ways[name], design), usual)

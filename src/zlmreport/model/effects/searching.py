@@ -97,14 +97,19 @@ def choose_values_of(way: Search | FloatArray, design: Design) -> FloatArray:
     return _WAYS[way](design) if isinstance(way, Search) else way
 
 
-def _list_waves_along(design: Design) -> FloatArray:
-    """Return periods, even in their inverse, up to half as many as there are targets.
+def count_waves_told(design: Design) -> float:
+    """Return how many waves in the travel the targets can tell: half as many as there are targets.
 
-    Where these lie irregularly, up to as many: only on an even grid a shorter period looks like a longer one.
+    Where these lie irregularly, as many: only on an even grid a shorter period looks like a longer one.
     """
     targets = design.target_positions
     turns = np.exp(2j * np.pi * targets * (len(targets) - 1) / design.length)
-    most = len(targets) / (1 if abs(turns.mean()) < _EVEN else 2)
+    return len(targets) / (1 if abs(turns.mean()) < _EVEN else 2)
+
+
+def _list_waves_along(design: Design) -> FloatArray:
+    """Return periods, even in their inverse."""
+    most = count_waves_told(design)
     return design.length / np.arange(_FEWEST_WAVES, most + 1e-9, 1 / _STEPS_PER_WAVE)
 
 
