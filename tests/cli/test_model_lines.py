@@ -92,3 +92,9 @@ def test_what_is_irregular_asks_for_the_lengths_that_nobody_stated() -> None:
     smooth = replace(found, remainder=replace(found.remainder, course=Course.PLACE))
     for other in (smooth, example_diagnosis()):
         assert "state:" not in "".join(tell_diagnosis(other, example(), "job.yaml", None, effects))
+
+
+def test_what_is_left_is_told_with_its_largest_value_and_its_sign() -> None:
+    down = replace(irregular(), remainder=replace(irregular().remainder, size=-3.24e-6))
+    text = " ".join(" ".join(tell_diagnosis(down, example(), "job.yaml", None, ())).split())
+    assert "Root mean square 1.5 µm Largest value −3.2 µm Share of what the model leaves 90 %" in text

@@ -27,6 +27,7 @@ from zlmreport.document.subjects.fit import (
     EFFECTS,
     ParameterRow,
     lay_out_parameters,
+    list_choices,
     list_error_facts,
     write_deviation,
     write_in_a_sentence,
@@ -85,7 +86,7 @@ _VISIBILITY = Words(
 )
 _SHAPE = Words("Shape")
 _WHERE = Words("Place")
-_SIZE = Words("Root mean square")
+_SIZE, _LARGEST = Words("Root mean square"), Words("Largest value")
 _BESIDE_IT, _PART = Words("Beside it"), Words("{shape}, {where}; {size}")
 _FORMULA = Words("Formula to try")
 _LOOK = Words("Look at {at}. Measure {measure}.")
@@ -317,7 +318,8 @@ def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: 
         known = Explained(row.effect, row.title), row.probability, row.rms, row.left_out, row.p
         if not row.is_serious:
             return known
-        fitted = ", ".join(write_in_a_sentence(each, language) for each in row.parameters)
+        estimates = (write_in_a_sentence(each, language) for each in row.parameters)
+        fitted = ", ".join((*list_choices(row.candidate.effect), *estimates))
         return (*known, ", ".join(row.equals) or NOTHING, row.tell_apart_by or NOTHING, fitted, row.explains)
 
     columns = (
@@ -424,7 +426,7 @@ def _is_named(candidate: EffectCandidate, diagnosis: AxisDiagnosis) -> bool:
 
 
 def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | None:
-    """Return what is left without a name: its shape, place, size, share and formula."""
+    """Return what is left without a name: its shape, place, sizes, share and formula."""
     left = diagnosis.remainder
     if left is None:
         return None
@@ -433,6 +435,7 @@ def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | 
         (_SHAPE, left.shape.in_language(language)),
         (_WHERE, left.where.in_language(language)),
         (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
+        (_LARGEST, wording.deviation(axis, left.size).in_language(language)),
         (Words("Share of what the model leaves"), f"{write_percentage(left.share, language.decimal_sign)} %"),
         *(
             (
