@@ -98,3 +98,10 @@ def test_what_is_left_is_told_with_its_largest_value_and_its_sign() -> None:
     down = replace(irregular(), remainder=replace(irregular().remainder, size=-3.24e-6))
     text = " ".join(" ".join(tell_diagnosis(down, example(), "job.yaml", None, ())).split())
     assert "Root mean square 1.5 µm Largest value −3.2 µm Share of what the model leaves 90 %" in text
+
+
+def test_what_could_not_be_tried_is_said_to_be_like_the_first_candidate() -> None:
+    found = replace(example_diagnosis(), not_excluded=("abbe", "probe-radius"))
+    text = " ".join(" ".join(tell_diagnosis(found, example(), "job.yaml", None, ())).split())
+    first = found.candidates[0].identifier
+    assert f"Not excluded in place of {first}, for this test could not try them: abbe, probe-radius." in text

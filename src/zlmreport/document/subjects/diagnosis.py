@@ -74,7 +74,7 @@ _NO_FAILURE = Words(
     "No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
     "run, time and the logged conditions."
 )
-_NOT_EXCLUDED = Words("Not excluded, for this test could not try them: {effects}.")
+_NOT_EXCLUDED = Words("Not excluded in place of {first}, for this test could not try them: {effects}.")
 _CANDIDATES = Words(
     "Effects that the model may lack, each with the probability that it is there, beside the others of "
     "the set and what has no name"
@@ -157,7 +157,7 @@ class DiagnosisRows:
     error: Facts  #: Of the model.
     failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
     candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
-    not_excluded: tuple[str, ...]  #: Effects that could not be tried, and that nothing speaks against.
+    not_excluded: tuple[str, ...]  #: Effects that could not be tried, and look like the first.
     faults: tuple[str, ...]  #: What looks wrong in the data, beside what the verdict states.
     remarks: tuple[str, ...]  #: What was taken for granted.
     #: Whether the verdict is that the first candidate, or one of its equals, is missing.
@@ -218,7 +218,8 @@ def lay_out_diagnosis(
     section, notice = partial(_make_section, language), partial(_make_notice, language)
     serious = [each for each in rows.candidates if each.is_serious]
     others = [each for each in rows.candidates if not each.is_serious]
-    excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
+    first = rows.candidates[0].effect if rows.candidates else ""
+    excluded = _NOT_EXCLUDED.given(first=first, effects=", ".join(rows.not_excluded)).in_language(language)
     leads = bool(rows.candidates) and diagnosis.verdict is not DiagnosisVerdict.ADEQUATE
     is_across = any(each.remedy for each in rows.leading) and fit.design.axis.measurand == STRAIGHTNESS
     sections = (
