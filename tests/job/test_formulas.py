@@ -175,6 +175,29 @@ def test_formula_of_a_rotary_axis_is_in_angles() -> None:
         Formula.of(keys, AxisKind.LINEAR)
 
 
+@pytest.mark.parametrize(
+    ("kind", "size", "length", "middle", "width"),
+    [
+        (AxisKind.ROTARY, "arcsec", "deg", 129, 18),
+        (AxisKind.ROTARY, "arcsec", "deg", 256, 6),
+        (AxisKind.LINEAR, "um", "mm", 236, 9),
+        (AxisKind.LINEAR, "um", "mm", 2574, 150),
+    ],
+)
+def test_a_stretch_may_end_between_two_targets(
+    kind: AxisKind, size: str, length: str, middle: float, width: float
+) -> None:
+    """Its edges move within an interval of the targets: so a diagnosis offers a stretch without a name."""
+    edges = {"c": [middle - width, middle], "e": [middle, middle + width]}
+    keys = _keys(
+        "a*step(P - c)*step(e - P)",
+        a={"unit": size},
+        **{name: {"unit": length, "range": ends} for name, ends in edges.items()},
+    )
+    refuse_unsound(keys)
+    Formula.of(keys, kind).refuse_undetermined()
+
+
 def test_every_unit_is_one_that_results_print() -> None:
     for kind, units in UNITS.items():
         printed = {find_unit_of(each, kind).ascii: find_unit_of(each, kind).per_si for each in Dimension}

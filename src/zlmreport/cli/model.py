@@ -16,6 +16,7 @@ from zlmreport.cli.model_lines import (
     tell_fit,
     tell_history,
     tell_points,
+    tell_what_follows,
 )
 from zlmreport.cli.model_values import (
     ModelChange,
@@ -128,8 +129,7 @@ def _diagnose(session: _Session, _: Namespace) -> _Answer:
         diagnosis = study.diagnose(effects, told)
     with show_progress("simulating plans") as told:
         experiment = plan_experiment_of_tie(study, diagnosis, effects, told)
-    titles = study.list_titles(effects)
-    lines = tell_diagnosis(diagnosis, study, session.shown_path, experiment, titles)
+    lines = tell_diagnosis(diagnosis, study, session.shown_path, experiment, effects)
 
     def collect_values() -> dict[str, Any]:
         values = collect_experiment(experiment, session.job, Language.ENGLISH) if experiment else None
@@ -174,13 +174,18 @@ def _remove(session: _Session, options: Namespace) -> _Answer:
 
 def _build(session: _Session, options: Namespace) -> _Answer:
     """Build the job's model step by step, and write it into the job at the end."""
+    effects = session.registry.effects
     with show_progress("building") as told:
-        built = session.make_study().build(session.registry.effects, told)
+        built = session.make_study().build(effects, told)
     edit = _edit_of(session, built)
     if edit is not None and not options.dry_run:
         edit.write()
     job = edit.job if edit else session.job
-    lines = tell_build(built, job, session.shown_path, edit, is_tried=options.dry_run)
+    path, is_tried = session.shown_path, options.dry_run
+    lines = (
+        *tell_build(built, job, path, edit, is_tried=is_tried),
+        *tell_what_follows(built.last, path, effects, is_to_be_written=is_tried and edit is not None),
+    )
     return lines, lambda: build_values(built)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,13 +28,14 @@ from zlmreport.document.subjects.fit import (
 )
 from zlmreport.document.subjects.forecast import StandardForecast, lay_out_fall
 from zlmreport.document.writer import Writer
-from zlmreport.errors import count_in_words
+from zlmreport.errors import count_in_words, list_names
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Words
+from zlmreport.language import Language
 from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import write_behind
+from zlmreport.model.diagnosis.asking import list_lengths_asked
 from zlmreport.model.diagnosis.building import (
     Built,
     ModelStep,
@@ -53,7 +54,7 @@ from zlmreport.model.diagnosis.report import (
     write_statement_after_build,
 )
 from zlmreport.model.diagnosis.study import Fitted, Study
-from zlmreport.model.effects.effect import is_of_another_axis
+from zlmreport.model.effects.effect import Effect, is_of_another_axis
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
 
@@ -96,16 +97,20 @@ def tell_diagnosis(
     study: Study,
     path: str,
     experiment: Experiment | None,
-    titles: Mapping[str, Words],
+    effects: Sequence[Effect],
 ) -> Iterator[str]:
-    """Yield the lines on a diagnosis; `path` is the job as the user types it."""
+    """Yield the lines on a diagnosis; `path` is the job as the user types it.
+
+    `effects`: All that are installed.
+    """
     yield from _lay_out_heading(study.job, diagnosis.fit)
-    sections = lay_out_diagnosis(diagnosis, _ENGLISH, titles, experiment)
+    sections = lay_out_diagnosis(diagnosis, _ENGLISH, study.list_titles(effects), experiment)
     following = f"next: {find_next_step(diagnosis, path, experiment)}"
     for each in sections:
         yield from lay_out_sections([_drop_unused_columns(each)])
         if each.key == "verdict":
             yield from _tell_what_to_measure(diagnosis, "  ")
+            yield from _tell_what_to_state(diagnosis, effects, "  ")
             yield f"  {following}"
     unseen = {each.effect for each in diagnosis.not_testable if not is_of_another_axis(each.reason)}
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
@@ -119,6 +124,7 @@ def tell_diagnosis(
     yield ""
     yield from _tell_needless(list_needless(diagnosis), path)
     yield from _tell_what_to_measure(diagnosis)
+    yield from _tell_what_to_state(diagnosis, effects)
     yield following
 
 
@@ -139,6 +145,23 @@ def _tell_what_to_measure(diagnosis: AxisDiagnosis, indent: str = "") -> Iterato
         look = look_for(left, diagnosis.fit.design)
         yield from wrap(f"look at: {look.at.in_language(_ENGLISH)}", indent)
         yield from wrap(f"measure: {look.measure.in_language(_ENGLISH)}", indent)
+
+
+def _tell_what_to_state(
+    diagnosis: AxisDiagnosis, effects: Sequence[Effect], indent: str = ""
+) -> Iterator[str]:
+    """Yield which lengths to state where what is left may repeat with one of them: it looks irregular."""
+    left, fitted = diagnosis.remainder, diagnosis.fit
+    courses = () if left is None else (left.course, *(each.course for each in left.further))
+    asked = list_lengths_asked(fitted.design, fitted.model.identifiers, effects)
+    if asked and any(each.is_irregular for each in courses):
+        keys = list_names([f"axis.{each.key}" for each in asked], "or")
+        waiting = list_names(sorted({effect for each in asked for effect in each.effects}))
+        yield from wrap(
+            f"state: {keys} ({asked[0].unit}), whichever the axis has; without it these cannot be tried: "
+            f"{waiting}",
+            indent,
+        )
 
 
 def find_next_step(diagnosis: AxisDiagnosis, path: str, experiment: Experiment | None = None) -> str:
@@ -243,7 +266,7 @@ def _lay_out_heading(job: Job, fit: Fit) -> Iterator[str]:
 
 
 def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
-    """Yield the lines on a build; `path` is the job as the user types it."""
+    """Yield the lines on a build but for what follows; `path` is the job as the user types it."""
     last = built.last
     yield from lay_out_heading(job.keys.certificate.number, f"axis {job.axis.name}")
     yield from wrap_steps(_write_staircase(built))
@@ -262,11 +285,24 @@ def tell_build(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried
     if edit is not None and not is_tried:
         yield from _tell_origin(edit, Path(path))
     yield from lay_out_changes(path, () if edit is None else name_changes(built), is_tried=is_tried)
-    if is_tried and edit is not None and find_stated_fault(last) is None:
-        yield f"next: zlmreport model build {path}"
+
+
+def tell_what_follows(
+    last: AxisDiagnosis, path: str, effects: Sequence[Effect], *, is_to_be_written: bool
+) -> Iterator[str]:
+    """Yield what to do after a build; `path` is the job as the user types it.
+
+    `last`: The diagnosis that it ended with.
+    `effects`: All that are installed.
+    `is_to_be_written`: Whether it was made on trial, and would change the job.
+    """
+    if is_to_be_written and find_stated_fault(last) is None:
+        following = f"zlmreport model build {path}"
     else:
         yield from _tell_what_to_measure(last)
-        yield f"next: {find_next_step(last, path)}"
+        following = find_next_step(last, path)
+    yield from _tell_what_to_state(last, effects)
+    yield f"next: {following}"
 
 
 def _write_staircase(built: Built) -> str:

@@ -311,9 +311,16 @@ class Formula:
         return np.concatenate(slopes, axis=1)
 
     def _place_around(self, theta: Mapping[str, float], extent: Extent) -> FloatArray:
-        """Return positions, or times, close to those that stand in it: a narrow form shows nowhere else."""
-        own = [value for name, value in theta.items() if self.units[name].extent == extent]
-        return np.array([place + share * width for place in own for width in own for share in _NEAR])
+        """Return positions, or times, close to those that stand in it: a narrow form shows nowhere else.
+
+        And within the range of each: an edge that lies between two targets moves no further.
+        """
+        own = {name: value for name, value in theta.items() if self.units[name].extent == extent}
+        ends = {name: self._find_ends(name) for name in own}
+        widths = {name: {*own.values(), (high - low) / 2} for name, (low, high) in ends.items()}
+        return np.array(
+            [own[name] + share * width for name in own for width in sorted(widths[name]) for share in _NEAR]
+        )
 
     def _find_ends(self, name: str) -> tuple[float, float]:
         """Return the ends of a range, SI; of one that is open, what is likely there."""

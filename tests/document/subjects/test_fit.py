@@ -5,14 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from model.axis_tests import linear_test, model_of, noise
+from model.axis_tests import EFFECTS, linear_test, model_of, noise
 from model.hidden_effect import LAST, example_history, study, written
 from zlmreport.document.blocks import write_cell_text
 from zlmreport.document.subjects.fit import (
     fit_sections,
     lay_out_parameters,
+    list_choices,
     make_parameter_rows,
     write_in_a_sentence,
     write_polynomial,
@@ -101,3 +103,13 @@ def test_the_number_of_a_run_is_a_whole_number() -> None:
     displaced = fit(model_of("offset", "run-displaced"), design, 5e-6 * (design.run == 2) + noise(design))
     (row,) = (each for each in make_parameter_rows(displaced, GERMAN) if each.name == "which")
     assert (row.value, row.uncertainty, row.number) == ("2", "0", 2.0)
+
+
+def test_an_effect_that_acts_otherwise_than_usual_says_how() -> None:
+    usual, in_the_reversal = EFFECTS["worn-zone"].forms()
+    assert (list_choices(usual), list_choices(in_the_reversal)) == ((), ("acts_on: reversal",))
+    design = linear_test()
+    near = np.exp(-(((design.position - 0.5) / 0.1) ** 2))
+    fitted = fit(model_of("offset", in_the_reversal), design, 4e-6 * design.direction * near + noise(design))
+    headings = [each.heading for each in lay_out_parameters(fitted, ENGLISH).groups]
+    assert headings == ["offset: Zero offset", "worn-zone (acts_on: reversal): Worn zone of the screw"]

@@ -27,6 +27,7 @@ from zlmreport.document.subjects.fit import (
     EFFECTS,
     ParameterRow,
     lay_out_parameters,
+    list_choices,
     list_error_facts,
     write_deviation,
     write_in_a_sentence,
@@ -73,7 +74,7 @@ _NO_FAILURE = Words(
     "No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
     "run, time and the logged conditions."
 )
-_NOT_EXCLUDED = Words("Not excluded, for this test could not try them: {effects}.")
+_NOT_EXCLUDED = Words("Not excluded in place of {first}, for this test could not try them: {effects}.")
 _CANDIDATES = Words(
     "Effects that the model may lack, each with the probability that it is there, beside the others of "
     "the set and what has no name"
@@ -85,7 +86,7 @@ _VISIBILITY = Words(
 )
 _SHAPE = Words("Shape")
 _WHERE = Words("Place")
-_SIZE = Words("Root mean square")
+_SIZE, _LARGEST = Words("Root mean square"), Words("Largest value")
 _BESIDE_IT, _PART = Words("Beside it"), Words("{shape}, {where}; {size}")
 _FORMULA = Words("Formula to try")
 _LOOK = Words("Look at {at}. Measure {measure}.")
@@ -156,7 +157,7 @@ class DiagnosisRows:
     error: Facts  #: Of the model.
     failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
     candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
-    not_excluded: tuple[str, ...]  #: Effects that could not be tried, and that nothing speaks against.
+    not_excluded: tuple[str, ...]  #: Effects that could not be tried, and look like the first.
     faults: tuple[str, ...]  #: What looks wrong in the data, beside what the verdict states.
     remarks: tuple[str, ...]  #: What was taken for granted.
     #: Whether the verdict is that the first candidate, or one of its equals, is missing.
@@ -217,7 +218,8 @@ def lay_out_diagnosis(
     section, notice = partial(_make_section, language), partial(_make_notice, language)
     serious = [each for each in rows.candidates if each.is_serious]
     others = [each for each in rows.candidates if not each.is_serious]
-    excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
+    first = rows.candidates[0].effect if rows.candidates else ""
+    excluded = _NOT_EXCLUDED.given(first=first, effects=", ".join(rows.not_excluded)).in_language(language)
     leads = bool(rows.candidates) and diagnosis.verdict is not DiagnosisVerdict.ADEQUATE
     is_across = any(each.remedy for each in rows.leading) and fit.design.axis.measurand == STRAIGHTNESS
     sections = (
@@ -317,7 +319,8 @@ def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: 
         known = Explained(row.effect, row.title), row.probability, row.rms, row.left_out, row.p
         if not row.is_serious:
             return known
-        fitted = ", ".join(write_in_a_sentence(each, language) for each in row.parameters)
+        estimates = (write_in_a_sentence(each, language) for each in row.parameters)
+        fitted = ", ".join((*list_choices(row.candidate.effect), *estimates))
         return (*known, ", ".join(row.equals) or NOTHING, row.tell_apart_by or NOTHING, fitted, row.explains)
 
     columns = (
@@ -424,7 +427,7 @@ def _is_named(candidate: EffectCandidate, diagnosis: AxisDiagnosis) -> bool:
 
 
 def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | None:
-    """Return what is left without a name: its shape, place, size, share and formula."""
+    """Return what is left without a name: its shape, place, sizes, share and formula."""
     left = diagnosis.remainder
     if left is None:
         return None
@@ -433,6 +436,7 @@ def _lay_out_remainder(diagnosis: AxisDiagnosis, language: Language) -> Facts | 
         (_SHAPE, left.shape.in_language(language)),
         (_WHERE, left.where.in_language(language)),
         (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
+        (_LARGEST, wording.deviation(axis, left.size).in_language(language)),
         (Words("Share of what the model leaves"), f"{write_percentage(left.share, language.decimal_sign)} %"),
         *(
             (

@@ -28,7 +28,7 @@ from zlmreport.model.compensation.basis import find_too_fine, find_waves_of
 from zlmreport.model.diagnosis.error_numbers import ErrorNumbers
 from zlmreport.model.diagnosis.study import Fitted, Wave, list_one_way, list_waves, list_what_moves_with_time
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, find_unit_on
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_on
 from zlmreport.model.fitting.estimate import ParameterEstimate, Plausibility
 from zlmreport.model.fitting.fit import Fit
 
@@ -215,11 +215,22 @@ def lay_out_parameters(fit: Fit, language: Language) -> Table:
     groups = tuple(
         RowGroup(
             tuple(_lay_out_cells(each, language) for each in rows if each.effect == effect.identifier),
-            named(effect.identifier, effect.title).in_language(language),
+            named(_name_with_choices(effect), effect.title).in_language(language),
         )
         for effect in (term.effect for term in fit.model.terms)
     )
     return Table(_PARAMETERS.in_language(language), columns, groups)
+
+
+def list_choices(effect: Effect) -> tuple[str, ...]:
+    """Return what an effect is set to by words that are not the usual ones: that it acts on the reversal."""
+    settings = effect.settings.model_dump(mode="json", exclude_defaults=True)
+    return tuple(f"{key}: {value}" for key, value in settings.items() if isinstance(value, str))
+
+
+def _name_with_choices(effect: Effect) -> str:
+    choices = ", ".join(list_choices(effect))
+    return f"{effect.identifier} ({choices})" if choices else effect.identifier
 
 
 def _lay_out_cells(row: ParameterRow, language: Language) -> tuple[Cell, ...]:
