@@ -32,6 +32,11 @@ WRONG_VALUES = [
     ("  number: '  '", "3:11", "is not text of at least 1 character"),
     ("  kind: certificat", "4:9", "did you mean 'certificate'?"),
     ("  language: no", "5:13", "certificate.language: 'no' is unknown; known: de, en"),
+    (
+        "  sections: [results, origins]",
+        "5:23",
+        "did you mean 'origin'? (known: conditions, definitions, model, opinions, origin, readings, results,",
+    ),
     ("  language: DE", "5:13", "did you mean 'de'?"),
     ("machine: lathe", "6:10", "machine: 'lathe' is not a group of keys; its keys are manufacturer"),
     ("machine: {serial: {a: 1}}", "6:11", "machine.serial: a group of keys is not text"),

@@ -140,6 +140,7 @@ def _append_nothing(pdf: bytes) -> bytes:
 
 HARMLESS: dict[str, Change] = {
     "an end of line by a mail": lambda pdf: pdf + b"\r\n",
+    "zeros that fill a block of a transfer": lambda pdf: pdf + bytes(512),
     "no last end of line": lambda pdf: pdf.rstrip(b"\n"),
     "packed objects": save(object_stream_mode=pikepdf.ObjectStreamMode.generate),
     "nothing packed": save(

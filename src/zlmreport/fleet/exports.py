@@ -83,7 +83,7 @@ def _list_axis_metrics(state: FleetState) -> Iterator[str]:
         "axis_measured_timestamp_seconds", "Date of the last measurement of the axis.", measured
     )
     due = [of_axis(term.entry.axis_key, term.due) for term in state.terms]
-    yield _write_family("axis_due_timestamp_seconds", "When the axis is to be measured again.", due)
+    yield _write_family("axis_due_timestamp_seconds", "Day on which the axis is due (UTC).", due)
 
 
 def _list_parameter_metrics(state: FleetState) -> Iterator[str]:

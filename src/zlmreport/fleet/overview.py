@@ -5,6 +5,7 @@ What needs somebody, worst first; every machine with its axes and their latest v
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
@@ -63,7 +64,10 @@ def make_overview(state: FleetState, language: Language, names: Names, files: st
     anchors = {key: f"trend-{number}" for number, key in enumerate(keys, 1)}
     drawn = _choose_drawn(printed, keys)
     packed = {key: number for number, key in enumerate(keys, 1) if key not in drawn}
-    cells = CellWriter(language, names, period, files, state.effects, anchors, packed)
+    effects: defaultdict[tuple[str, str], list[Series]] = defaultdict(list)
+    for series in state.effects:
+        effects[series.axis_key].append(series)
+    cells = CellWriter(language, names, period, files, effects, anchors, packed)
     script = read_overview_script()
     return render(
         OverviewContext(

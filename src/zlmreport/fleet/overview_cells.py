@@ -40,7 +40,8 @@ class CellWriter(LanguageWriter):
     names: Names  #: Of standards and symbols.
     period: Period  #: That all graphs show.
     files: str  #: Folder of the certificates, as seen from the page.
-    effects: Sequence[Series]  #: Parameters of the error models of all axes over time.
+    #: Parameters of the error models over time, by machine and axis.
+    effects: Mapping[tuple[str, str], Sequence[Series]]
     #: Of the trends that are shown in full.
     anchors: Mapping[TrendKey, str] = field(default_factory=dict)
     packed: Mapping[TrendKey, int] = field(default_factory=dict)  #: Numbers of those that the script unpacks.
@@ -111,9 +112,10 @@ class CellWriter(LanguageWriter):
 
     def _say_visible_step(self, trend: Trend) -> str:
         """Say how large a step would have to be; nothing where that is not known, or not asked."""
-        if trend.smallest is None:
+        smallest = trend.smallest
+        if smallest is None:
             return ""
-        return self.say(words.VISIBLE.given(size=self._write_number(trend.smallest, 1, trend.series.unit)))
+        return self.say(words.VISIBLE.given(size=self._write_number(smallest, 1, trend.series.unit)))
 
     def write_change(self, trend: Trend) -> OverviewCellContext:
         """Return by how much a parameter changed, since when, and how likely that is a step."""
@@ -129,7 +131,7 @@ class CellWriter(LanguageWriter):
 
     def write_what_came_with(self, trend: Trend) -> OverviewCellContext:
         """Return what else changed: a parameter of the error model, the instrument."""
-        cause = find_cause_of(trend, self.effects)
+        cause = find_cause_of(trend, self.effects.get(trend.series.axis_key, ()))
         if cause is None:
             return OverviewCellContext("–", style="quiet")
         effect = f"{cause.effect} {self._write_signed(cause.change, cause.unit)}" if cause.effect else ""

@@ -33,7 +33,7 @@ def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
     key = cells.anchors[make_key_of(series)]
     image = draw_trend(trend, cells.period, cells.describe_graph(trend), cells.language.decimal_sign, LARGE)
     title = words.TREND.given(axis=series.axis, machine=cells.name_machine(series))
-    effects = [each for each in cells.effects if each.axis_key == series.axis_key]
+    effects = cells.effects.get(series.axis_key, ())
     return OverviewTrendContext(
         key=key,
         title=cells.say(title),

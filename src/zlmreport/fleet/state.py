@@ -26,7 +26,7 @@ class DueDate:
 
     entry: LedgerEntry  #: Its latest certificate.
     due: date  #: The day.
-    is_over: bool  #: Whether that day was over when the last run began.
+    is_over: bool  #: Whether that day was over, in UTC, when the last run began.
 
 
 @dataclass(frozen=True, slots=True)

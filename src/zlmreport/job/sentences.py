@@ -232,7 +232,8 @@ def _say_unfit(mistake: Mistake, model: type[BaseModel], name: str, field: Field
     if spoken:
         return f"{prefix}{spoken[0]}"
     if mistake.kinds & _CHOICE_KINDS and isinstance(node, Scalar) and not node.is_nothing:
-        choices = [choice for refusal in mistake.refusals for choice in _list_choices(refusal, field)]
+        refusals = (refusal for refusal in mistake.refusals if refusal.kind in _CHOICE_KINDS)
+        choices = [choice for refusal in refusals for choice in _list_choices(refusal, field)]
         return f"{prefix}{quoted(node.text)} is unknown; {did_you_mean(node.text, choices)}"
     expected = " or ".join(dict.fromkeys(_say_expectation(refusal, field) for refusal in mistake.refusals))
     hint = _say_hint(node) or _say_keys_hint(model, mistake) or _say_example(field)

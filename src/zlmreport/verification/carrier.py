@@ -75,7 +75,7 @@ class Carrier:
 
 
 def read_file(path: Path) -> bytes:
-    """Return the bytes of a PDF file.
+    """Return the bytes of a PDF file, without zeros that filled the last block of a transfer or a disk.
 
     Raises `AccessError` if it cannot be read; `InputError` if it is no PDF, or larger than any certificate.
     """
@@ -87,7 +87,7 @@ def read_file(path: Path) -> bytes:
         raise InputError.at(place, f"is no PDF, but {wrapping}")
     if b"%PDF-" not in content[:1024]:
         raise InputError.at(place, "is no PDF; verify takes a certificate, such as CAL-2026-0117.pdf")
-    return content
+    return content.rstrip(b"\0")
 
 
 def open_pdf(content: bytes, place: Place) -> Carrier:

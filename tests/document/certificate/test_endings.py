@@ -34,6 +34,7 @@ def section(*blocks: Block, new_page: bool = False) -> Section:
 
 
 LINE = Paragraph("A line.")
+NOTE = Paragraph("A note.", fine=True)
 #: Its height is about a sixth of a page.
 SMALL = table(6)
 
@@ -63,6 +64,15 @@ def test_a_section_that_begins_a_page_stays_with_nothing_before_it(document: Cer
     before, last = ended(document, section(*[SMALL] * 6), section(LINE, new_page=True))
     assert not last.is_joined
     assert before.kept == 2
+
+
+@pytest.mark.parametrize(("rows", "kept"), [(4, 6), (20, 3)])
+def test_notes_stay_with_their_table_at_the_end_or_before_it(
+    document: Certificate, rows: int, kept: int
+) -> None:
+    blocks = table(20), table(rows), NOTE, NOTE, table(9), NOTE, NOTE
+    (ending,) = ended(document, section(*blocks))
+    assert ending.kept == kept
 
 
 def test_a_table_that_pages_may_part_stays_whole_with_nothing(document: Certificate) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from fontTools.ttLib import TTFont
 
 from document.certificate.documents import certificate, having
 from installed import registry
-from refusals import refusal
+from refusals import mistakes, refusal
 from zlmreport.document.typesetting import own_templates
 from zlmreport.plugin import AccessError, InputError
 from zlmreport.plugin.renderer import Certificate
@@ -159,5 +160,39 @@ def test_a_file_that_stands_for_no_block_is_refused(tmp_path: Path) -> None:
         styled(tmp_path, templates=str(house))
 
 
-def test_typst_takes_neither(tmp_path: Path) -> None:
-    assert "ask for the format pdf" in told_of(styled(tmp_path, typeface=TYPEFACE), "pdf-typst")
+@pytest.mark.parametrize("style", [{"typeface": TYPEFACE}, {"templates": "house"}])
+def test_typst_takes_neither_and_names_the_key(tmp_path: Path, style: dict[str, Any]) -> None:
+    templates(tmp_path, notice_html=NOTICE)
+    told = told_of(styled(tmp_path, **style), "pdf-typst")
+    assert re.match(rf"{tmp_path}/job\.yaml:\d+:\d+: the format pdf-typst .* ask for the format pdf", told)
+
+
+def test_what_the_pdf_ignores_of_a_style_sheet_is_refused_at_its_line(tmp_path: Path) -> None:
+    style = ".house {colr: red}\n@media screen {p {colr: red}}\n.a, p:foo{color: red}\n.b {color: rod}"
+    house = templates(tmp_path, style_css=style)
+    found = styled(tmp_path, typeface=TYPEFACE, templates=str(house))
+    told = mistakes(house, registry().renderer("pdf").render, found)
+    assert [each.partition("; ")[0] for each in told] == [
+        "style.css:1:9: this style sheet does not work: Ignored `colr: red`, unknown property",
+        "style.css:3:1: this style sheet does not work: Invalid or unsupported selector, '.a, p:foo'",
+        "style.css:4:5: this style sheet does not work: Ignored `color: rod`, invalid value",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("files", "told"),
+    [
+        ({"paragraph_html": '<p style="colr: red">{{ text }}</p>'}, "Ignored `colr: red`"),
+        pytest.param(
+            {"style_css": "@page { margin: 100mm }"},
+            "is there room for text on a page",
+            marks=pytest.mark.long,
+        ),
+    ],
+)
+def test_templates_of_which_no_pages_can_be_made_are_refused_at_their_key(
+    tmp_path: Path, files: dict[str, str], told: str
+) -> None:
+    found = told_of(styled(tmp_path, templates=str(templates(tmp_path, **files))), "pdf")
+    assert found.startswith(f"{tmp_path}/job.yaml:")
+    assert told in found

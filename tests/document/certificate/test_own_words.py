@@ -50,6 +50,20 @@ def test_a_placeholder_that_is_not_closed_or_has_blanks_is_refused(tmp_path: Pat
     assert f"{written!r} stands for no value; write {{customer.name}}" in told
 
 
+def test_a_long_number_stays_on_the_paper(tmp_path: Path) -> None:
+    pdf = registry().renderer("pdf").render(certificate(tmp_path, having(number="N" * 100)))
+    page = pypdfium2.PdfDocument(pdf)[0]
+    text = page.get_textpage()
+    assert max(text.get_charbox(each)[2] for each in range(text.count_chars())) < page.get_width() - 50
+
+
+@pytest.mark.parametrize(("key", "takes"), [("header", 3), ("footer", 2)])
+def test_a_text_that_has_no_room_in_a_margin_is_refused(tmp_path: Path, key: str, takes: int) -> None:
+    assert certificate(tmp_path, having(style={key: "W" * 55 * takes}))
+    told = refusal(certificate, tmp_path, having(style={key: "W" * 70 * takes}))
+    assert f"certificate.style.{key}: a text of {70 * takes} characters takes" in told
+
+
 def test_what_a_customer_is_called_is_no_placeholder(tmp_path: Path) -> None:
     customer = {**COMPLETE["customer"], "name": "{certificate.number} Ltd"}
     keys = {**having(style={"header": "{customer.name}"}), "customer": customer}

@@ -1,4 +1,4 @@
-"""Style sheets, fonts and the files of pages, as they are bundled; templates run in a sandbox."""
+"""Style sheets, fonts and files of pages, as they are bundled; templates of one's own run in a sandbox."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ from fontTools.ttLib import TTFont, woff2
 from jinja2 import TemplateNotFound
 from jinja2.exceptions import SecurityError, UndefinedError
 
+from zlmreport.document.certificate.document import OwnTemplate
 from zlmreport.document.figures.canvas import FAMILY
 from zlmreport.document.typesetting.resources import FontFace, find_page_file, read_page_files
 from zlmreport.document.typesetting.templates import make_environment
 from zlmreport.plugin.page import FONT_FACES, font_face_rules, font_file, style_sheet
 
+OWN = (OwnTemplate("notice.html", "house/notice.html", ""),)
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
 
 
@@ -128,17 +130,17 @@ def test_every_media_type_is_one_that_browsers_take() -> None:
         "{{ range(10**9) | list }}",
     ],
 )
-def test_a_template_reaches_nothing_but_what_it_is_given(attack: str) -> None:
+def test_a_template_of_ones_own_reaches_nothing_but_what_it_is_given(attack: str) -> None:
     words = ["a"]
     with pytest.raises((SecurityError, OverflowError)):
-        make_environment().from_string(attack).render(words=words, call=lambda: None)
+        make_environment(OWN).from_string(attack).render(words=words, call=lambda: None)
     assert words == ["a"]
 
 
 @pytest.mark.parametrize("name", ["/etc/passwd", "../styles/A4.css", "../../../../etc/passwd", "none.html"])
 def test_a_template_of_elsewhere_is_not_found(name: str) -> None:
     with pytest.raises(TemplateNotFound):
-        make_environment().from_string("{% include name %}").render(name=name)
+        make_environment(OWN).from_string("{% include name %}").render(name=name)
 
 
 def test_a_value_that_is_missing_is_a_mistake_and_no_blank() -> None:

@@ -50,6 +50,7 @@ from zlmreport.plugin.page import (
 from zlmreport.plugin.renderer import Certificate, Look
 from zlmreport_plugins.letters import refuse_letters
 from zlmreport_plugins.renderers.pdf import structure, subset
+from zlmreport_plugins.renderers.pdf.ignored import refuse_ignored_rules, refuse_unfit_look
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -107,7 +108,7 @@ class Press:
         root = ET.fromstring(compose_html(certificate))  # noqa: S314 - set here
         _set_directions(root)
         document = _Document(root, Supply(logo), has_any_element=bool(certificate.look.templates))
-        with self._lock:
+        with self._lock, refuse_unfit_look(certificate.look):
             pdf: bytes = document.write_pdf(
                 stylesheets=[
                     self._faces,
@@ -137,7 +138,8 @@ class Press:
             return name
 
         style = own_style(look, address)
-        return (self._parse(style, Supply(contents)),) if style else ()
+        with refuse_ignored_rules(look, style):
+            return (self._parse(style, Supply(contents)),) if style else ()
 
     def _parse(self, style: str, supply: Supply) -> CSS:
         return CSS(string=style, font_config=self._fonts, url_fetcher=supply)

@@ -24,7 +24,7 @@ class TypstRenderer:
         """
         if certificate.look.typeface or certificate.look.templates:
             raise InputError.at(
-                Place(certificate.number),
+                certificate.look.place,
                 "the format pdf-typst takes neither a typeface (certificate.style.typeface) nor templates "
                 "(certificate.style.templates) of your own; ask for the format pdf",
             )

@@ -19,6 +19,7 @@ from zlmreport.document.certificate.statements import (
     write_running_title,
 )
 from zlmreport.document.writer import Marks, Writer
+from zlmreport.errors import InputError
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
 from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence, find_lines_read_twice
@@ -144,13 +145,31 @@ def make_writer(job: Job, measurements: MeasurementSet) -> Writer:
 def write_page_words(job: Job, writer: Writer) -> PageWords:
     """Return the words of the margins of a job's document."""
     certificate = job.keys.certificate
-    head, foot = certificate.style.header, certificate.style.footer
+    number = writer.say(write_running_title(certificate))
     return PageWords.in_language(
         certificate.language,
-        writer.say(write_running_title(certificate)),
-        head=fill_in(head, job, "certificate.style.header") if head else "",
-        foot=fill_in(foot, job, "certificate.style.footer") if foot else "",
+        number,
+        head=_fill_margin("certificate.style.header", certificate.style.header, job),
+        foot=_fill_margin("certificate.style.footer", certificate.style.footer, job, number),
     )
+
+
+def _fill_margin(key: str, text: str | None, job: Job, above: str = "") -> str:
+    """Return a text of a margin; one for which there is no room, below another one, is refused."""
+    if not text:
+        return ""
+    from zlmreport.document.certificate.columns import MARGIN_LINES, count_margin_lines  # noqa: PLC0415 - brings the typeface
+
+    filled = fill_in(text, job, key)
+    room = MARGIN_LINES - (count_margin_lines(above) if above else 0)
+    if (needed := count_margin_lines(filled)) > room:
+        below = ", or the number" if above else ""
+        raise InputError.at(
+            job.place_of(key),
+            f"{key}: a text of {len(filled)} characters takes {needed} of a page's lines, and there is room "
+            f"for {room}; shorten it{below}",
+        )
+    return filled
 
 
 def describe_document(subject: str, designations: Iterable[str], writer: Writer) -> str:

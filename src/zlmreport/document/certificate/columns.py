@@ -352,6 +352,8 @@ _FINE, _OUTCOME = 0.765, 1.235
 _FINE_LINE, _OUTCOME_LINE = 1.25 * _FINE * _TYPE, 1.35 * _OUTCOME * _TYPE
 #: Em of a page, with some words too long to end a line.
 _PAGE_EM = 57.0
+#: Lines of the head or the foot of a page, and em of one.
+MARGIN_LINES, _MARGIN_EM = 3, 55.0
 _NOTICE_EM = 52.0
 #: What the mark of a verdict adds to its row.
 _MARK = 1.3
@@ -493,6 +495,11 @@ def _count_lines_of_words(text: str, room: float, running: float = _RUNNING) -> 
             lines, width = lines + int(width / room), width % room
         taken += width + (measure_width(" ") if part.endswith(" ") else 0.0)
     return lines
+
+
+def count_margin_lines(text: str) -> int:
+    """Return how many lines a text takes at the head or the foot of a page."""
+    return _count_lines_of_words(text, _MARGIN_EM, running=1.0)
 
 
 def _count_lines_in_room(text: str, room: float) -> int:

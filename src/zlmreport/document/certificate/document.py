@@ -9,8 +9,12 @@ from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Literal
 
 from zlmreport.document.blocks import Block, Graph, Section
+from zlmreport.errors import NOWHERE, Place
 from zlmreport.job.document_keys import ACCENT
 from zlmreport.language import Words
+
+#: Name of the style sheet in a folder of templates.
+STYLE_SHEET = "style.css"
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.attachments import Attachment, Source
@@ -109,15 +113,22 @@ class Look:
     """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands.
 
     `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, its
-    style sheet ``style.css`` among them. Where it `may_lack_letters`, boxes stand for those that no
-    typeface has: so a document is printed only to be compared with one that was issued.
+    style sheet ``style.css`` among them, asked for by the key at `place`. Where it `may_lack_letters`, boxes
+    stand for those that no typeface has: so a document is printed only to be compared with one that was
+    issued.
     """
 
     accent: str = ACCENT
     logo: Literal["left", "right"] = "right"
     typeface: Typeface | None = None
     templates: tuple[OwnTemplate, ...] = ()
+    place: Place = field(default=NOWHERE, compare=False)
     may_lack_letters: bool = False
+
+    @property
+    def style_sheet(self) -> OwnTemplate | None:
+        """The laboratory's own."""
+        return next((each for each in self.templates if each.name == STYLE_SHEET), None)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import TYPE_CHECKING
 
-from zlmreport.document.blocks import Formulas, Section, Table
+from zlmreport.document.blocks import Formulas, Paragraph, Section, Table
 from zlmreport.document.certificate import columns
 
 if TYPE_CHECKING:
@@ -61,14 +61,21 @@ def _count_kept(
     kept = 0
     for block in reversed(blocks):
         height = columns.estimate_height(block if isinstance(block, tuple) else (block,))
-        if taken >= _LEAST * page or taken + height > _MOST * page:
+        is_enough = taken >= _LEAST * page and not (kept and _is_note(blocks[-kept]))
+        if is_enough or taken + height > _MOST * page:
             break
         if isinstance(block, Table | Formulas):
             layout = columns.lay_out_table(block, is_compact=is_compact)
             if not layout.is_whole:  # pages may part it
                 break
         kept, taken = kept + 1, taken + height
-    return kept, taken
+    # Notes of a table for which there is no room stay with it.
+    notes = sum(1 for _ in takewhile(_is_note, blocks[len(blocks) - kept :]))
+    return kept - notes if notes < kept < len(blocks) else kept, taken
+
+
+def _is_note(block: GatheredBlock) -> bool:
+    return isinstance(block, Paragraph) and block.fine
 
 
 def is_all_of(section: Section, ending: Ending) -> bool:

@@ -11,7 +11,7 @@ from pathlib import Path
 from string import ascii_letters, digits, punctuation
 from typing import TYPE_CHECKING
 
-from zlmreport.document.certificate.document import Look, OwnTemplate, Typeface
+from zlmreport.document.certificate.document import STYLE_SHEET, Look, OwnTemplate, Typeface
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean, quoted
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
 
 #: What a folder of templates may hold: a template for each kind of block, and a style sheet.
-STYLE_SHEET = "style.css"
 TEMPLATES = (
     *(
         f"{block}.html"
@@ -53,8 +52,9 @@ def read_own_look(usual: Look, job: Job) -> Look:
         semibold, _, _ = _load_font(style.typeface.semibold, TypeFace.SEMIBOLD, place)
         typeface = Typeface(regular, semibold, figure, sign)
     folder = style.templates
-    templates = _read_templates(folder, job.place_of("certificate.style.templates")) if folder else ()
-    return replace(usual, typeface=typeface, templates=templates)
+    place = job.place_of(f"certificate.style.{'templates' if folder else 'typeface'}")
+    templates = _read_templates(folder, place) if folder else ()
+    return replace(usual, typeface=typeface, templates=templates, place=place)
 
 
 def _load_font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float]:

@@ -23,8 +23,8 @@ from jinja2.exceptions import SecurityError
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import missing
 
-from zlmreport.document.certificate.document import OwnTemplate
-from zlmreport.document.certificate.own_look import STYLE_SHEET, TEMPLATES
+from zlmreport.document.certificate.document import STYLE_SHEET, OwnTemplate
+from zlmreport.document.certificate.own_look import TEMPLATES
 from zlmreport.errors import InputError, Place, did_you_mean
 
 #: Lines of a template's code that are run for one block: a table of ten thousand readings takes a tenth.

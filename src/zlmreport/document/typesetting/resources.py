@@ -19,7 +19,6 @@ from pathlib import PurePosixPath
 from markupsafe import Markup
 
 from zlmreport.document.certificate.document import Linked, Look
-from zlmreport.document.certificate.own_look import STYLE_SHEET
 from zlmreport.document.figures.canvas import FAMILY
 from zlmreport.job.document_keys import ACCENT
 
@@ -66,7 +65,7 @@ def write_font_faces(address: Callable[[FontFace], str]) -> str:
 
 def write_own_style(look: Look, address: Callable[[bytes], str]) -> str:
     """Return the style sheet of a laboratory's own look; `address` says where a font is found."""
-    rules = [each.text for each in look.templates if each.name == STYLE_SHEET]
+    rules = [look.style_sheet.text] if look.style_sheet else []
     if face := look.typeface:
         regular, semibold = face.regular, face.semibold
         family = f"own-{sha256(regular + semibold).hexdigest()[:12]}"

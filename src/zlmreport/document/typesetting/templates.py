@@ -1,6 +1,6 @@
 """What each template is given, one dataclass a template (a test compares the two), and the Jinja environment.
 
-It is sandboxed, every value is escaped, and a missing one is an error.
+Every value is escaped, and a missing one is an error; templates of a laboratory's own run in a sandbox.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ from html import unescape
 from math import inf
 from typing import ClassVar
 
-from jinja2 import ChoiceLoader, FunctionLoader, PackageLoader, PrefixLoader
-from jinja2.sandbox import ImmutableSandboxedEnvironment
+from jinja2 import ChoiceLoader, Environment, FunctionLoader, PackageLoader, PrefixLoader
 from markupsafe import Markup
 
 from zlmreport.document.blocks import Facts, Symbol, split_at_symbols
@@ -227,10 +226,10 @@ def _hold_together(value: object) -> object:
 
 
 @lru_cache(maxsize=8)
-def make_environment(own: tuple[OwnTemplate, ...] = ()) -> ImmutableSandboxedEnvironment:
+def make_environment(own: tuple[OwnTemplate, ...] = ()) -> Environment:
     """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
     usual, house = PackageLoader(PACKAGE), {each.name: (each.text, each.path, lambda: True) for each in own}
-    return (BoundedEnvironment if own else ImmutableSandboxedEnvironment)(
+    return (BoundedEnvironment if own else Environment)(
         loader=ChoiceLoader([FunctionLoader(house.get), usual, PrefixLoader({_USUAL: usual})])
         if own
         else usual,
@@ -287,6 +286,8 @@ def _set_held_words(markup: str, room: float) -> str:
         return markup
 
     def set_words(found: re.Match[str]) -> str:
+        if WORD_JOINER not in found[0]:
+            return found[0]
         is_link = found[1] == "a"
         words = found[0].replace(f"{WORD_JOINER} ", HELD if is_link else " ").replace(WORD_JOINER, "")
         if words.startswith("<"):
