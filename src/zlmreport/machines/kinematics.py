@@ -78,7 +78,7 @@ class ErrorLine:
     """Where an error was measured: the others axes' positions, and the tool's offset there, m."""
 
     others: Mapping[str, float]  #: By axis; 0 for one that is not named.
-    tool: Point = _ORIGIN
+    tool: Point | None = None  #: None where nobody says it: the point to which all axis errors refer.
 
 
 def weights(
@@ -118,7 +118,8 @@ def lever_arm(
     axis: str, chain: Chain, line: ErrorLine, position: FloatArray, tool: FloatArray | Point = _ORIGIN
 ) -> FloatArray:
     """Return L, the arm by which the rotations of an axis act, shape (N, 3), m."""
-    arm = np.broadcast_to(np.asarray(tool, dtype=np.float64) - np.asarray(line.tool), position.shape).copy()
+    offset = np.asarray(tool, dtype=np.float64) - np.asarray(line.tool or _ORIGIN)
+    arm = np.broadcast_to(offset, position.shape).copy()
     for other in chain.list_axes_behind(axis):
         index = AXES.index(other)
         arm[:, index] += position[:, index] - line.others.get(other, 0.0)

@@ -60,7 +60,6 @@ def read_measured_circle(
 ) -> MeasuredCircle:
     """Return the circle that a job measured."""
     kept = np.flatnonzero(np.isfinite(measurements.deviation))
-    tool = find_line_of_job(job).tool
     bare = CircularTest(
         name,
         nominal,
@@ -69,7 +68,7 @@ def read_measured_circle(
         measurements.run[kept],
         measurements.deviation[kept],
         np.zeros(len(kept)),
-        tool if any(tool) else None,
+        find_line_of_job(job).tool,
     )
     logged = None if measurements.time is None else measurements.time[kept]
     circle = replace(bare, time=_reckon_times(bare) if logged is None or np.isnan(logged).any() else logged)
@@ -113,5 +112,5 @@ def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTes
     freedom = max(int(n.sum() - np.count_nonzero(there)), 1)
     squares = float(np.nansum((values[there] - means[:, np.newaxis]) ** 2))
     scatter = np.sqrt(squares / freedom / n[there])
-    course = ToolCourse(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
+    course = ToolCourse(position[there], sensing[there], motion[there], line.tool)
     return StraightTest(name, course, at[there], means, scatter)
