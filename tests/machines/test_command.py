@@ -37,7 +37,8 @@ def test_ten_minutes_tell_that_the_y_drive_lags(folder, capsys):
     assert changed["after"]["error"]["rms"] < 0.1 * changed["before"]["error"]["rms"]
     assert "[centre-offset, radius, servo-mismatch] # where" in path.read_text(encoding="utf-8")
     assert values(capsys, "machine", "diagnose", path)["verdict"] == "adequate"
-    values(capsys, "machine", "remove", path, "servo-mismatch")
+    taken = values(capsys, "machine", "remove", path, "servo-mismatch")
+    assert taken == {**changed, "before": changed["after"], "after": changed["before"]}, "alike both ways"
     assert path.read_text(encoding="utf-8") == before
 
 
