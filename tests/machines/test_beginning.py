@@ -164,6 +164,8 @@ def test_one_job_makes_one_document_of_all_that_was_measured(
     job = load(tmp_path / "mill" / "document.yaml", find_plugins())
     assert {*job.measurements} == {"EXX", "EYY", "EZZ", "EXY", "ballbar-XY-R150-F1000-ccw", "diagonals"}
     assert job.measurements["diagonals"].axis.measurand.identifier == "diagonals"
+    content = (tmp_path / "mill" / "machine.yaml").read_text("utf-8")
+    assert content.endswith("tests:\n  - ballbar-XY-R150-F1000-ccw.yaml\n  - diagonals.yaml\n")
 
 
 def test_jobs_that_are_begun_are_sound_whatever_their_files_are_called(

@@ -92,6 +92,13 @@ def find_line_of_job(job: Job) -> ErrorLine:
     return _find_line(_Line.model_validate(job.keys.measurement.at))
 
 
+def find_line_of_test(job: Job, name: str) -> ErrorLine:
+    """Return where the others stood on a line of a job: what the line says of it, or else the job."""
+    return _find_line(
+        _Line.model_validate({**job.keys.measurement.at, **job.tests[name].keys.measurement.at})
+    )
+
+
 def _find_line_of_square(job: Job) -> ErrorLine:
     """Return where a squareness error was measured: each of its lines says where the other axis stood."""
     measurement = job.keys.measurement

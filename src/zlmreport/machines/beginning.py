@@ -33,6 +33,8 @@ _WIDTH = 100
 _SHARED, _MACHINE, _DOCUMENT = "shared.yaml", "machine.yaml", "document.yaml"
 _OF_POSITIONS, _OF_LINES, _OF_CIRCLES = "iso230-2:2014", "iso230-1:2012", "iso230-4:2005"
 _OF_DIAGONALS = "iso230-6:2002"
+#: Its job.
+_DIAGONALS = "diagonals"
 _OF_POSITION = ("EXX", "EYY", "EZZ")
 #: What is no part of a job's name, which is its certificate's number, too; and how long that may be.
 _NOT_PLAIN, _LONGEST = re.compile(r"[^A-Za-z0-9._-]+"), 80
@@ -117,7 +119,7 @@ def _list_files(files: Iterable[Path]) -> list[Path]:
 
 
 def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[BegunJob]) -> BegunJob:
-    taken = {"machine", "shared", "document", "diagonals", *(each.stem for each in others)}
+    taken = {"machine", "shared", "document", _DIAGONALS, *(each.stem for each in others)}
     taken |= {f"squareness-{symbol}" for symbol in SQUARENESS}
     plain = _write_plain(file.stem)
     stem = next(
@@ -241,7 +243,7 @@ def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[Begun
         "# The diagonals of the work space, by the signs of their directions in X, Y and Z.",
         "schema: zlmreport/job/1",
         f"extends: {_SHARED}",
-        "certificate: {number: diagonals}",
+        f"certificate: {{number: {_DIAGONALS}}}",
         f"{'' if is_known else '# '}axes: {{{sides}}} # mm, {why}",
         "measurement:",
         "  tests:",
@@ -251,7 +253,7 @@ def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[Begun
     ]
     (first, _), *_ = found.values()
     said = f"diagonals of the work space: {', '.join(found)}"
-    return BegunJob(first, "diagonals", _join(lines), "", said, is_other=True)
+    return BegunJob(first, _DIAGONALS, _join(lines), "", said, is_other=True)
 
 
 def _write_source(looked: Looked, file: Path, directory: Path) -> str:
@@ -297,10 +299,10 @@ def _write_shared() -> str:
 def _write_machine(jobs: Sequence[BegunJob], square: Sequence[tuple[str, str]]) -> str:
     known = [each for each in jobs if each.error and not each.doubt]
     unsettled = [each for each in jobs if each.doubt and not each.is_other]
-    circles = [each for each in jobs if each.is_circle]
+    tests = [each for each in jobs if each.is_circle or each.stem == _DIAGONALS]
     lacking = ", ".join(each for each in ERRORS if each not in {job.error for job in known})
     lines = [
-        "# A machine: what is known of its axes, and the circles that it is held against.",
+        "# A machine: what is known of its axes, and the tests that it is held against.",
         "#   zlmreport machine check machine.yaml      what is known, and what is not",
         "#   zlmreport machine diagnose machine.yaml   which effect the circles show",
         "schema: zlmreport/machine/1",
@@ -315,8 +317,8 @@ def _write_machine(jobs: Sequence[BegunJob], square: Sequence[tuple[str, str]]) 
         "# Not measured, and bounded by assumptions of this program unless you state bounds:",
         *(f"#   {line}" for line in textwrap.wrap(lacking, _WIDTH)),
         "# bounds: {EAX: 5} # µm over the travel; of angles and squareness arc seconds",
-        "tests:" if circles else "tests: []",
-        *(f"  - {each.stem}.yaml" for each in circles),
+        "tests:" if tests else "tests: []",
+        *(f"  - {each.stem}.yaml" for each in tests),
     ]
     return _join(lines)
 

@@ -105,7 +105,7 @@ def collect_compared(found: ComparedTest) -> dict[str, Any]:
             "kind": "line",
             "at": (test.at * _MILLI).tolist(),
             "at_unit": "mm",
-            "direction": [int(each) for each in test.course.motion.sum(axis=1)],
+            "direction": [int(each) for each in test.direction],
         }
     return {
         "test": found.name,
