@@ -192,6 +192,23 @@ def test_where_the_bar_stands_belongs_into_every_model(folder, capsys):
     assert "radius belongs into every model" in capsys.readouterr().err
 
 
+def test_a_notebook_adds_and_removes_as_the_command_does(folder):
+    machine = z.machine(folder / "machine.yaml")
+    better = machine.add(machine.diagnose().candidates[0])
+    assert better.effects == (*machine.effects, "servo-mismatch")
+    for change, said in (
+        (lambda: better.add("servo-mismatch"), "servo-mismatch stands in the model already"),
+        (lambda: machine.add("servo"), "'servo' is no effect; did you mean 'servo-"),
+        (lambda: machine.add(None), "'None' is no effect"),
+        (lambda: machine.remove("servo-mismatch"), "does not stand in the model; known: centre-offset"),
+        (lambda: machine.remove("radius"), "radius belongs into every model: where a bar stands"),
+        (lambda: machine.compensate("linuxcnc", step="far"), "step is 'far': rows are more than 0 mm apart"),
+    ):
+        with pytest.raises(z.InputError, match=said):
+            change()
+    assert repr(better.build()) == "<Build: nothing to add, adequate>"
+
+
 def _diagnosis(path, capsys):
     assert main(["machine", "diagnose", str(path), "--json"]) == 0
     return json.loads(capsys.readouterr().out)
