@@ -126,3 +126,13 @@ def test_a_test_is_of_the_tool_that_it_states_also_of_none(run, tool, meant):
     (found,) = json.loads(values)["tests"]
     leaned = -np.radians(20 / 3600) * meant * 1e3
     assert found["predicted"][-1] - found["predicted"][0] == pytest.approx(leaned, abs=1e-9)
+
+
+def test_errors_of_which_nobody_says_the_place_are_named_where_known_angles_show_in_them(run):
+    """EBX makes ΔX of an arm along Z; of EYX it makes nothing, and where Z stood for EXX may be said."""
+    angle = "  - {EBX: {0: 0, 500: 2}, expanded_uncertainty: 0.6}\n"
+    said = "Of EXX nobody says where the other axes stood (at): arms of the known angles count from 0 there."
+    straight = "  - {EYX: {0: 0, 200: 1, 500: 0}, expanded_uncertainty: 0.6}\n"
+    assert said in run(MACHINE + straight + angle, "check")[1]
+    assert "nobody says where" not in run(MACHINE + straight, "check")[1]
+    assert "nobody says where" not in run(MACHINE.replace("at: {Y:", "at: {Z: 80, Y:") + angle, "check")[1]

@@ -169,8 +169,9 @@ def _write_axis(symbol: str, doubt: str, looked: Looked) -> Iterator[str]:
         yield f"  # error: {symbol or 'EXX'} # {FILL_IN} {doubt} (ISO 230-1: {', '.join(ERRORS[:4])} …)"
     elif symbol != f"E{name}{name}":
         yield f"  error: {symbol}"
+    if not doubt:
         others = ", ".join(f"{each}: 0" for each in "XYZ" if each != name)
-        yield f"  # at: {{{others}}} # mm: where the other axes stood; without it no arm is reckoned with"
+        yield f"  # at: {{{others}}} # mm: where the other axes stood; without it arms of angles count from 0"
     is_angle = bool(symbol) and find_error_named(symbol).measurand == ANGLE
     yield from (f"  # {each}" for each in looked.proposal.asks if not (is_angle and "units:" in each))
     if is_angle:

@@ -49,6 +49,12 @@ def find_square_slope(error: str) -> tuple[str, str, float]:
     return AXES[direction], AXES[along], sign
 
 
+def find_direction_of_arm(angle: str, axis: str) -> str:
+    """Return in which direction an angle shows by an arm along an axis; empty where it turns about that."""
+    left = set(AXES) - {axis, AXES["ABC".index(angle[1])]}
+    return left.pop() if len(left) == 1 else ""
+
+
 @dataclass(frozen=True, slots=True)
 class Chain:
     """The order of the axes from workpiece to tool, with F for the bed: ``XYFZ``."""
