@@ -21,6 +21,7 @@ from zlmreport.machines.file_names import (
     find_circle_by_name,
     find_diagonal_by_name,
     find_error_by_name,
+    find_rotary_axis_by_name,
 )
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS
 from zlmreport.measurement.error_symbol import find_error_named
@@ -140,6 +141,16 @@ def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[Beg
         said = f"{looked.proposal.quantity.identifier}, none of the 21 errors"
         lines = [*head, "measurement:", *source, f'evaluate: ["{looked.standard}"]']
         return BegunJob(file, stem, _join(lines), "", said, is_other=True)
+    rotary = find_rotary_axis_by_name(file.stem)
+    if rotary:
+        said = f"positions of the rotary axis {rotary}, none of the 21 errors"
+        lines = [*head, f"axis: {{name: {rotary}, kind: rotary, travel: {_write_travel(looked)}}} # degrees"]
+        lines += ["measurement:", *_write_asks(looked, "kind: rotary"), *source]
+        lines += [
+            f'evaluate: ["{_OF_POSITIONS}"]',
+            _OF_ROTARY,
+        ]
+        return BegunJob(file, stem, _join(lines), "", said, is_other=True)
     named = find_error_by_name(file.stem)
     clash = next((each for each in others if named.symbol and each.error == named.symbol), None)
     doubt = f"{named.symbol} is {clash.file.name} already; which error it is" if clash else named.doubt
@@ -173,14 +184,21 @@ def _write_axis(symbol: str, doubt: str, looked: Looked) -> Iterator[str]:
         others = ", ".join(f"{each}: 0" for each in "XYZ" if each != name)
         yield f"  # at: {{{others}}} # mm: where the other axes stood; without it arms of angles count from 0"
     is_angle = bool(symbol) and find_error_named(symbol).measurand == ANGLE
-    yield from (f"  # {each}" for each in looked.proposal.asks if not (is_angle and "units:" in each))
+    yield from _write_asks(looked, "units:" if is_angle else "")
     if is_angle:
         yield "  # Are the angles in arc seconds? If they are in µrad, say units: {deviation: urad}."
+
+
+def _write_asks(looked: Looked, answered: str) -> Iterator[str]:
+    """Yield what the file leaves open as comments, but what is answered already: questions with this text."""
+    yield from (f"  # {each}" for each in looked.proposal.asks if not (answered and answered in each))
 
 
 _INSTRUMENT = (
     "# instrument: {name: …, expanded_uncertainty: 0.2 + 0.4*L} # µm, L in m, k = 2; else scatter alone"
 )
+
+_OF_ROTARY = "# instrument: {name: …, expanded_uncertainty: 1} # arc seconds, k = 2; else scatter alone"
 
 
 def _write_circle(file: Path, looked: Looked) -> Iterator[str]:
