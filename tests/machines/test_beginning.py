@@ -164,6 +164,8 @@ def test_one_job_makes_one_document_of_all_that_was_measured(
     job = load(tmp_path / "mill" / "document.yaml", find_plugins())
     assert {*job.measurements} == {"EXX", "EYY", "EZZ", "EXY", "ballbar-XY-R150-F1000-ccw", "diagonals"}
     assert job.measurements["diagonals"].axis.measurand.identifier == "diagonals"
+    content = (tmp_path / "mill" / "machine.yaml").read_text("utf-8")
+    assert content.endswith("tests:\n  - ballbar-XY-R150-F1000-ccw.yaml\n  - diagonals.yaml\n")
 
 
 def test_jobs_that_are_begun_are_sound_whatever_their_files_are_called(
@@ -252,3 +254,24 @@ def test_a_document_on_something_else_is_called_what_it_is(
     path.write_text(json.dumps({"certificate": {"number": "CAL-7"}, **document}), encoding="utf-8")
     with pytest.raises(InputError, match=rf"CAL-7\.json .*{said}"):
         make_curve_of_certificate(path, Place("machine.yaml", 3, 9), lambda _: None)
+
+
+def test_a_rotary_axis_gets_a_job_of_its_own_and_the_axis_behind_of_is_the_one_that_moves(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = tmp_path / "by hand"
+    files.mkdir()
+    for name, last in (("C position.csv", 360), ("x straightness of y.csv", 400)):
+        rows = [f"{target},{way},{run},{target % 7}" for run in (1, 2) for way in "+-"
+                for target in range(0, last + 1, last // 8)[:: 1 if way == "+" else -1]]  # fmt: skip
+        (files / name).write_text("\n".join(["target,direction,run,deviation", *rows]), "utf-8")
+    assert main(["init", str(tmp_path / "mill"), "--machine", str(files)]) == 0
+    said = capsys.readouterr().out
+    assert "C position.csv: positions of the rotary axis C, none of the 21 errors\n" in said
+    assert "x straightness of y.csv: EXY\n" in said
+    job = load(tmp_path / "mill" / "C-position.yaml", find_plugins())
+    assert (job.axis.name, job.axis.kind.value) == ("C", "rotary")
+    content = (tmp_path / "mill" / "machine.yaml").read_text("utf-8")
+    assert "x-straightness-of-y.yaml # EXY" in content
+    assert "C-position" not in content
+    assert "- C-position.yaml" in (tmp_path / "mill" / "document.yaml").read_text("utf-8")

@@ -37,7 +37,8 @@ def test_ten_minutes_tell_that_the_y_drive_lags(folder, capsys):
     assert changed["after"]["error"]["rms"] < 0.1 * changed["before"]["error"]["rms"]
     assert "[centre-offset, radius, servo-mismatch] # where" in path.read_text(encoding="utf-8")
     assert values(capsys, "machine", "diagnose", path)["verdict"] == "adequate"
-    values(capsys, "machine", "remove", path, "servo-mismatch")
+    taken = values(capsys, "machine", "remove", path, "servo-mismatch")
+    assert taken == {**changed, "before": changed["after"], "after": changed["before"]}, "alike both ways"
     assert path.read_text(encoding="utf-8") == before
 
 
@@ -189,6 +190,23 @@ def test_where_the_bar_stands_belongs_into_every_model(folder, capsys):
     assert main(["machine", "add", str(path), "servo-mismatch"]) == 0
     assert main(["machine", "remove", str(path), "radius"]) == 2
     assert "radius belongs into every model" in capsys.readouterr().err
+
+
+def test_a_notebook_adds_and_removes_as_the_command_does(folder):
+    machine = z.machine(folder / "machine.yaml")
+    better = machine.add(machine.diagnose().candidates[0])
+    assert better.effects == (*machine.effects, "servo-mismatch")
+    for change, said in (
+        (lambda: better.add("servo-mismatch"), "servo-mismatch stands in the model already"),
+        (lambda: machine.add("servo"), "'servo' is no effect; did you mean 'servo-"),
+        (lambda: machine.add(None), "'None' is no effect"),
+        (lambda: machine.remove("servo-mismatch"), "does not stand in the model; known: centre-offset"),
+        (lambda: machine.remove("radius"), "radius belongs into every model: where a bar stands"),
+        (lambda: machine.compensate("linuxcnc", step="far"), "step is 'far': rows are more than 0 mm apart"),
+    ):
+        with pytest.raises(z.InputError, match=said):
+            change()
+    assert repr(better.build()) == "<Build: nothing to add, adequate>"
 
 
 def _diagnosis(path, capsys):

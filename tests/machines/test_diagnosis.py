@@ -248,6 +248,18 @@ def test_a_model_without_anything_begins_with_where_the_bar_stands():
     assert set(found.found) == {"radius", "centre-offset", "servo-mismatch"}
 
 
+def test_what_physics_forbids_has_no_part_of_the_probability():
+    """At one feed cross-talk has the curve of squareness, with values that no machine has."""
+    found = diagnosed(circle(out_of_square(30e-6), noise=0.4e-6))
+    by_name = {each.effect.identifier: each for each in found.candidates}
+    assert (by_name["dynamic-cross-talk"].is_plausible, by_name["dynamic-cross-talk"].probability) == (
+        False,
+        0,
+    )
+    assert by_name["squareness"].probability > 0.95
+    assert sum(each.probability for each in found.candidates) <= 1.0 + 1e-9
+
+
 @pytest.mark.parametrize("size", [0.0, 1e-9, 12e-6, 1.0])
 def test_the_evidence_of_what_is_exactly_explained_is_finite(size):
     """Readings without any scatter, all of them zero or just what an effect makes."""

@@ -173,6 +173,31 @@ def test_where_nobody_says_the_place_of_squareness_it_is_that_of_straightness(tm
     assert (machine.moved_squares, machine.square_doubts) == ((), ())
 
 
+@pytest.mark.parametrize("stated", ["", "X: 120", "X: 120, Z: 210", "tool: [30, -40, 150]"])
+def test_of_its_place_what_nobody_says_is_that_of_straightness(tmp_path, stated):
+    """The tool as well as the axes, and where the yaw of X counts from."""
+
+    def look(at):
+        known = "".join(
+            f"  - {{{name}: {{0: 0, 400: {turn}}}, expanded_uncertainty: 0.4}}\n"
+            for name, turn in TURNS.items()
+        )
+        path = tmp_path / "machine.yaml"
+        path.write_text(
+            f"schema: zlmreport/machine/1\nchain: XYFZ\nerrors:\n{known}"
+            f"  - {{EXY: {{0: 0, 400: 0}}, expanded_uncertainty: 0.2{AT.replace('Y: 60, ', '')}}}\n"
+            f"  - {{EYX: {{0: 0, 400: 0}}, expanded_uncertainty: 0.2{AT.replace('X: 120, ', '')}}}\n"
+            f"  - {{C0Y: 8, expanded_uncertainty: 0.5{at}}}\n",
+            encoding="utf-8",
+        )
+        return read_machine(path, find_plugins()).machine
+
+    line = make_line("Y", "X", {"X": 300.0, "Y": 0.0, "Z": 20.0}, (0.0, 0.0, 0.0))
+    everything = predict(look(AT), line).values
+    assert np.ptp(everything) > 1e-6
+    assert predict(look(f", at: {{{stated}}}"), line).values == pytest.approx(everything, abs=1e-15)
+
+
 def test_a_job_of_two_lines_says_with_each_where_the_other_axis_stood(folder):
     machine = read_machine(folder / "machine.yaml", find_plugins()).machine
     assert machine.find_curve("C0Y").line.others == pytest.approx({"X": 0.25, "Y": 0.2, "Z": 0.1})

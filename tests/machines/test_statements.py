@@ -1,7 +1,9 @@
 """What is said of the errors of a machine and its work space is so, in the words of the page's language."""
 
 import json
+from pathlib import Path
 
+import numpy as np
 import pytest
 
 from zlmreport.cli import main
@@ -108,3 +110,29 @@ def test_an_arc_in_which_no_axis_turns_says_nothing_of_play(folder, capsys):
     assert values["verdict"] == "adequate"
     assert 0 < values["p_value"] <= 1
     assert {"circle-backlash", "lateral-play"}.isdisjoint(each["effect"] for each in values["beside"])
+
+
+@pytest.mark.parametrize(("tool", "meant"), [("", 120), ("tool: [0, 0, 0]", 0), ("tool: [0, 0, 80]", 80)])
+def test_a_test_is_of_the_tool_that_it_states_also_of_none(run, tool, meant):
+    """EYX of X leans with EAX by the tool's length above the point to which all errors refer."""
+    file = (
+        "schema: zlmreport/machine/1\nchain: XYFZ\ntool: [0, 0, 120]\nerrors:\n"
+        "  - {EAX: {0: 0, 400: 20}, expanded_uncertainty: 0.1}\ntests: [line.yaml]\n"
+    )
+    line = JOB.replace("Y: 100, B: 30, tool: [0, 0, 120]", tool)
+    Path("line.yaml").write_text(line.replace("{at:", "{error: EYX, at:").replace("-2:2014", "-1:2012"))
+    code, values = run(file, "predict", "--json")
+    assert code == 0
+    (found,) = json.loads(values)["tests"]
+    leaned = -np.radians(20 / 3600) * meant * 1e3
+    assert found["predicted"][-1] - found["predicted"][0] == pytest.approx(leaned, abs=1e-9)
+
+
+def test_errors_of_which_nobody_says_the_place_are_named_where_known_angles_show_in_them(run):
+    """EBX makes ΔX of an arm along Z; of EYX it makes nothing, and where Z stood for EXX may be said."""
+    angle = "  - {EBX: {0: 0, 500: 2}, expanded_uncertainty: 0.6}\n"
+    said = "Of EXX nobody says where the other axes stood (at): arms of the known angles count from 0 there."
+    straight = "  - {EYX: {0: 0, 200: 1, 500: 0}, expanded_uncertainty: 0.6}\n"
+    assert said in run(MACHINE + straight + angle, "check")[1]
+    assert "nobody says where" not in run(MACHINE + straight, "check")[1]
+    assert "nobody says where" not in run(MACHINE.replace("at: {Y:", "at: {Z: 80, Y:") + angle, "check")[1]

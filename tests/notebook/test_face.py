@@ -568,3 +568,16 @@ def test_several_lines_are_no_readings_of_one_and_it_is_told_who_evaluates_them(
     assert repr(certificate.data) == "<Readings of several lines: x, y>"
     with pytest.raises(z.InputError, match=said):
         z.evaluate(certificate.data, "iso230-1:2012")
+
+
+def test_a_symbol_or_a_parameter_that_is_there_is_in_its_result_or_model() -> None:
+    data = z.test([0, 100, 200], [[0, 1, 2], [0, 1, 3]], [[-1, 0, 1], [-1, 0, 2]])
+    result, model = z.evaluate(data, "nmtba"), z.fit(data, ["offset", "scale-error"])
+    assert ["P" in result, result["P"] in result, "Q" in result] == [True, True, False]
+    assert ["offset.offset" in model, "offset" in model] == [True, False]
+    assert [each.name for each in model] == ["offset", "slope"]
+
+
+def test_arrays_that_are_none_are_no_readings() -> None:
+    with pytest.raises(z.InputError, match="holds no readings; up is an array of them"):
+        z.test([0, 1], None)  # type: ignore[arg-type]

@@ -58,6 +58,12 @@ def clicked(page: TestClient, action: str, effect: str = "", digest: str = "") -
     return page.post("/api/change", json={"based_on": digest, "action": action, "effect": effect})
 
 
+def test_where_the_bar_stands_and_how_long_it_is_cannot_be_removed(page: TestClient) -> None:
+    effects = page.get("/api/job").json()["effects"]
+    assert {each["effect"]: each["stays"] for each in effects} == {"centre-offset": True, "radius": True}
+    assert "belongs into every model" in clicked(page, "remove", "radius").text
+
+
 @pytest.mark.long
 def test_a_click_adds_the_effect_and_the_error_falls_and_a_step_back_restores_the_file(
     machine: Path, page: TestClient

@@ -21,7 +21,12 @@ from zlmreport.plugin.circle_effect import (
     Searched,
     SearchedParameter,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences, title_difference, write_pair
+from zlmreport_plugins.circle_effects.shared import (
+    find_differences,
+    is_within_u,
+    title_difference,
+    write_pair,
+)
 
 
 class ServoLag(CircleEffect):
@@ -73,8 +78,11 @@ class ServoMismatch(CircleEffect):
         return terms
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
-        """Say who lags behind whom."""
+        """Say who lags behind whom, and who follow alike."""
         for each in estimates:
+            if is_within_u(each):
+                yield from self.absence([each])
+                continue
             early, late = _list_axes(each)
             early, late = (early, late) if each.value < 0 else (late, early)
             time, u = write_pair(each, abs(each.value))

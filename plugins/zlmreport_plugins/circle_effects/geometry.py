@@ -20,7 +20,12 @@ from zlmreport.plugin.circle_effect import (
     Searched,
     SearchedParameter,
 )
-from zlmreport_plugins.circle_effects.shared import find_differences, title_difference, write_pair
+from zlmreport_plugins.circle_effects.shared import (
+    find_differences,
+    is_within_u,
+    title_difference,
+    write_pair,
+)
 
 
 class CentreOffset(CircleEffect):
@@ -133,8 +138,11 @@ class ScaleMismatch(CircleEffect):
         ]  # fmt: skip
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
-        """Say whose scale is longer."""
+        """Say whose scale is longer, and whose agree."""
         for each in estimates:
+            if is_within_u(each):
+                yield from self.absence([each])
+                continue
             one, other = each.name.split("-")
             longer, shorter = (one, other) if each.value > 0 else (other, one)
             value, u = write_pair(each, abs(each.value))
@@ -148,8 +156,14 @@ class ScaleMismatch(CircleEffect):
             yield _AGREE.given(one=one, other=other, value=value, u=u)
 
 
-_LONGER = Words("the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m")
-_AGREE = Words("the scales of {one} and {other} agree: they differ by {value} ± {u} µm/m")
+_LONGER = Words(
+    "the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m beyond what the axes' "
+    "errors hold"
+)
+_AGREE = Words(
+    "the scales of {one} and {other} agree: they differ by {value} ± {u} µm/m beyond what the axes' "
+    "errors hold"
+)
 
 #: The squareness error of a plane, its axes, and the sign with which it turns sin 2θ.
 _SQUARENESS = {"XY": ("C0Y", -1.0), "YZ": ("A0Z", -1.0), "ZX": ("B0Z", 1.0)}
@@ -178,8 +192,9 @@ class Squareness(CircleEffect):
         ]  # fmt: skip
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
-        """Say how far the axes are out of square."""
-        yield from _say_of_planes(estimates, _OUT_OF_SQUARE)
+        """Say how far the axes are out of square, and which are square."""
+        for each in estimates:
+            yield from _say_of_planes([each], _SQUARE if is_within_u(each) else _OUT_OF_SQUARE)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that the axes are square."""

@@ -20,7 +20,7 @@ from zlmreport.plugin.circle_effect import (
     Searched,
     SearchedParameter,
 )
-from zlmreport_plugins.circle_effects.shared import write_pair
+from zlmreport_plugins.circle_effects.shared import is_within_u, write_pair
 
 _LARGEST_LOST_MOTION = 5e-4  # m
 #: Whether both ends of the travel lose alike, or each has its own.
@@ -153,7 +153,7 @@ class LateralPlay(CircleEffect):
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say which axis shifts sideways, and how far."""
         for each in estimates:
-            if abs(each.value) > each.expanded_uncertainty:
+            if not is_within_u(each):
                 value, u = write_pair(each, each.value)
                 yield _SHIFTS.given(axis=each.name, value=value, u=u)
 

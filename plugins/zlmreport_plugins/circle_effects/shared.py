@@ -34,3 +34,8 @@ def write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     """Return a value of an estimate, SI, and its U, in its unit and rounded together."""
     unit = estimate.unit
     return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))
+
+
+def is_within_u(estimate: Estimate) -> bool:
+    """Return whether it may be nothing: its amount is no more than its U."""
+    return abs(estimate.value) <= estimate.expanded_uncertainty

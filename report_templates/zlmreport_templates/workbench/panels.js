@@ -155,7 +155,7 @@ export function effects(texts, job, actions) {
     job.effects.length === 0 && h("p", { class: "quiet" }, texts.noEffects),
     h("ul", { class: "effects" }, job.effects.map((each) => h("li", {},
       h("div", { class: "heading" }, h("h3", {}, about(texts, each.effect, each.name)), title(each),
-        button(texts.remove, said(texts.removeEffect, { effect: each.name }), `remove-${each.effect}`, () => actions.remove(each.effect))),
+        !each.stays && button(texts.remove, said(texts.removeEffect, { effect: each.name }), `remove-${each.effect}`, () => actions.remove(each.effect))),
       h("table", { class: "parameters", "aria-label": each.name }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
         h("td", { class: "number" }, own.fixed && actions.fix ? value(each, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),

@@ -29,6 +29,7 @@ from zlmreport.machines.editing import edit_effects, list_effects_with, list_eff
 from zlmreport.machines.planning import plan_next_run, plan_values
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.report import collect_errors, collect_prediction
+from zlmreport.machines.study import find_noise_of_both
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
 from zlmreport.machines.subjects.cross_tables import lay_out_confirmation, lay_out_cross, lay_out_trial
@@ -190,10 +191,11 @@ def _change_effects(
     before, after = machine.make_study(), machine.make_study(effects)
     compared = [compare_circles(machine, registry, study) for study in (before, after)]
     edit_effects(machine, tuple(each.identifier for each in effects))
+    _, noise = find_noise_of_both(before, after)
     sections = [
         findings.lay_out_change(before, after, _SAY),
         *(
-            Section("sizes", title, (tests.lay_out_sizes(each, _SAY, after.noise_of_readings),))
+            Section("sizes", title, (tests.lay_out_sizes(each, _SAY, noise),))
             for title, each in zip(("Tests before", "Tests after"), compared, strict=True)
         ),
         findings.lay_out_model(after, _SAY),

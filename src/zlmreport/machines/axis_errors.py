@@ -65,8 +65,10 @@ def _find_line(at: ErrorLineKeys) -> ErrorLine:
     """Return where an error was measured."""
     places = {"X": at.X, "Y": at.Y, "Z": at.Z}
     others = {axis: MILLIMETRE.to_si(place) for axis, place in places.items() if place is not None}
-    tool = at.tool or (0.0, 0.0, 0.0)
-    return ErrorLine(others, (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3))
+    if at.tool is None:
+        return ErrorLine(others)
+    x, y, z = map(MILLIMETRE.to_si, at.tool)
+    return ErrorLine(others, (x, y, z))
 
 
 def find_error_of(job: Job) -> str:
@@ -88,6 +90,13 @@ def find_error_of(job: Job) -> str:
 def find_line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
     return _find_line(_Line.model_validate(job.keys.measurement.at))
+
+
+def find_line_of_test(job: Job, name: str) -> ErrorLine:
+    """Return where the others stood on a line of a job: what the line says of it, or else the job."""
+    return _find_line(
+        _Line.model_validate({**job.keys.measurement.at, **job.tests[name].keys.measurement.at})
+    )
 
 
 def _find_line_of_square(job: Job) -> ErrorLine:

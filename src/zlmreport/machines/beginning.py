@@ -21,6 +21,7 @@ from zlmreport.machines.file_names import (
     find_circle_by_name,
     find_diagonal_by_name,
     find_error_by_name,
+    find_rotary_axis_by_name,
 )
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS
 from zlmreport.measurement.error_symbol import find_error_named
@@ -33,6 +34,8 @@ _WIDTH = 100
 _SHARED, _MACHINE, _DOCUMENT = "shared.yaml", "machine.yaml", "document.yaml"
 _OF_POSITIONS, _OF_LINES, _OF_CIRCLES = "iso230-2:2014", "iso230-1:2012", "iso230-4:2005"
 _OF_DIAGONALS = "iso230-6:2002"
+#: Its job.
+_DIAGONALS = "diagonals"
 _OF_POSITION = ("EXX", "EYY", "EZZ")
 #: What is no part of a job's name, which is its certificate's number, too; and how long that may be.
 _NOT_PLAIN, _LONGEST = re.compile(r"[^A-Za-z0-9._-]+"), 80
@@ -117,7 +120,7 @@ def _list_files(files: Iterable[Path]) -> list[Path]:
 
 
 def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[BegunJob]) -> BegunJob:
-    taken = {"machine", "shared", "document", "diagonals", *(each.stem for each in others)}
+    taken = {"machine", "shared", "document", _DIAGONALS, *(each.stem for each in others)}
     taken |= {f"squareness-{symbol}" for symbol in SQUARENESS}
     plain = _write_plain(file.stem)
     stem = next(
@@ -137,6 +140,16 @@ def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[Beg
     if looked.proposal.quantity:
         said = f"{looked.proposal.quantity.identifier}, none of the 21 errors"
         lines = [*head, "measurement:", *source, f'evaluate: ["{looked.standard}"]']
+        return BegunJob(file, stem, _join(lines), "", said, is_other=True)
+    rotary = find_rotary_axis_by_name(file.stem)
+    if rotary:
+        said = f"positions of the rotary axis {rotary}, none of the 21 errors"
+        lines = [*head, f"axis: {{name: {rotary}, kind: rotary, travel: {_write_travel(looked)}}} # degrees"]
+        lines += ["measurement:", *_write_asks(looked, "kind: rotary"), *source]
+        lines += [
+            f'evaluate: ["{_OF_POSITIONS}"]',
+            _OF_ROTARY,
+        ]
         return BegunJob(file, stem, _join(lines), "", said, is_other=True)
     named = find_error_by_name(file.stem)
     clash = next((each for each in others if named.symbol and each.error == named.symbol), None)
@@ -167,17 +180,25 @@ def _write_axis(symbol: str, doubt: str, looked: Looked) -> Iterator[str]:
         yield f"  # error: {symbol or 'EXX'} # {FILL_IN} {doubt} (ISO 230-1: {', '.join(ERRORS[:4])} …)"
     elif symbol != f"E{name}{name}":
         yield f"  error: {symbol}"
+    if not doubt:
         others = ", ".join(f"{each}: 0" for each in "XYZ" if each != name)
-        yield f"  # at: {{{others}}} # mm: where the other axes stood; without it no arm is reckoned with"
+        yield f"  # at: {{{others}}} # mm: where the other axes stood; without it arms of angles count from 0"
     is_angle = bool(symbol) and find_error_named(symbol).measurand == ANGLE
-    yield from (f"  # {each}" for each in looked.proposal.asks if not (is_angle and "units:" in each))
+    yield from _write_asks(looked, "units:" if is_angle else "")
     if is_angle:
         yield "  # Are the angles in arc seconds? If they are in µrad, say units: {deviation: urad}."
+
+
+def _write_asks(looked: Looked, answered: str) -> Iterator[str]:
+    """Yield what the file leaves open as comments, but what is answered already: questions with this text."""
+    yield from (f"  # {each}" for each in looked.proposal.asks if not (answered and answered in each))
 
 
 _INSTRUMENT = (
     "# instrument: {name: …, expanded_uncertainty: 0.2 + 0.4*L} # µm, L in m, k = 2; else scatter alone"
 )
+
+_OF_ROTARY = "# instrument: {name: …, expanded_uncertainty: 1} # arc seconds, k = 2; else scatter alone"
 
 
 def _write_circle(file: Path, looked: Looked) -> Iterator[str]:
@@ -241,7 +262,7 @@ def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[Begun
         "# The diagonals of the work space, by the signs of their directions in X, Y and Z.",
         "schema: zlmreport/job/1",
         f"extends: {_SHARED}",
-        "certificate: {number: diagonals}",
+        f"certificate: {{number: {_DIAGONALS}}}",
         f"{'' if is_known else '# '}axes: {{{sides}}} # mm, {why}",
         "measurement:",
         "  tests:",
@@ -251,7 +272,7 @@ def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[Begun
     ]
     (first, _), *_ = found.values()
     said = f"diagonals of the work space: {', '.join(found)}"
-    return BegunJob(first, "diagonals", _join(lines), "", said, is_other=True)
+    return BegunJob(first, _DIAGONALS, _join(lines), "", said, is_other=True)
 
 
 def _write_source(looked: Looked, file: Path, directory: Path) -> str:
@@ -297,10 +318,10 @@ def _write_shared() -> str:
 def _write_machine(jobs: Sequence[BegunJob], square: Sequence[tuple[str, str]]) -> str:
     known = [each for each in jobs if each.error and not each.doubt]
     unsettled = [each for each in jobs if each.doubt and not each.is_other]
-    circles = [each for each in jobs if each.is_circle]
+    tests = [each for each in jobs if each.is_circle or each.stem == _DIAGONALS]
     lacking = ", ".join(each for each in ERRORS if each not in {job.error for job in known})
     lines = [
-        "# A machine: what is known of its axes, and the circles that it is held against.",
+        "# A machine: what is known of its axes, and the tests that it is held against.",
         "#   zlmreport machine check machine.yaml      what is known, and what is not",
         "#   zlmreport machine diagnose machine.yaml   which effect the circles show",
         "schema: zlmreport/machine/1",
@@ -315,8 +336,8 @@ def _write_machine(jobs: Sequence[BegunJob], square: Sequence[tuple[str, str]]) 
         "# Not measured, and bounded by assumptions of this program unless you state bounds:",
         *(f"#   {line}" for line in textwrap.wrap(lacking, _WIDTH)),
         "# bounds: {EAX: 5} # µm over the travel; of angles and squareness arc seconds",
-        "tests:" if circles else "tests: []",
-        *(f"  - {each.stem}.yaml" for each in circles),
+        "tests:" if tests else "tests: []",
+        *(f"  - {each.stem}.yaml" for each in tests),
     ]
     return _join(lines)
 

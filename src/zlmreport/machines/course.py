@@ -86,3 +86,4 @@ class StraightTest:
     at: FloatArray  #: (N,): Place along the line, m.
     deviation: FloatArray  #: (N,): Mean of the repeats, m.
     standard_uncertainty: FloatArray  #: (N,): Of these means, from their scatter, m.
+    direction: FloatArray  #: (N,): +1 or −1, the direction of travel along the line.

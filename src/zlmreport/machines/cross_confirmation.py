@@ -21,7 +21,7 @@ from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import compensate_machine
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.machine import MachineModel, predict
-from zlmreport.machines.measured_tests import MeasuredCircle, read_test
+from zlmreport.machines.measured_tests import MeasuredCircle, read_tests
 from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.residual import centre, compute_root_mean_square
@@ -78,7 +78,7 @@ def confirm(
     """
     after = []
     for path in jobs:
-        test, _ = read_test(path, registry)
+        (test, *_), _ = read_tests(path, registry)
         if not isinstance(test, MeasuredCircle):
             raise InputError.at(place, f"{path.name} is no circle; tables are confirmed by circles run again")
         after.append(test.circle)

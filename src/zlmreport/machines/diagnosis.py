@@ -274,7 +274,7 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
         for each, probability in zip(outcome.contenders, outcome.probabilities, strict=True)
         if each.evidence > max(most - 60.0, 0.0) or probability > _SERIOUS
     ][:8]
-    found = [_make_candidate(study, each, probability) for each, probability in worth]
+    found = _leave_out_impossible([_make_candidate(study, *each) for each in worth])
     found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
     curves = [_compute_curve(study, each) for each in found]
     named = [
@@ -292,6 +292,17 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
         plainest = min(tied, key=_measure_strangeness)
         named.sort(key=lambda each: each is not plainest)
     return tuple(named)
+
+
+def _leave_out_impossible(candidates: Sequence[CircleCandidate]) -> list[CircleCandidate]:
+    """Return candidates with the probabilities that they have where no impossible value is the cause."""
+    left = 1.0 - sum(each.probability for each in candidates if not each.is_plausible)
+    return [
+        replace(
+            each, probability=min(each.probability / left, 1.0) if each.is_plausible and left > 0 else 0.0
+        )
+        for each in candidates
+    ]
 
 
 def _make_candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:

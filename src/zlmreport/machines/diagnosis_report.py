@@ -10,7 +10,7 @@ from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
 from zlmreport.machines.report import collect_compared_sizes, collect_stretch
-from zlmreport.machines.study import CircleStudy, EstimatedTerm
+from zlmreport.machines.study import CircleStudy, EstimatedTerm, find_noise_of_both
 from zlmreport.machines.subjects.findings import list_absent, list_findings, say_how_told, say_verdict
 from zlmreport.machines.subjects.tests import describe_stretch
 
@@ -93,12 +93,13 @@ def change_values(
     before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[ComparedTest], Sequence[ComparedTest]]
 ) -> dict[str, Any]:
     """Return what a change of the model did; `tests` are those beside the model before and after it."""
+    noise, of_readings = find_noise_of_both(before, after)
     return {
         "schema": CHANGE,
         **{
             name: {
-                **_collect_fit(study, after.noise.rms),
-                "tests": _collect_tests(compared, after.noise_of_readings),
+                **_collect_fit(study, noise),
+                "tests": _collect_tests(compared, of_readings),
             }
             for name, study, compared in zip(("before", "after"), (before, after), tests, strict=True)
         },

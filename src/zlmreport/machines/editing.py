@@ -18,6 +18,10 @@ from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
 
 _EFFECTS = ListKey("model", "effects")
+#: Said of an effect that cannot be taken out.
+BELONGS_INTO_EVERY_MODEL = (
+    "belongs into every model: where a bar stands, and how long it is, are no errors of the machine"
+)
 
 
 def list_effects_with(
@@ -47,8 +51,7 @@ def list_effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect,
     if any(is_always_there(each, machine.circles) for each in machine.effects if each.identifier == name):
         raise InputError.at(
             machine.file.place_of("model", "effects"),
-            f"{name} belongs into every model: where a bar stands, and how long it is, are no errors of the "
-            "machine",
+            f"{name} {BELONGS_INTO_EVERY_MODEL}",
         )
     return left
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from itertools import pairwise
 
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS
 from zlmreport.machines.volume import DIAGONALS
@@ -30,8 +31,12 @@ _TURNS = {
     _YAW: {"X": "C", "Y": "C", "Z": "B"},
     _ROLL: {"X": "A", "Y": "B", "Z": "C"},
 }
+#: What stands before the axis that moves, in names that have it behind: "x straightness of y".
+_OF = {"OF", "VON", "DER"}
 _PLANES = {"XY": "XY", "YX": "XY", "YZ": "YZ", "ZY": "YZ", "ZX": "ZX", "XZ": "ZX"}
 _AXIS = re.compile(r"([XYZ])\d?(?:AXIS|ACHSE)?")
+_ROTARY = re.compile(r"([ABC])\d?(?:AXIS|ACHSE)?")
+_POSITION_WORDS = tuple(word for word, kind in _WORDS.items() if kind == _POSITIONING)
 _NUMBER = r"(\d+(?:\.\d+)?)(?:MM)?"
 
 
@@ -57,6 +62,8 @@ def find_error_by_name(name: str) -> NamedError:
 
     >>> find_error_by_name("X straightness vertical").symbol, find_error_by_name("C0Y").doubt
     ('EZX', 'which line of C0Y it is: EYX or EXY')
+    >>> find_error_by_name("x-straightness-y").symbol, find_error_by_name("x-straightness-of-y").symbol
+    ('EYX', 'EXY')
     """
     parts = _split(name)
     stated = next((each for each in parts if each in ERRORS), None)
@@ -65,7 +72,7 @@ def find_error_by_name(name: str) -> NamedError:
         return NamedError(one, f"which line of {stated} it is: {one} or {other}")
     if stated:
         return NamedError(stated, "")
-    axes = [found[1] for each in parts if (found := _AXIS.fullmatch(each))]
+    axes = list(_list_axes(parts))
     if not axes:
         return NamedError("", "which axis moved, and which error was measured")
     axis = axes[0]
@@ -80,6 +87,14 @@ def find_error_by_name(name: str) -> NamedError:
     return NamedError(f"E{axis}{axis}", "")  # positioning is what a job measures that says nothing else
 
 
+def _list_axes(parts: list[str]) -> list[str]:
+    """Return the axes that a name has, the moving one first: the one that is said to be it, or the first."""
+    found = [
+        (before in _OF, of[1]) for before, each in pairwise(["", *parts]) if (of := _AXIS.fullmatch(each))
+    ]
+    return [axis for _, axis in sorted(found, key=lambda each: not each[0])]
+
+
 def _find_straightness(axis: str, others: list[str], parts: list[str]) -> NamedError:
     first, second = _ACROSS[axis]
     if others and others[0] != axis:
@@ -89,6 +104,18 @@ def _find_straightness(axis: str, others: list[str], parts: list[str]) -> NamedE
     if any(each.startswith("HOR") for each in parts) and axis != "Z":
         return NamedError(f"E{first}{axis}", "")
     return NamedError(f"E{first}{axis}", f"across which axis it is: E{first}{axis} or E{second}{axis}")
+
+
+def find_rotary_axis_by_name(name: str) -> str:
+    """Return of which rotary axis a file holds the positions, as its name says; empty for other files.
+
+    >>> find_rotary_axis_by_name("C position"), find_rotary_axis_by_name("x-pitch C")
+    ('C', '')
+    """
+    parts = _split(name)
+    found = [each[1] for part in parts if (each := _ROTARY.fullmatch(part))]
+    is_position = any(part.startswith(word.upper()) for part in parts for word in _POSITION_WORDS)
+    return found[0] if len(found) == 1 and is_position and not any(map(_AXIS.fullmatch, parts)) else ""
 
 
 def find_circle_by_name(name: str) -> NamedCircle:

@@ -49,6 +49,12 @@ def find_square_slope(error: str) -> tuple[str, str, float]:
     return AXES[direction], AXES[along], sign
 
 
+def find_direction_of_arm(angle: str, axis: str) -> str:
+    """Return in which direction an angle shows by an arm along an axis; empty where it turns about that."""
+    left = set(AXES) - {axis, AXES["ABC".index(angle[1])]}
+    return left.pop() if len(left) == 1 else ""
+
+
 @dataclass(frozen=True, slots=True)
 class Chain:
     """The order of the axes from workpiece to tool, with F for the bed: ``XYFZ``."""
@@ -78,7 +84,7 @@ class ErrorLine:
     """Where an error was measured: the others axes' positions, and the tool's offset there, m."""
 
     others: Mapping[str, float]  #: By axis; 0 for one that is not named.
-    tool: Point = _ORIGIN
+    tool: Point | None = None  #: None where nobody says it: the point to which all axis errors refer.
 
 
 def weights(
@@ -118,7 +124,8 @@ def lever_arm(
     axis: str, chain: Chain, line: ErrorLine, position: FloatArray, tool: FloatArray | Point = _ORIGIN
 ) -> FloatArray:
     """Return L, the arm by which the rotations of an axis act, shape (N, 3), m."""
-    arm = np.broadcast_to(np.asarray(tool, dtype=np.float64) - np.asarray(line.tool), position.shape).copy()
+    offset = np.asarray(tool, dtype=np.float64) - np.asarray(line.tool or _ORIGIN)
+    arm = np.broadcast_to(offset, position.shape).copy()
     for other in chain.list_axes_behind(axis):
         index = AXES.index(other)
         arm[:, index] += position[:, index] - line.others.get(other, 0.0)

@@ -10,7 +10,17 @@ import numpy as np
 
 from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.curve import AxisErrorCurve
-from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, ErrorLine, Point, weights
+from zlmreport.machines.kinematics import (
+    ERRORS,
+    ROTATIONS,
+    SQUARENESS,
+    TRANSLATIONS,
+    Chain,
+    ErrorLine,
+    Point,
+    find_direction_of_arm,
+    weights,
+)
 from zlmreport.machines.square_lines import MovedSquare, SquareDoubt, list_square_doubts
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import ARCSECOND, MICROMETRE, Unit
@@ -68,6 +78,22 @@ class MachineModel:
     def lines(self) -> Mapping[str, ErrorLine]:
         """Where each error was measured, by name."""
         return {each.name: each.line for each in self.curves}
+
+    @property
+    def lines_without_place(self) -> tuple[str, ...]:
+        """Errors by name in which known angles show by arms of which nobody says where they begin."""
+        return tuple(
+            each.name
+            for each in self.curves
+            if each.name in TRANSLATIONS
+            and any(
+                each.name[1] == find_direction_of_arm(angle.name, axis)
+                for angle in self.curves
+                if angle.name in ROTATIONS and angle.axis == each.axis
+                for axis in self.chain.list_axes_behind(each.axis)
+                if axis not in each.line.others
+            )
+        )
 
     @property
     def square_doubts(self) -> tuple[SquareDoubt, ...]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,16 +14,20 @@ from zlmreport.errors import InputError, quoted
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.machines.axis_errors import find_error_of, find_line_of_job
+from zlmreport.machines.axis_errors import find_error_of, find_line_of_job, find_line_of_test
 from zlmreport.machines.course import CircularTest, StraightTest, ToolCourse
-from zlmreport.machines.kinematics import SQUARENESS
+from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, Point
+from zlmreport.machines.volume import DIAGONALS
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import SourceFile
+from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
 from zlmreport.plugin.registry import Registry
 
+#: Diagonals of a face, by its axes and the signs of their directions.
+_FACE_DIAGONALS = tuple(f"{axes}{signs}" for axes in ("XY", "XZ", "YZ") for signs in ("PP", "NP"))
 #: Between two turns of a test, s, as long as nothing else is known.
 _PAUSE = 5.0
 
@@ -42,8 +48,10 @@ class MeasuredCircle:
         return pipeline.evaluate_parameters(self.job, replace(self.readings, deviation=values), registry)
 
 
-def read_test(path: Path, registry: Registry) -> tuple[MeasuredCircle | StraightTest, list[SourceFile]]:
-    """Return a test of the whole machine, and the files that it came from.
+def read_tests(
+    path: Path, registry: Registry
+) -> tuple[Sequence[MeasuredCircle | StraightTest], list[SourceFile]]:
+    """Return the tests of the whole machine that a job measured, and the files that they came from.
 
     Raises `InputError` for a job that measured something else.
     """
@@ -51,8 +59,12 @@ def read_test(path: Path, registry: Registry) -> tuple[MeasuredCircle | Straight
     measurements = pipeline.read(job, registry)
     files = [*job.files, *measurements.provenance.files]
     if job.axis.circle is not None:
-        return read_measured_circle(path.stem, job, job.axis.circle, measurements), files
-    return _read_line(path.stem, job, measurements), files
+        return [read_measured_circle(path.stem, job, job.axis.circle, measurements)], files
+    if job.tests and {*job.tests} <= {*DIAGONALS, *_FACE_DIAGONALS}:
+        return [
+            _read_diagonal(f"{path.stem}-{name}", name, job, measurements.tests[name]) for name in job.tests
+        ], files
+    return [_read_line(path.stem, job, measurements)], files
 
 
 def read_measured_circle(
@@ -60,7 +72,6 @@ def read_measured_circle(
 ) -> MeasuredCircle:
     """Return the circle that a job measured."""
     kept = np.flatnonzero(np.isfinite(measurements.deviation))
-    tool = find_line_of_job(job).tool
     bare = CircularTest(
         name,
         nominal,
@@ -69,7 +80,7 @@ def read_measured_circle(
         measurements.run[kept],
         measurements.deviation[kept],
         np.zeros(len(kept)),
-        tool if any(tool) else None,
+        find_line_of_job(job).tool,
     )
     logged = None if measurements.time is None else measurements.time[kept]
     circle = replace(bare, time=_reckon_times(bare) if logged is None or np.isnan(logged).any() else logged)
@@ -95,17 +106,53 @@ def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTes
             f"{quoted(error)} is an angle; a test of the machine is a displacement: a circle, a diagonal or "
             "a line. Name this job under errors",
         )
+    way, sensed = np.zeros(3), np.zeros(3)
+    way[AXES.index(error[2])] = sensed[AXES.index(error[1])] = 1.0
+    line = find_line_of_job(job)
+    return _make_straight_test(name, measurements, _Way(_find_start(line), way, sensed, line.tool))
+
+
+def _read_diagonal(name: str, diagonal: str, job: Job, measurements: MeasurementSet) -> StraightTest:
+    """Return a diagonal as a line: its place counts from the corner in which it begins."""
+    axes, signs = (diagonal[:2], diagonal[2:]) if diagonal in _FACE_DIAGONALS else ("XYZ", diagonal)
+    space = next((each.options.axes for each in job.standards if hasattr(each.options, "axes")), None)
+    line = find_line_of_test(job, diagonal)
+    start, way = _find_start(line), np.zeros(3)
+    for axis, sign in zip(axes, signs, strict=True):
+        ends = getattr(space, axis, None)
+        if ends is None:
+            raise InputError.at(
+                job.place_of(f"measurement.tests.{diagonal}"),
+                f"where {diagonal} lies is not known: name from where to where {axis} moves, such as "
+                f"axes: {{X: [0, 500], Y: [0, 400], Z: [0, 300]}}",
+            )
+        low, high = MILLIMETRE.to_si(ends[0]), MILLIMETRE.to_si(ends[1])
+        start[AXES.index(axis)] = low if sign == "P" else high
+        way[AXES.index(axis)] = high - low if sign == "P" else low - high
+    way /= np.linalg.norm(way)
+    return _make_straight_test(name, measurements, _Way(start, way, way, line.tool))
+
+
+def _find_start(line: ErrorLine) -> FloatArray:
+    """Return where the axes stand at the place 0 of a line, (3,), m."""
+    return np.array([line.others.get(axis, 0.0) for axis in AXES])
+
+
+class _Way(NamedTuple):
+    """How a line lies in the machine."""
+
+    start: FloatArray  #: Its place 0, (3,), m.
+    along: FloatArray  #: Unit vector in which its places rise, (3,).
+    sensed: FloatArray  #: Unit vector along which the deviation was sensed, (3,).
+    tool: Point | None  #: The tool's offset, m; None for that of the machine.
+
+
+def _make_straight_test(name: str, measurements: MeasurementSet, way: _Way) -> StraightTest:
+    """Return the means of readings along a line."""
     found, sides = measurements.deviations(), measurements.approaches
-    counts = np.sum(np.isfinite(found), axis=2)
-    line, moving, sensed = find_line_of_job(job), AXES.index(error[2]), AXES.index(error[1])
     at = np.concatenate([measurements.target_positions for _ in sides])
-    position = np.zeros((len(at), 3))
-    for axis, place in line.others.items():
-        position[:, AXES.index(axis)] = place
-    position[:, moving] = at
-    motion, sensing = np.zeros_like(position), np.zeros_like(position)
-    motion[:, moving] = np.repeat([each.value for each in sides], len(measurements.target_positions))
-    sensing[:, sensed] = 1.0
+    direction = np.repeat([float(each.value) for each in sides], len(measurements.target_positions))
+    counts = np.sum(np.isfinite(found), axis=2)
     n = np.concatenate([counts[each.index] for each in sides])
     values = np.concatenate([found[each.index] for each in sides])
     there = n > 0
@@ -113,5 +160,11 @@ def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTes
     freedom = max(int(n.sum() - np.count_nonzero(there)), 1)
     squares = float(np.nansum((values[there] - means[:, np.newaxis]) ** 2))
     scatter = np.sqrt(squares / freedom / n[there])
-    course = ToolCourse(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
-    return StraightTest(name, course, at[there], means, scatter)
+    at, direction = at[there], direction[there]
+    course = ToolCourse(
+        way.start + np.outer(at, way.along),
+        np.tile(way.sensed, (len(at), 1)),
+        np.outer(direction, np.sign(way.along)),
+        way.tool,
+    )
+    return StraightTest(name, course, at, means, scatter, direction)

@@ -25,9 +25,9 @@ from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.curve import AxisErrorCurve, remove_alignment
 from zlmreport.machines.keys import MachineFileKeys, StatedKeys
-from zlmreport.machines.kinematics import SQUARENESS, Chain
+from zlmreport.machines.kinematics import SQUARENESS, Chain, find_square_slope
 from zlmreport.machines.machine import MachineModel, list_missing_errors
-from zlmreport.machines.measured_tests import MeasuredCircle, read_test
+from zlmreport.machines.measured_tests import MeasuredCircle, read_tests
 from zlmreport.machines.square_lines import move_squares
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.provenance import SourceFile
@@ -100,7 +100,7 @@ def read_machine(path: Path, registry: Registry, opened: Opened = lambda _: None
     names: set[str] = set()
     for index, test in enumerate(file.keys.tests):
         try:
-            found, read = read_test(test, registry)
+            found, read = read_tests(test, registry)
         except InputError as error:
             problems += error.problems
             continue
@@ -114,10 +114,9 @@ def read_machine(path: Path, registry: Registry, opened: Opened = lambda _: None
                     file.place_of("tests", index), f"a test is called {test.stem} already; name each once"
                 )
             )
-        elif isinstance(found, MeasuredCircle):
-            circles.append(found)
         else:
-            lines.append(found)
+            circles += [each for each in found if isinstance(each, MeasuredCircle)]
+            lines += [each for each in found if isinstance(each, StraightTest)]
         names.add(test.stem)
     if problems or chain is None:
         raise InputError(sorted(set(problems)))
@@ -139,9 +138,18 @@ def read_machine(path: Path, registry: Registry, opened: Opened = lambda _: None
 
 
 def _find_zero(curve: AxisErrorCurve, curves: Mapping[str, AxisErrorCurve]) -> float | None:
-    """Return where on the axis of an angle the squareness error about the same direction was measured, m."""
-    square = (curves[name] for name in SQUARENESS if name in curves and name[0] == curve.name[1])
-    return next((each.line.others.get(curve.axis) for each in square), None)
+    """Return where on the axis of an angle the squareness error about the same direction was measured, m.
+
+    Where nobody says it, where the straightness errors of its axes were; None where nobody says that either.
+    """
+    square = next((name for name in SQUARENESS if name in curves and name[0] == curve.name[1]), None)
+    if square is None:
+        return None
+    leaning, along, _ = find_square_slope(square)
+    lines = (
+        curves[name].line for name in (square, f"E{leaning}{along}", f"E{along}{leaning}") if name in curves
+    )
+    return next((each.others[curve.axis] for each in lines if curve.axis in each.others), None)
 
 
 def _list_of_every_bar(

@@ -61,7 +61,7 @@ def collect_errors(machine: MachineModel) -> list[dict[str, Any]]:
                 "unit": unit.ascii,
                 "range": None if curve.is_single else (curve.nodes[[0, -1]] * _MILLI).tolist(),
                 "at": {axis: place * _MILLI for axis, place in curve.line.others.items()},
-                "tool": [place * _MILLI for place in curve.line.tool],
+                "tool": [place * _MILLI for place in curve.line.tool or (0.0, 0.0, 0.0)],
                 "source": curve.source or "stated",
                 **({"as_measured": float(unit.from_si(moved[name].measured))} if name in moved else {}),
                 **({"doubts": doubts} if (doubts := _collect_doubts(machine, name)) else {}),
@@ -105,7 +105,7 @@ def collect_compared(found: ComparedTest) -> dict[str, Any]:
             "kind": "line",
             "at": (test.at * _MILLI).tolist(),
             "at_unit": "mm",
-            "direction": [int(each) for each in test.course.motion.sum(axis=1)],
+            "direction": [int(each) for each in test.direction],
         }
     return {
         "test": found.name,

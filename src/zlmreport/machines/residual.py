@@ -123,7 +123,7 @@ def find_stretches_of_line(
 ) -> tuple[Stretch, ...]:
     """Return where a residual along a line is beyond twice its standard deviation at two places or more."""
     found: list[Stretch] = []
-    direction = np.sign(line.course.motion.sum(axis=1))
+    direction = line.direction
     for way in np.unique(direction).tolist():
         own = np.flatnonzero(direction == way)
         own = own[np.argsort(line.at[own])]

@@ -133,12 +133,11 @@ def _list_leans(
 
 
 def _find_place(square: AxisErrorCurve, straightness: AxisErrorCurve | None) -> ErrorLine:
-    """Return where the lean of an axis was measured: on the line of its straightness where nobody says it."""
+    """Return where the lean of an axis was measured: where nobody says it, as its straightness was."""
     if straightness is None:
         return square.line
-    if not square.line.others and not any(square.line.tool):
-        return straightness.line
-    return ErrorLine({**straightness.line.others, **square.line.others}, square.line.tool)
+    tool = straightness.line.tool if square.line.tool is None else square.line.tool
+    return ErrorLine({**straightness.line.others, **square.line.others}, tool)
 
 
 def _weigh(
@@ -148,4 +147,4 @@ def _weigh(
     lines = {each.name: each.line for each in known.values()}
     places = np.tile([place.others.get(axis, 0.0) for axis in AXES], (len(nodes), 1))
     places[:, AXES.index(name[2])] = nodes
-    return weights(name, chain, lines, places, place.tool)
+    return weights(name, chain, lines, places, place.tool or (0.0, 0.0, 0.0))

@@ -242,6 +242,15 @@ class CircleStudy:
         )
 
 
+def find_noise_of_both(one: CircleStudy, other: CircleStudy) -> tuple[float, float]:
+    """Return the noise beside two models of the same circles, and that of single readings, m.
+
+    It is that of the one that describes them better: what the other leaves is no noise.
+    """
+    better = min(one, other, key=lambda each: each.noise.rms)
+    return better.noise.rms, better.noise_of_readings
+
+
 def list_said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
     """Return the estimates of terms, as an effect is asked to say what they mean."""
     return [

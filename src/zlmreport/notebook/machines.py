@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,9 @@ from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, 
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
+from zlmreport.machines.editing import BELONGS_INTO_EVERY_MODEL
 from zlmreport.machines.kinematics import ERRORS
-from zlmreport.machines.reading import MachineFile, read_machine
+from zlmreport.machines.reading import MachineFile, is_always_there, read_machine
 from zlmreport.machines.report import collect_prediction
 from zlmreport.machines.study import CircleStudy
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
@@ -80,7 +82,7 @@ class BuiltMachine:
     def __repr__(self) -> str:
         """Return the steps in a line."""
         steps = " → ".join(f"+ {each['effect']} {each['rms_after']:.2g}" for each in self.steps)
-        return f"<Build: {steps or 'nothing to add'} µm, {self.verdict}>"
+        return f"<Build: {f'{steps} µm' if steps else 'nothing to add'}, {self.verdict}>"
 
 
 @dataclass(frozen=True, repr=False)
@@ -195,18 +197,32 @@ class Machine:
         sections = tuple(lay_out_diagnosis(found, before, _SAY))
         return DiagnosisOfMachine(collect_diagnosis(found, before, after), sections)
 
-    def add(self, effect: str) -> Machine:
-        """Return the machine with one effect more."""
-        found = {each.identifier: each for each in self.file.catalogue}
-        if effect not in found:
-            raise InputError.at(_PLACE, f"{quoted(effect)} is no effect; {did_you_mean(effect, list(found))}")
-        return Machine(self.file, self.registry, add_effect(self.study, found[effect]))
+    def add(self, effect: str | Mapping[str, Any]) -> Machine:
+        """Return the machine with one effect more: its name, or a candidate of a diagnosis.
 
-    def remove(self, effect: str) -> Machine:
-        """Return the machine with one effect less."""
-        if effect not in self.effects:
-            raise InputError.at(_PLACE, f"{effect} does not stand in the model")
-        return Machine(self.file, self.registry, self.study.without(effect))
+        Raises `InputError` if there is no such effect, or it stands in the model already.
+        """
+        name = _name_effect(effect)
+        found = {each.identifier: each for each in self.file.catalogue}
+        if name not in found:
+            raise InputError.at(_PLACE, f"{quoted(name)} is no effect; {did_you_mean(name, list(found))}")
+        if name in self.effects:
+            raise InputError.at(_PLACE, f"{name} stands in the model already")
+        return Machine(self.file, self.registry, add_effect(self.study, found[name]))
+
+    def remove(self, effect: str | Mapping[str, Any]) -> Machine:
+        """Return the machine with one effect less.
+
+        Raises `InputError` if it does not stand in the model, or belongs into every one.
+        """
+        name = _name_effect(effect)
+        own = next((each.effect for each in self.study.effects if each.effect.identifier == name), None)
+        if own is None:
+            known = did_you_mean(name, self.effects)
+            raise InputError.at(_PLACE, f"{quoted(name)} does not stand in the model; {known}")
+        if is_always_there(own, self.file.circles):
+            raise InputError.at(_PLACE, f"{name} {BELONGS_INTO_EVERY_MODEL}")
+        return Machine(self.file, self.registry, self.study.without(name))
 
     def build(self) -> BuiltMachine:
         """Add effect after effect, as long as each has evidence of its own."""
@@ -234,14 +250,19 @@ class Machine:
         Raises `InputError` if the control takes no such tables, its sign is neither known nor stated, or
         nothing is known that they could hold.
         """
-        if step is not None and not step > 0:
-            raise InputError.at(_PLACE, f"step is {step:g}: rows are more than 0 mm apart, such as 25")
+        if step is not None and not (isinstance(step, Real) and step > 0):
+            raise InputError.at(_PLACE, f"step is {step!r}: rows are more than 0 mm apart, such as 25")
         spacing = None if step is None else MILLIMETRE.to_si(step)
         wanted = CrossWanted(controller, moves, spacing, _PLACE, is_command=False)
         return MachineTables(self, make_cross(self.file, self.registry, wanted))
 
     def _diagnose(self) -> MachineDiagnosis:
         return diagnosed(self.study, self.file.catalogue)
+
+
+def _name_effect(effect: str | Mapping[str, Any]) -> str:
+    """Return the name of an effect, which a candidate of a diagnosis has as well."""
+    return str(effect.get("effect", "") if isinstance(effect, Mapping) else effect)
 
 
 def machine(path: str | Path) -> Machine:

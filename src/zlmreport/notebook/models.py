@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -308,6 +308,14 @@ class Model:
         if name not in known:
             raise KeyError(f"the model has no parameter {name!r} (it has: {', '.join(known)})")
         return known[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Tell whether the model has a parameter of that name."""
+        return any(name in (each, f"{each.effect}.{each.name}") for each in self.parameters)
+
+    def __iter__(self) -> Iterator[Estimated]:
+        """Yield the parameters."""
+        return iter(self.parameters)
 
     @property
     def residuals(self) -> Any:

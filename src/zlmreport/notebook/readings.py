@@ -245,7 +245,8 @@ def read(
         return Readings(_read_columns(columns, axis_of(axis)), library_of(source))
     if not isinstance(source, str | Path):
         raise InputError.at(
-            Place("read"), f"a {type(source).__name__} is no path of a file, and no frame with named columns"
+            Place("read"),
+            f"{type(source).__name__}: this is no path of a file, and no frame with named columns",
         )
     path = Path(source)
     if is_named_as_yaml(path) and not plugin:
@@ -388,6 +389,8 @@ def of_arrays(
         for approach, values in found.items()
         if values is not None
     }
+    if not grids:
+        raise InputError.at(place, "holds no readings; up is an array of them, a row for each run")
     for approach, grid in grids.items():
         if grid.ndim != 2 or grid.shape[1:] != positions.shape:
             name = "up" if approach > 0 else "down"

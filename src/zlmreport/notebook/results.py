@@ -127,6 +127,10 @@ class Result:
         known = ", ".join(each.symbol for each in self.parameters)
         raise KeyError(f"{self.standard} gives no {symbol!r} for this test (it gives: {known})")
 
+    def __contains__(self, symbol: object) -> bool:
+        """Tell whether this test has a parameter of that symbol."""
+        return any(symbol in (each, each.symbol) for each in self.parameters)
+
     def __iter__(self) -> Iterator[Value]:
         """Yield the parameters in the order of the standard."""
         return iter(self.parameters)

@@ -104,7 +104,7 @@ class _Sides:
             self.place: FloatArray = np.degrees(test.angle) % 360.0
             self.position: FloatArray = test.make_course().position
         else:
-            self.way = np.sign(test.course.motion.sum(axis=1))
+            self.way = test.direction
             self.run = np.ones(len(test.at), dtype=np.int64)
             self.place = MILLIMETRE.from_si(test.at)
             self.position = test.course.position

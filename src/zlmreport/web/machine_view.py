@@ -16,6 +16,7 @@ from zlmreport.language.formatting import round_pair
 from zlmreport.machines.comparison import ComparedTest, compare_tests
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.editing import list_effects_with
+from zlmreport.machines.reading import is_always_there
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
 from zlmreport.machines.subjects.cross_tables import lay_out_promised
@@ -195,6 +196,7 @@ class MachineView:
             "name": self.names.name_in(effect.identifier),
             "title": self.say(effect.title),
             "equation": split_symbol(effect.equation),
+            "stays": is_always_there(effect, self.loaded.machine.circles),
             "parameters": [
                 collect_parameter(each, self.language) for each in study.list_estimates_of(effect.identifier)
             ],

@@ -51,6 +51,9 @@ def lay_out_errors(machine: MachineModel, say: Sayer, *, is_full: bool) -> Secti
     exact = [each.name for each in machine.curves if not each.largest_uncertainty]
     if exact:
         blocks.append(Paragraph(say(_EXACT.given(errors=list_in_words(exact)))))
+    unplaced = machine.lines_without_place
+    if unplaced:
+        blocks.append(Paragraph(say(_NO_PLACE.given(errors=list_in_words(unplaced))), Mark.OPEN))
     blocks += [Paragraph(each) for each in _tell_moved(machine, say)]
     blocks += [Paragraph(each, Mark.OPEN) for each in _tell_doubts(machine, say)]
     if is_full:
@@ -187,6 +190,9 @@ _OF = Words("{known} of {all}")
 _NOTE = Words(
     "Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
     "measured is bounded and never taken as zero."
+)
+_NO_PLACE = Words(
+    "Of {errors} nobody says where the other axes stood (at): arms of the known angles count from 0 there."
 )
 _EXACT = Words(
     "No uncertainty is known of {errors}: neither repeats nor an instrument tell it. What is predicted takes "

@@ -17,7 +17,7 @@ from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, find_verdict_after_build
 from zlmreport.machines.forms import make_plain_form
 from zlmreport.machines.planning import NextRun
-from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
+from zlmreport.machines.study import CircleStudy, EstimatedTerm, find_noise_of_both, list_said_estimates
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.machines.subjects.tests import lay_out_sizes, make_failure_notice
 from zlmreport.measurement.units import MICROMETRE
@@ -252,7 +252,8 @@ def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
 
 def lay_out_change(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
     """Return the error before and after a change of the model."""
-    sizes = [_write_size(each) for each in (before.rms, after.rms, after.noise.rms)]
+    noise, _ = find_noise_of_both(before, after)
+    sizes = [_write_size(each) for each in (before.rms, after.rms, noise)]
     names = list_in_words(after.names or [_NONE])
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
@@ -312,7 +313,7 @@ _SENSE = Words("run the circle in the other sense, too")
 _FEED = Words("run the circle at a quarter or at four times the feed, too")
 _RADIUS = Words("run the circle with a bar of another length, too")
 _REPEAT = Words("repeat the run, at another feed and another radius")
-_NOT_FOUND = Words("Looked for and, beside all that, not found")
+_NOT_FOUND = Words("Looked for beyond what axes and effects make, and not found")
 _EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
 _EVIDENCE, _RMS_AFTER = Words("evidence"), Words("RMS after", context="machine")
 _IMPOSSIBLE = Words("impossible values")

@@ -200,7 +200,7 @@ def draw_line(found: ComparedTest) -> Figure:
     """Return a line: measured, and predicted with its band; below it what is left."""
     line = found.test
     assert isinstance(line, StraightTest)  # noqa: S101 - who asks has looked
-    direction = np.sign(line.course.motion.sum(axis=1))
+    direction = line.direction
     shown: list[Curve] = []
     bands: list[Band] = []
     rest: list[Curve] = []
