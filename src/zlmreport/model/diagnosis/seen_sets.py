@@ -116,7 +116,7 @@ class SeenSets:
         return None if instead is None else (instead, instead.score - best)
 
     def find_names_alone(self, found: EffectSet, within: float) -> EffectSet | None:
-        """Return the best set in which one name each does what forms and curves do, or more names do it better.
+        """Return the best set in which one name each does what forms and curves do, or more do it better.
 
         `within`: What evidence it may lack; None where all lack more.
         """
