@@ -38,6 +38,12 @@ def test_a_reading_far_off_draws_none_of_its_repeats_after_it(runs: int) -> None
     assert find_outliers(design, readings).readings.tolist() == [57]
 
 
+def test_readings_of_a_stretch_that_scatters_more_are_evidence() -> None:
+    there = (DESIGN.position > 0.3) & (DESIGN.position < 0.55)
+    moving = np.where(there, 10 * SIGMA * DESIGN.direction * np.sin(DESIGN.time / 200.0), 0.0)
+    assert len(find_outliers(DESIGN, moving + noise(DESIGN)).readings) <= 4  # of 50 that are there
+
+
 def test_a_reading_far_off_is_flagged_and_no_other() -> None:
     readings = noise(DESIGN)
     readings[57] += 15 * SIGMA

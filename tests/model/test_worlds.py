@@ -8,7 +8,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.axis_tests import AXIS, EFFECTS, SIGMA, USUAL, known, linear_test, model_of, noise
+from model.axis_tests import (
+    AXIS,
+    EFFECTS,
+    SIGMA,
+    USUAL,
+    known,
+    linear_test,
+    model_of,
+    noise,
+    pendulum_test,
+)
 from model.worlds import (
     built,
     corrected_twice,
@@ -139,6 +149,26 @@ def test_wave_shorter_than_two_intervals_is_found_where_targets_lie_irregularly(
     wave = 4e-6 * np.sin(2 * np.pi * design.position / length)
     (found,) = diagnosed(USUAL, design, known(design) + wave + noise(design)).together
     assert found.identifier == "periodic"
+
+
+@pytest.mark.parametrize(("way", "sign"), [("up", 1), ("down", -1)])
+def test_wear_of_one_flank_is_named_with_its_direction(way: str, sign: int) -> None:
+    design = linear_test(25, 5)
+    hump = 2.5e-6 * np.exp2(-((2.0 * (design.position - 0.3) / 0.2) ** 2))
+    worn = np.where(np.sign(design.direction) == sign, hump, 0.0)
+    (found,) = diagnosed(USUAL, design, known(design) + worn + noise(design, sigma=0.5e-6)).together
+    assert found.identifier == "worn-zone"
+    assert found.settings.model_dump() == {"acts_on": way}
+
+
+def test_plain_lost_motion_leads_that_which_settles_where_every_reading_is_as_far_from_its_reversal() -> None:
+    """In pendulum tests the way since the reversal is the overrun at nearly all readings."""
+    design = pendulum_test(15, 4)
+    names = []
+    for seed in range(4):
+        readings = 1.5e-6 * design.direction + noise(design, seed, 0.5e-6)
+        names += [each.identifier for each in diagnosed(model_of("offset"), design, readings).together]
+    assert set(names) == {"backlash"}
 
 
 def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:

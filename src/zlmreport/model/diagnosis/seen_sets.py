@@ -124,7 +124,7 @@ class SeenSets:
         alone = [
             each
             for each in self._best.values()
-            if each.score < found.score + (within if len(each.named) <= most else 0.0)
+            if each.score < found.score + (within if len(each.named) <= most else min(within, 0.0))
             and not has_nameless(self._contest, each)
         ]
         return min(alone, key=find_score, default=None)

@@ -35,6 +35,8 @@ _MOST_IN_A_ROW, _FEWEST_ALIKE, _MOST_ALIKE = 2, 3, 0.6
 _FEWEST_REPEATS = 3
 #: Standard deviation of ln|x| of a normal x, and by how many of them scatter must be seen to grow.
 _OF_LOGARITHM, _GROWS = 1.11, 4.0
+#: Times the scatter of all by which that of few targets is no chance.
+_PLAINLY_MORE = 1.5
 #: Share of the usual size below which a logarithm is no longer taken.
 _LEAST = 1e-2
 
@@ -101,7 +103,23 @@ def _leave_beside_others(
     left = left - np.median(windows, axis=1)
     growth = _estimate_growth(design.position, left, judged)
     spread = estimate_robust_deviation(without / growth[judged & ~aside])
-    return np.where(judged, left / growth / spread, 0.0) if spread > 0 else np.zeros(len(left))
+    if spread == 0:
+        return np.zeros(len(left))
+    left = np.where(judged, left / growth / spread, 0.0)
+    return left / _estimate_local_scatter(design.target, left, judged)
+
+
+def _estimate_local_scatter(target: IntArray, left: FloatArray, judged: BoolArray) -> FloatArray:
+    """Return how readings scatter at each target and its neighbours, over all; 1 unless it is plainly more.
+
+    Where many stand off none is a blunder: something moves there.
+    """
+    near = {
+        each: left[judged & (np.abs(target - each) <= 1)] for each in np.unique(target[judged]).tolist()
+    }
+    scatter = {each: estimate_robust_deviation(values) for each, values in near.items()}
+    local = {each: value if value > _PLAINLY_MORE else 1.0 for each, value in scatter.items()}
+    return np.array([local.get(each, 1.0) for each in target.tolist()])
 
 
 def _find_spread_beside(others: int) -> float:
