@@ -62,6 +62,12 @@ def test_targets_after_each_reversal_that_stand_off_are_no_outliers() -> None:
     assert not len(find_outliers(DESIGN, readings).readings)
 
 
+def test_where_a_reading_of_every_place_stands_off_all_are_evidence() -> None:
+    design = linear_test(8, 3)
+    readings = noise(design, sigma=1e-9) + np.where(design.run == 2, 1e-3, 0.0)
+    assert not len(find_outliers(design, readings).readings)
+
+
 def test_readings_without_any_scatter_have_no_outliers() -> None:
     assert not len(find_outliers(DESIGN, np.zeros(len(DESIGN.position))).readings)
 

@@ -14,7 +14,13 @@ from model.axis_tests import SIGMA, known, linear_test, model_of, noise, pendulu
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
-from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of, make_remainder_of_run
+from zlmreport.model.diagnosis.random_curves import Course
+from zlmreport.model.diagnosis.remainder import (
+    Remainder,
+    find_irregular_remainder,
+    find_remainder_of,
+    make_remainder_of_run,
+)
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.effects.axis_model import AxisModel
@@ -171,6 +177,25 @@ def test_a_lever_that_comes_and_goes_is_placed_over_the_time_in_which_it_does() 
     # At the middle of the travel it is nothing, and there the stretch does not end.
     assert left.low == pytest.approx(0.53 * DESIGN.duration, abs=0.06 * DESIGN.duration)
     assert left.high == pytest.approx(0.87 * DESIGN.duration, abs=0.06 * DESIGN.duration)
+
+
+def test_what_moves_with_time_lies_at_no_target() -> None:
+    """It passed for noise, and was told as "most at 622.8 mm"."""
+    design = linear_test(21, 4)
+    drift = -4e-6 * (1.0 - np.exp(-design.time / 1500.0))
+    fitted = fit(BASE, design, drift + noise(design, sigma=1e-6), Assumptions(parts=()))
+    left = find_irregular_remainder(fitted, 1e-6, fitted)
+    assert left.course is Course.TIME
+    assert left.shape.in_language(Language.ENGLISH) == "slow irregular drift"
+    assert re.search(r" (s|min)\b", left.where.in_language(Language.ENGLISH))
+
+
+def test_what_lies_at_one_target_is_told_there() -> None:
+    at_one = 6 * SIGMA * (DESIGN.target == 7)
+    fitted = fit(BASE, DESIGN, at_one + noise(DESIGN), Assumptions(parts=()))
+    left = find_irregular_remainder(fitted, SIGMA, fitted)
+    place = float(DESIGN.target_positions[7]) * 1e3
+    assert left.where.in_language(Language.ENGLISH) == f"most at {place:.1f} mm"
 
 
 def test_a_place_in_time_is_in_readings_where_there_are_no_times() -> None:

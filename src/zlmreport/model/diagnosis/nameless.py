@@ -140,9 +140,10 @@ _COURSES: Mapping[NoiseSource, Course] = {
     NoiseSource.RUN: Course.RUNS,
     NoiseSource.TIME: Course.TIME,
 }
+SLOW_DRIFT = Words("slow irregular drift")
 _WORDS: Mapping[NoiseSource, Words] = {
     NoiseSource.POSITION: Words("irregular from position to position, alike in all runs"),
     NoiseSource.DIRECTION: Words("irregular from position to position, opposite up and down"),
     NoiseSource.RUN: Words("every run displaced as a whole"),
-    NoiseSource.TIME: Words("slow irregular drift"),
+    NoiseSource.TIME: SLOW_DRIFT,
 }

@@ -24,7 +24,10 @@ from zlmreport.model.diagnosis.effect_set import (
     list_names,
 )
 from zlmreport.model.diagnosis.forms import CARRIERS, FADING, IN_TIME, LOCAL, UnnamedForm
+from zlmreport.model.diagnosis.nameless import SLOW_DRIFT
 from zlmreport.model.diagnosis.random_curves import Along, Course
+from zlmreport.model.diagnosis.residual_tests import examine_time_order
+from zlmreport.model.diagnosis.residuals import find_residuals_of
 from zlmreport.model.diagnosis.set_members import renumber
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
@@ -51,6 +54,9 @@ _ABOUT = Words("around {place}")
 _BETWEEN = Words("{first} to {last}")
 _MOST_AT = Words("most at {place}")
 _IRREGULAR = Words("more than the repeats scatter, but neither smooth nor of a form")
+#: Chance of an order of repeats in time below which something moves, and the order of the curve that it is
+#: drawn as.
+_ORDERED, _DRIFTS = 0.005, 3
 _RUN = Words("most in run {run}")
 
 
@@ -211,16 +217,37 @@ def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
 def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
     """Return what is left where neither a form nor a smooth curve follows it: how large, and where most.
 
+    What moves with time lies at no target, and is more than noise though it may pass for it.
+
     `noise`: What repeats scatter, m or rad; `of`: The job's model, of whose error the share is told.
     """
     design, squares = fitted.design, fitted.residual**2
     rms = max(float(np.mean(squares)) - noise**2, 0.0) ** 0.5
+    share = min(1.0, rms**2 / float(np.mean(of.residual**2)))
+    if _moves_with_time(fitted):
+        curve = np.polynomial.Polynomial.fit(design.time, fitted.residual, _DRIFTS)(design.time)
+        drift = _Share(curve, Course.TIME, SLOW_DRIFT, None)
+        where, first, last, unit = _place(drift, design)
+        largest = int(np.argmax(np.abs(curve)))
+        return Remainder(
+            rms=rms,
+            share=share,
+            where=where,
+            low=first,
+            high=last,
+            unit=unit,
+            shape=drift.shape,
+            size=float(curve[largest]),
+            peak=float(design.time[largest]),
+            formula=None,
+            course=drift.course,
+        )
     by_target = np.bincount(design.target, weights=squares) / np.maximum(np.bincount(design.target), 1)
     widest = float(design.position[int(np.argmax(by_target[design.target]))])
     first, last = design.span
     return Remainder(
         rms=rms,
-        share=min(1.0, rms**2 / float(np.mean(of.residual**2))),
+        share=share,
         where=_MOST_AT.given(place=wording.position(design.axis, widest)),
         low=first,
         high=last,
@@ -231,6 +258,12 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
         formula=None,
         course=Course.TARGET,
     )
+
+
+def _moves_with_time(fitted: Fit) -> bool:
+    """Return whether repeats follow each other as no chance orders them, over the test as a whole."""
+    order = examine_time_order(find_residuals_of(fitted, fitted.noise))
+    return order is not None and order.p_value < _ORDERED
 
 
 def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:

@@ -95,14 +95,17 @@ def _leave_beside_others(
             if len(others) >= _FEWEST_REPEATS - 1:
                 judged[each] = True
                 left[each] = (deviation[each] - np.median(others)) / _find_spread_beside(len(others))
+    counted = judged & ~aside
+    if not counted.any():
+        return np.zeros(len(left))
     half = _WINDOW // 2
     windows = np.lib.stride_tricks.sliding_window_view(np.pad(left, half, mode="reflect"), _WINDOW)
     # A reading may be the median of its window, which is then no way off: the scatter is that without it.
     # But beside a jump it is its own that says on which side it is.
-    without = (left - np.median(np.delete(windows, half, axis=1), axis=1))[judged & ~aside]
+    without = (left - np.median(np.delete(windows, half, axis=1), axis=1))[counted]
     left = left - np.median(windows, axis=1)
     growth = _estimate_growth(design.position, left, judged)
-    spread = estimate_robust_deviation(without / growth[judged & ~aside])
+    spread = estimate_robust_deviation(without / growth[counted])
     if spread == 0:
         return np.zeros(len(left))
     left = np.where(judged, left / growth / spread, 0.0)
@@ -114,9 +117,7 @@ def _estimate_local_scatter(target: IntArray, left: FloatArray, judged: BoolArra
 
     Where many stand off none is a blunder: something moves there.
     """
-    near = {
-        each: left[judged & (np.abs(target - each) <= 1)] for each in np.unique(target[judged]).tolist()
-    }
+    near = {each: left[judged & (np.abs(target - each) <= 1)] for each in np.unique(target[judged]).tolist()}
     scatter = {each: estimate_robust_deviation(values) for each, values in near.items()}
     local = {each: value if value > _PLAINLY_MORE else 1.0 for each, value in scatter.items()}
     return np.array([local.get(each, 1.0) for each in target.tolist()])
