@@ -22,7 +22,7 @@ def test_clean_readings_do_not_stand_off() -> None:
 
 @pytest.mark.parametrize("runs", [3, 4, 5])
 def test_chance_sets_readings_aside_no_more_often_than_p_says(runs: int) -> None:
-    """A median of three is one of them: held against that, one test in five with three runs lost good ones."""
+    """A median of three is one of them: held against that, one test in six lost good readings."""
     design, tests = linear_test(21, runs), 100
     found = [find_outliers(design, noise(design, seed)) for seed in range(tests)]
     assert sum(len(each.readings) > 0 for each in found) <= 3
