@@ -299,7 +299,7 @@ def test_a_plan_of_keys_is_that_of_a_job(tmp_path: Path) -> None:
     assert of_keys.to_dict() == of_job.to_dict()
     assert of_keys.targets.tolist() == of_keys.to_frame()["target"][:6].to_list()
     assert of_keys.minutes > 0
-    assert of_keys.hidden["screw-pitch"] == "the job does not state axis.screw_pitch"
+    assert of_keys.hidden["drive-period"] == "the job does not state axis.screw_pitch"
 
 
 def test_a_plan_asks_only_for_effects_of_what_is_measured() -> None:

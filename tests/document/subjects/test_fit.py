@@ -106,7 +106,7 @@ def test_the_number_of_a_run_is_a_whole_number() -> None:
 
 
 def test_an_effect_that_acts_otherwise_than_usual_says_how() -> None:
-    usual, in_the_reversal = EFFECTS["worn-zone"].forms()
+    usual, in_the_reversal, *_ = EFFECTS["worn-zone"].forms()
     assert (list_choices(usual), list_choices(in_the_reversal)) == ((), ("acts_on: reversal",))
     design = linear_test()
     near = np.exp(-(((design.position - 0.5) / 0.1) ** 2))
