@@ -94,10 +94,12 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     text = job.read_text(encoding="utf-8")
     job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
     page = window(address, viewport={"width": 1440, "height": 900})
-    diagnosed(page, "unexplained")
+    diagnosed(page, "missing")
+    expect(page.locator("#part-verdict")).to_contain_text("the job states no axis.screw_pitch")
     picture(page, "asks")
     page.get_by_label("Screw pitch").fill("10")
     page.get_by_label("Screw pitch").press("Enter")
+    expect(page.locator("#part-verdict")).not_to_contain_text("states no axis.screw_pitch")
     diagnosed(page, "missing")
     page.get_by_role("button", name="Add screw-pitch to the model").click()
     diagnosed(page, "adequate")
@@ -119,13 +121,14 @@ def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path,
     text = job.read_text(encoding="utf-8")
     job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
     page = window(address)
-    diagnosed(page, "unexplained")
-    expect(
-        page.get_by_text("I can test directional-pitch, drive-period, screw-pitch as well.")
-    ).to_be_visible()
-    expect(page.locator(".candidates .likely")).to_have_count(0)
+    diagnosed(page, "missing")
+    expect(page.locator("#part-verdict")).to_contain_text(
+        "pitch of the screw: 10.0 mm fits, the job states no axis.screw_pitch"
+    )
+    expect(page.get_by_text("I can test directional-pitch, drive-period")).to_be_visible()
     page.get_by_label("Screw pitch").fill("10")
     page.get_by_label("Screw pitch").press("Enter")
+    expect(page.locator("#part-verdict")).not_to_contain_text("states no axis.screw_pitch")
     diagnosed(page, "missing")
     expect(page.locator(".candidates .likely")).to_contain_text("screw-pitch")
     assert job.read_text(encoding="utf-8") == text

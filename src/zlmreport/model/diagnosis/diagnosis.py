@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -197,7 +197,8 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
         # A hundredth of a large cause counts as noise: what that hid is seen once it is in the model.
         hidden = find(complete, asked.effects, asked.expected, is_left=True)
         complete, further = _complete(complete, hidden.named, ())
-        finding = replace(finding, named=(*named, *further), remainder=hidden.remainder)
+        remainder = _forget_forms_instead(hidden.remainder, {each.identifier for each in named})
+        finding = replace(finding, named=(*named, *further), remainder=remainder)
         after = compute_error_numbers(complete)
     # At the sizes that are found: at those that leave least, geometry that it is not hides in any wave.
     if finding.named and finding.remainder and not finding.makeshift and complete.rms >= fitted.rms:
@@ -289,6 +290,14 @@ def _is_noise(error: ErrorNumbers, lasting: float | None) -> bool:
     if error.chi2_per_dof is None or error.chi2_per_dof <= LARGEST_RATIO:
         return True
     return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
+
+
+def _forget_forms_instead(remainder: Remainder | None, named: Container[str]) -> Remainder | None:
+    """Return what is left without other forms in its place of effects that are named already."""
+    instead = remainder.instead if remainder else None
+    if remainder is None or instead is None or not all(each.identifier in named for each in instead.effects):
+        return remainder
+    return replace(remainder, instead=None)
 
 
 def _forget_names(finding: ContestFinding, nameless: ContestFinding) -> ContestFinding:
