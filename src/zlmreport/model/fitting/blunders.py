@@ -25,7 +25,7 @@ from zlmreport.model.fitting.distributions import normal_tail
 from zlmreport.model.fitting.repeats import number_cells
 
 #: Of the robust standard deviation.
-_LIMIT = 4.2
+_LIMIT = 4.5
 #: Neighbours in time whose median tells drift from a single reading.
 _WINDOW = 15
 #: More readings in a row are no blunder but something that the model lacks. A pattern of those flagged: so
