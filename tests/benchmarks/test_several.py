@@ -148,7 +148,7 @@ def test_what_changes_without_a_name_is_no_slip_in_recording(number: int, cause:
 def test_causes_are_built_down_to_the_noise_each_by_its_name(number: int) -> None:
     outcome = followed(drawn_axis(number, with_stranger=False))
     # Lost motion is told before lost motion that settles, its equal there.
-    assert sorted(outcome.found) == sorted(outcome.drawn.causes)
+    assert sorted(outcome.as_equals) == sorted(outcome.drawn.causes)
     assert len(outcome.built) == len(outcome.drawn.causes)
     assert not outcome.wrong
     assert outcome.left < DOWN_TO_NOISE
