@@ -7,7 +7,7 @@ allow. The form that follows it best is proposed as a formula that a job can try
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -226,38 +226,24 @@ def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
     share = min(1.0, rms**2 / float(np.mean(of.residual**2)))
     if _moves_with_time(fitted):
         curve = np.polynomial.Polynomial.fit(design.time, fitted.residual, _DRIFTS)(design.time)
-        drift = _Share(curve, Course.TIME, SLOW_DRIFT, None)
-        where, first, last, unit = _place(drift, design)
-        largest = int(np.argmax(np.abs(curve)))
-        return Remainder(
+        part = _describe_part(_Share(curve, Course.TIME, SLOW_DRIFT, None), design)
+    else:
+        by_target = np.bincount(design.target, weights=squares) / np.maximum(np.bincount(design.target), 1)
+        widest = float(design.position[int(np.argmax(by_target[design.target]))])
+        first, last = design.span
+        part = RemainderPart(
             rms=rms,
-            share=share,
-            where=where,
+            where=_MOST_AT.given(place=wording.position(design.axis, widest)),
             low=first,
             high=last,
-            unit=unit,
-            shape=drift.shape,
-            size=float(curve[largest]),
-            peak=float(design.time[largest]),
-            formula=None,
-            course=drift.course,
+            unit=design.axis.position_unit,
+            shape=_IRREGULAR,
+            size=float(fitted.residual[int(np.argmax(squares))]),
+            peak=widest,
+            course=Course.TARGET,
         )
-    by_target = np.bincount(design.target, weights=squares) / np.maximum(np.bincount(design.target), 1)
-    widest = float(design.position[int(np.argmax(by_target[design.target]))])
-    first, last = design.span
-    return Remainder(
-        rms=rms,
-        share=share,
-        where=_MOST_AT.given(place=wording.position(design.axis, widest)),
-        low=first,
-        high=last,
-        unit=design.axis.position_unit,
-        shape=_IRREGULAR,
-        size=float(fitted.residual[int(np.argmax(squares))]),
-        peak=widest,
-        formula=None,
-        course=Course.TARGET,
-    )
+    parts = {each.name: getattr(part, each.name) for each in fields(part)}
+    return Remainder(**{**parts, "rms": rms}, share=share, formula=None)
 
 
 def _moves_with_time(fitted: Fit) -> bool:
