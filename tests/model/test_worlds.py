@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import pytest
 from model.axis_tests import (
     AXIS,
     EFFECTS,
+    INSTALLED,
     SIGMA,
     USUAL,
     known,
@@ -19,6 +21,7 @@ from model.axis_tests import (
     noise,
     pendulum_test,
 )
+from model.hidden_effect import study, written
 from model.worlds import (
     built,
     corrected_twice,
@@ -130,6 +133,15 @@ def test_pitch_that_the_job_does_not_state_is_found() -> None:
     said = _said(diagnosed(USUAL, design, known(design) + wave + noise(design)))
     assert "screw-pitch" in said
     assert "pitch of the screw: 16.0 mm fits, the job states no axis.screw_pitch." in said
+
+
+def test_form_of_a_named_effect_is_nothing_that_stands_in_its_place(tmp_path: Path) -> None:
+    """Beside "Missing effect: screw-pitch" it was said that "it is screw-pitch instead"."""
+    silent = study(written(tmp_path, (", screw_pitch: 10", "")))
+    found = silent.diagnose(INSTALLED)
+    assert [each.identifier for each in found.together] == ["screw-pitch"]
+    assert found.remainder is not None
+    assert found.remainder.instead is None
 
 
 def test_wave_beside_that_of_the_stated_pitch_contradicts_no_pitch() -> None:
